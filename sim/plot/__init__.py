@@ -1,10 +1,12 @@
-"""Pictures of logs and of gains: each with its words and its numbers. Only here is matplotlib used.
+"""Pictures of logs and of gains, each with a description and a table of its numbers.
+
+Only this package uses matplotlib.
 
     from sim.plot import plot_time_series
-    plot_time_series(log)                          # in a notebook: picture, words, table
+    plot_time_series(log)                          # in a notebook: picture, description, table
     plot_time_series(log).save("log.svg")          # in a script
 
-Nothing here needs a screen, and nothing here keeps a state: a picture is made, and that is all.
+Nothing here needs a screen, and no function keeps state between calls.
 """
 
 from sim.plot.acceleration import plot_acceleration_velocity

@@ -11,19 +11,19 @@ from sim.plot.decimate import decimate_cloud
 from sim.plot.picture import COLORS, INK, MARKERS, Picture, add_legend, make_panels
 from sim.plot.table import Table, to_text
 
-MOST = 300  # samples of a test that are drawn
-FEWEST = 3  # samples that a straight line can miss
+MOST = 300  # samples of a test drawn at most
+FEWEST = 3  # samples needed to fit a straight line
 
 
 def plot_acceleration_velocity(log: Log) -> Picture:
     """Acceleration against velocity of the rows that SysId's regression uses.
 
     Under a constant voltage the acceleration falls on a straight line, because a step approaches
-    its end exponentially. A stretch at one height is what a current limit or a slipping wheel looks
-    like.
+    its final velocity exponentially. A horizontal part is a sign of a current limit or of a
+    slipping wheel.
 
     Args:
-        log: with the four tests.
+        log: a log with the four tests.
 
     Raises:
         NotIdentifiable: SysId's recipe cannot use this log.
@@ -54,7 +54,7 @@ def plot_acceleration_velocity(log: Log) -> Picture:
 
 
 def _line(speed: Array, height: Array) -> tuple[float, float] | tuple[str, str]:
-    """The straight line of the samples: at standstill, and its slope; dashes if there is none."""
+    """Value at velocity 0 and slope of the fitted line; dashes if no line can be fitted."""
     if speed.size < FEWEST or not np.ptp(speed) > 0.0:
         return "–", "–"
     rest, slope = np.polynomial.Polynomial.fit(speed, height, 1).convert().coef
@@ -75,7 +75,7 @@ def _table(samples: Mapping[str, tuple[Array, Array]], per: Unit) -> Table:
 
 
 def _words(table: Table, per: Unit) -> str:
-    """What the picture shows; the numbers are those of the table."""
+    """The description of the picture, with the numbers of the table."""
     said = "The picture shows acceleration against velocity, as recorded and filtered."
     for test, samples, slowest, fastest, height, slope in table.rows:
         said += f" {test} has {samples} samples from {to_text(slowest)} to {to_text(fastest)} "

@@ -1,4 +1,4 @@
-"""Numbers to compare: gains against the truth, one number against another, errors of a line."""
+"""Charts that compare numbers: estimates with the truth, curves, and points with a line."""
 
 from collections.abc import Iterator, Mapping, Sequence
 
@@ -11,9 +11,9 @@ from sim.core.log import Array
 from sim.plot.picture import COLORS, INK, LINES, MARKERS, PAPER, REFERENCE, Picture, make_panels
 from sim.plot.table import Cell, Table, to_text
 
-WINDOW = 0.25  # [share of the truth] always shown around it, so that a small error looks small
-GAINS = ("kS", "kV", "kA")  # each has its own color and marker; everything else has the first
-TABLE_ROWS = 8  # of a curve: a table is read, not scanned
+WINDOW = 0.25  # [1] relative range around the truth that is always shown
+GAINS = ("kS", "kV", "kA")  # names with colors and markers of their own; others have the first
+TABLE_ROWS = 8  # rows of a curve's table: more are hard to read
 
 
 def plot_choices(
@@ -24,14 +24,14 @@ def plot_choices(
     unit: str = "",
     spreads: Mapping[str, float] | None = None,
 ) -> Picture:
-    """Several estimates of one number, as dots beside a line at the true value.
+    """Several estimates of one number, as dots, with a line at the true value.
 
     Args:
-        values: way -> number, from top to bottom.
-        truth: what it should be.
-        name: of the number: ``kA``.
-        unit: of the number: ``V·s²/m``.
-        spreads: way -> standard deviation over repetitions, drawn as a bar; may lack ways.
+        values: method -> estimate, from top to bottom.
+        truth: the true value.
+        name: name of the number: ``kA``.
+        unit: unit of the number: ``V·s²/m``.
+        spreads: method -> standard deviation over repetitions, drawn as a bar; may lack methods.
 
     Raises:
         BadRequest: there are no values.
@@ -87,12 +87,12 @@ def plot_curves(
     """One or more curves over a common axis.
 
     Args:
-        x: (n,) where the curves were computed.
+        x: (n,) values of the horizontal axis.
         lines: name -> (n,) values.
-        xlabel: with unit.
-        ylabel: with unit.
-        levels: name -> height of a horizontal line: the truth, a limit.
-        marked: a point to draw attention to.
+        xlabel: label of the horizontal axis, with unit.
+        ylabel: label of the vertical axis, with unit.
+        levels: name -> height of a horizontal line, as the truth or a limit.
+        marked: a point to mark with a star.
         mark: what the legend calls the marked point.
         log_scale: the vertical axis is logarithmic.
 
@@ -134,7 +134,7 @@ def _curve_sentences(
     lines: Mapping[str, Sequence[float] | Array],
     levels: Mapping[str, float],
 ) -> Iterator[str]:
-    """Where each curve begins and ends, and what each dashed line marks."""
+    """Sentences with the first and last value of each curve, and the value of each dashed line."""
     for name, y in lines.items():
         first, last = to_text(float(y[0])), to_text(float(y[-1]))
         yield f"“{name}” goes from {first} at {x[0]:g} to {last} at {x[-1]:g}."
@@ -154,24 +154,24 @@ def plot_misses(
     """A few points, a straight line, and the error of the line at each point.
 
     Args:
-        x: (n,) of the points.
-        y: (n,) of the points.
-        intercept: of the line.
-        slope: of the line.
-        xlabel: with unit.
-        ylabel: with unit.
+        x: (n,) horizontal coordinates of the points.
+        y: (n,) vertical coordinates of the points.
+        intercept: value of the line at x = 0.
+        slope: slope of the line.
+        xlabel: label of the horizontal axis, with unit.
+        ylabel: label of the vertical axis, with unit.
     """
     across, up = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
-    said = intercept + slope * across
+    predicted = intercept + slope * across
     figure, ((axes,),) = make_panels(1, 1)
     ends = np.array([0.0, 1.05 * across.max()])
     axes.plot(ends, intercept + slope * ends, color=COLORS[1], linestyle="--", label="the line")
-    axes.vlines(across, said, up, color=COLORS[3], linewidth=2.5, label="errors")
+    axes.vlines(across, predicted, up, color=COLORS[3], linewidth=2.5, label="errors")
     axes.plot(across, up, "o", color=COLORS[0], markersize=7, label="samples")
     axes.set_xlabel(xlabel, color=INK)
     axes.set_ylabel(ylabel, color=INK)
     axes.legend(fontsize=8)
-    total = f"{to_text(float(np.sum((up - said) ** 2)))}{_squared(ylabel)}"
+    total = f"{to_text(float(np.sum((up - predicted) ** 2)))}{_squared(ylabel)}"
     _corner(axes, f"sum of squared errors: {total}")
     alt = (
         f"The picture shows {across.size} samples, with {ylabel} against {xlabel}. The line is "
@@ -180,7 +180,7 @@ def plot_misses(
     )
     rows = tuple(
         (to_text(float(a)), float(b), float(c), float(b - c))
-        for a, b, c in zip(across, up, said, strict=True)
+        for a, b, c in zip(across, up, predicted, strict=True)
     )
     unit = f" {bracket}" if (bracket := _bracket(ylabel)) else ""
     header = (xlabel, ylabel, f"the line says{unit}", f"error{unit}")
@@ -197,7 +197,7 @@ def _bracket(label: str) -> str:
 
 
 def _squared(label: str) -> str:
-    """The square of a label's unit, to stand behind a number."""
+    """The square of a label's unit, to append to a number."""
     unit = _bracket(label).strip("[]")
     if not unit:
         return ""

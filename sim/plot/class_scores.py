@@ -1,4 +1,4 @@
-"""Marks of a class: how they spread, and who earned what where."""
+"""Scores of a class: a histogram, and a heatmap of students by exercises."""
 
 from collections.abc import Sequence
 
@@ -9,7 +9,7 @@ from sim.core.errors import BadRequest
 from sim.plot.picture import COLORS, INK, Picture, make_panels
 from sim.plot.table import Table
 
-NAMED = 40  # students whose names still can be read beside their rows
+NAMED = 40  # students at most whose names are written: more would be too small to read
 BINS = 10
 
 
@@ -20,7 +20,7 @@ def plot_score_histogram(shares: Sequence[float]) -> Picture:
         shares: one for each student, 0 to 1.
 
     Raises:
-        BadRequest: there is nobody.
+        BadRequest: there are no students.
     """
     if not shares:
         raise BadRequest("nobody was graded", advice="Grade somebody first.")
@@ -49,12 +49,13 @@ def plot_score_heatmap(
     """A heatmap of scores: students by exercises, the best students on top.
 
     Args:
-        students: their names.
-        exercises: their names.
-        shares: a row for each student, a share for each exercise; NaN where nothing was graded.
+        students: names of the students.
+        exercises: names of the exercises.
+        shares: a row for each student with a share of points (0 to 1) for each exercise; NaN where
+            nothing was graded.
 
     Raises:
-        BadRequest: there is nobody, or nothing.
+        BadRequest: there are no students or no exercises.
     """
     if not students or not exercises:
         raise BadRequest("nobody was graded", advice="Grade somebody first.")
@@ -87,7 +88,7 @@ def plot_score_heatmap(
 
 
 def _describe_hardest(exercises: Sequence[str], means: "np.typing.NDArray[np.float64]") -> str:
-    """A sentence about the exercise with the fewest points, where points are missing at all."""
+    """A sentence about the exercise with the lowest mean score, if any score is not full."""
     if np.isnan(means).all():
         return "Nothing was graded yet."
     worst = int(np.nanargmin(means))
@@ -100,7 +101,7 @@ def _describe_hardest(exercises: Sequence[str], means: "np.typing.NDArray[np.flo
 
 
 def _means(table: "np.typing.NDArray[np.float64]") -> "np.typing.NDArray[np.float64]":
-    """(exercises,) mean of what was graded; NaN where nothing was."""
+    """(exercises,) mean score over graded students; NaN where nothing was graded."""
     there = ~np.isnan(table)
     count = there.sum(axis=0)
     total = np.where(there, table, 0.0).sum(axis=0)

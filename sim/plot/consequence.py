@@ -1,4 +1,4 @@
-"""What an answer would do on the robot: the motion that comes of it beside the wanted one."""
+"""The motion that a student's answer would cause on the robot, over the wanted motion."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -20,11 +20,11 @@ from sim.plot.picture import (
     make_panels,
 )
 
-SIDE_BY_SIDE = 2  # panels
-HEIGHT, MORE = 0.8, 2.2  # [in] of what is around the panels, and of each row of them
-MOST = 300  # points of a curve that are drawn
-MARK = 0.15  # [share of a panel] between markers
-DIGITS = 3  # of a curve: a picture is looked at, not measured
+SIDE_BY_SIDE = 2  # panels in a row
+HEIGHT, MORE = 0.8, 2.2  # [in] height around the panels, and of each row of them
+MOST = 300  # points of a curve drawn at most
+MARK = 0.15  # [share of a panel] distance of markers
+DIGITS = 3  # significant digits of a curve
 
 
 @dataclass(frozen=True)
@@ -32,12 +32,12 @@ class Trace:
     """One panel: the wanted motion, and the motion that results.
 
     Args:
-        title: what it is of.
-        ylabel: with unit.
+        title: what moves.
+        ylabel: label of the vertical axis, with unit.
         time: (n,) [s].
-        wanted: (n,) the target; with ``limit``, a limit that should be kept.
-        actual: name -> (n,) what happens.
-        limit: whether ``wanted`` is a limit.
+        wanted: (n,) target, or a limit.
+        actual: name -> (n,) resulting motion.
+        limit: whether ``wanted`` is a limit that should be kept.
     """
 
     title: str
@@ -49,7 +49,7 @@ class Trace:
 
 
 def make_profile_traces(one: FollowedProfile) -> tuple[Trace, ...]:
-    """The panels of a profile that was followed: velocity, and position where it matters."""
+    """The panels of a profile that was followed: velocity, and position if it has a label."""
     done, wanted = "what it does", one.target
     of_speed, of_place = f"velocity [{one.symbol}/s]", f"{one.place} [{one.symbol}]"
     speed = Trace(one.name, of_speed, wanted.time, wanted.velocity, {done: one.velocity})
@@ -58,11 +58,11 @@ def make_profile_traces(one: FollowedProfile) -> tuple[Trace, ...]:
 
 
 def plot_consequence(shown: Sequence[Trace], *, words: str) -> Picture:
-    """The motion that an answer causes beside the wanted one, panel by panel.
+    """The motion that an answer causes, and the wanted motion, in one panel each.
 
     Args:
-        shown: at least one panel.
-        words: the same in sentences: what happens, with rounded numbers.
+        shown: the panels, at least one.
+        words: sentences about what happens, with rounded numbers.
 
     Raises:
         BadRequest: there is no panel, or a curve has another length than its time.
@@ -90,7 +90,7 @@ def plot_consequence(shown: Sequence[Trace], *, words: str) -> Picture:
 
 
 def _draw(axes: Axes, one: Trace) -> None:
-    """One panel; what is wanted is a broad line, so that a curve upon it stays visible."""
+    """Draw one panel; the target is a broad line, so that a curve on it stays visible."""
     time = np.asarray(one.time, dtype=float)
     name = "it must have stopped here" if one.limit else "what was wanted"
     axes.plot(

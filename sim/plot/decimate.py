@@ -1,7 +1,7 @@
-"""Fewer points for the same picture: what is drawn is thinned, what is counted never is.
+"""Decimate samples for drawing only: fewer points that give the same picture.
 
-A log of 20,000 samples has more of them than a panel has pixels; all of them would cost megabytes
-and seconds, and show nothing more.
+A log of 20,000 samples has more samples than a panel has pixels. Drawing all of them would cost
+megabytes and seconds, and look the same.
 """
 
 import numpy as np
@@ -9,21 +9,21 @@ from numpy.typing import NDArray
 
 from sim.core.log import Array
 
-FINEST = 512  # cells across a panel: about its pixels
-COARSER = 0.8  # from one grid to the next, so that little more goes than has to
+FINEST = 512  # cells across a panel, about as many as pixels
+COARSER = 0.8  # cells of a grid relative to the one before; a small step drops few samples too many
 
 
 def decimate_curve(y: Array, *, most: int) -> NDArray[np.intp]:
-    """Which samples of a curve to draw so that none of its spikes is lost.
+    """Indices of the samples of a curve to draw so that no spike is lost.
 
-    Of every stretch of neighbors the lowest and the highest are kept, and both ends.
+    The lowest and the highest sample of each group of neighbors are kept, and both ends.
 
     Args:
         y: (n,) the curve.
-        most: how many to keep, roughly.
+        most: approximate number of samples to keep.
 
     Returns:
-        (m,) places in ``y``, rising.
+        (m,) indices in ``y``, rising.
     """
     n = y.size
     if n <= most:
@@ -36,18 +36,17 @@ def decimate_curve(y: Array, *, most: int) -> NDArray[np.intp]:
 
 
 def decimate_cloud(x: Array, y: Array, *, most: int) -> NDArray[np.intp]:
-    """Which samples of a cloud to draw so that its shape and its outliers stay.
+    """Indices of the samples of a scatter plot to draw so that its shape and outliers remain.
 
-    Of samples that would cover each other, in one cell of a grid, the first is kept; the grid is as
-    fine as the limit allows.
+    The first sample in each cell of a grid is kept; the grid is as fine as the limit allows.
 
     Args:
-        x: (n,) across.
-        y: (n,) up.
-        most: how many to keep at most.
+        x: (n,) horizontal coordinates.
+        y: (n,) vertical coordinates.
+        most: largest number of samples to keep.
 
     Returns:
-        (m,) places in ``x``, rising.
+        (m,) indices in ``x``, rising.
     """
     cells = FINEST
     kept: NDArray[np.intp] = np.arange(x.size)
@@ -59,7 +58,7 @@ def decimate_cloud(x: Array, y: Array, *, most: int) -> NDArray[np.intp]:
 
 
 def _cell(values: Array, cells: int) -> NDArray[np.intp]:
-    """(n,) which of so many equal cells each value falls into."""
+    """(n,) index of the cell of each value, of ``cells`` cells of equal width."""
     low, high = float(values.min()), float(values.max())
     share = (values - low) / ((high - low) or 1.0)
     return np.minimum((share * cells).astype(np.intp), cells - 1)

@@ -1,7 +1,7 @@
-"""How well two gains are known: an ellipse of all pairs that the rows cannot tell apart.
+"""Confidence ellipses of two gains, from their information matrix.
 
-Where rows know nothing of some combination, the ellipse has no end along it: it is two parallel
-lines, and with little noise one line.
+If the rows hold no information about some combination of the gains, the ellipse is infinitely long
+in its direction: two parallel lines, and with little noise one line.
 """
 
 import math
@@ -27,15 +27,15 @@ from sim.plot.picture import (
 )
 from sim.plot.table import Table, to_text
 
-LEVEL = 5.991  # of chi square with two degrees of freedom: 95 of 100 fits fall inside
-FLAT = 1e-9  # share of the better known combination; what is below is rounding errors
-ALONG = 1e-6  # share of a gain in the unknown combination; below it, the gain is known
-ENDLESS = 100.0  # [times the panel] an axis is drawn that long where it has no end
-MOST = 250  # samples of a test that are drawn
+LEVEL = 5.991  # 95 % quantile of chi-squared with two degrees of freedom
+FLAT = 1e-9  # smaller eigenvalues of the scaled information matrix are rounding errors
+ALONG = 1e-6  # smaller components of the unknown direction leave a gain known
+ENDLESS = 100.0  # [panels] drawn length of an infinite half axis
+MOST = 250  # samples of a test drawn at most
 
 
 def plot_ellipses(
-    told: Mapping[str, Array],
+    information: Mapping[str, Array],
     *,
     names: tuple[str, str],
     truth: tuple[float, float],
@@ -44,26 +44,26 @@ def plot_ellipses(
     """95 % confidence ellipses of two gains, for several sets of rows.
 
     Args:
-        told: set of rows -> (2, 2) what it tells of both gains [1/unit²], see
+        information: set of rows -> (2, 2) information matrix of both gains [1/unit²], see
             ``sim.fit.information_matrix``.
-        names: of the two gains, with their units: ``kS [V]``.
-        truth: about which the ellipses are drawn.
-        reach: how far from the truth the panel goes, each way.
+        names: names of the two gains, with their units: ``kS [V]``.
+        truth: the true gains, the centers of the ellipses.
+        reach: half width and half height of the panel, in the units of the gains.
 
     Raises:
         BadRequest: there is nothing to draw.
     """
-    if not told:
+    if not information:
         raise BadRequest("there is nothing to draw", advice="Give at least one set of rows.")
     figure, ((axes,),) = make_panels(1, 1, height=4.0)
-    for index, (name, information) in enumerate(told.items()):
-        _draw(axes, information, index, truth=truth, reach=reach, name=name)
+    for index, (name, matrix) in enumerate(information.items()):
+        _draw(axes, matrix, index, truth=truth, reach=reach, name=name)
     _finish(axes, names=names, truth=truth, reach=reach)
     axes.legend(fontsize=8)
     alt = f"Each shape shows how well {names[0]} and {names[1]} are known together: 95 of 100 fits "
     alt += "fall inside. "
-    alt += " ".join(f"“{name}”: {_words(info, names)}" for name, info in told.items())
-    return Picture(figure, alt, _table(told, names))
+    alt += " ".join(f"“{name}”: {_words(info, names)}" for name, info in information.items())
+    return Picture(figure, alt, _table(information, names))
 
 
 def plot_information_map(
@@ -78,14 +78,14 @@ def plot_information_map(
 
     Args:
         rows: one of the four tests -> its rows.
-        information: (2, 2) what they tell of both gains, see ``sim.fit.information_matrix``.
-        names: of the two gains, with their units.
-        truth: about which the ellipse is drawn.
-        reach: how far from the truth its panel goes, each way.
+        information: (2, 2) information matrix of both gains, see ``sim.fit.information_matrix``.
+        names: names of the two gains, with their units.
+        truth: the true gains, the center of the ellipse.
+        reach: half width and half height of its panel, in the units of the gains.
     """
     figure, ((left, right),) = make_panels(1, 2, height=3.8)
     for test, part in rows.items():
-        place = FOUR_TESTS.index(test)  # a test has its color and mark in every map
+        place = FOUR_TESTS.index(test)  # the same color and marker of a test in every map
         kept = decimate_cloud(part.velocity, part.acceleration, most=MOST)
         left.plot(
             part.velocity[kept],
@@ -118,7 +118,7 @@ def _span(values: Array) -> str:
 
 
 def _axes(information: Array) -> tuple[Array, Array]:
-    """(2,) half axes, infinite where there is no end, and (2, 2) their directions in columns."""
+    """Half axes (2,) of the ellipse, possibly infinite, and their directions (2, 2) in columns."""
     size = np.sqrt(np.diag(information))
     size = np.where(size > 0.0, size, 1.0)
     scaled = information / np.outer(size, size)
@@ -165,7 +165,7 @@ def _finish(
 
 
 def _errors(information: Array) -> tuple[float, float]:
-    """One standard error of each of the two; infinite where nothing is known of it."""
+    """The standard errors of both gains; infinite without information about a gain."""
     half, directions = _axes(information)
     if math.isinf(half[0]):
         along = np.abs(directions[:, 0])
@@ -191,12 +191,12 @@ def _words(information: Array, names: tuple[str, str]) -> str:
     )
 
 
-def _table(told: Mapping[str, Array], names: tuple[str, str]) -> Table:
+def _table(information: Mapping[str, Array], names: tuple[str, str]) -> Table:
     def cell(error: float) -> str:
         return to_text(error) if math.isfinite(error) else "unknown"
 
     return Table(
         ("rows of", *(f"± {name}" for name in names)),
-        tuple((name, *map(cell, _errors(info))) for name, info in told.items()),
+        tuple((name, *map(cell, _errors(info))) for name, info in information.items()),
         caption="One standard error of each gain",
     )

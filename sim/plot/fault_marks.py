@@ -1,4 +1,4 @@
-"""Where a log is damaged: hatched boxes around the curve, a letter for each fault, and words."""
+"""Marks of damaged parts of a log: hatched boxes around the curve, letters, and sentences."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -16,12 +16,12 @@ from sim.plot.picture import COLORS, INK, LINES, PAPER
 
 HATCHES = ("////", "\\\\\\\\", "xxxx", "----", "..", "++++")
 COLOR = COLORS[3]
-GROUND = "#F9EEF5"  # the same, pale: what is drawn over it stays legible
-ROOM = 0.14  # [share of a panel's height] added above and below, so that a letter has its place
-AROUND = 0.06  # [share of a panel's height] from the curve to the edge of its box
-NARROWEST = 0.012  # [share of a panel's width] a box is at least this wide: it must be seen
-CLOSE = 0.05  # [share of a panel's width] letters nearer than this would cover each other
-NAMED = 6  # stretches of one fault that are told one by one; of more, the number
+BACKGROUND = "#F9EEF5"  # a pale tone of ``COLOR``: curves drawn over it stay legible
+MARGIN = 0.14  # [share of a panel's height] added above and below for the letters
+PADDING = 0.06  # [share of a panel's height] between the curve and the edge of its box
+NARROWEST = 0.012  # [share of a panel's width] least width of a box, so that it is visible
+CLOSE = 0.05  # [share of a panel's width] nearer letters would cover each other
+NAMED = 6  # parts of one fault that are described; further ones are counted
 
 Damaged: TypeAlias = Damage | LogInterval
 Signals: TypeAlias = Mapping[int, Sequence[tuple[Axes, Array]]]
@@ -29,12 +29,12 @@ Signals: TypeAlias = Mapping[int, Sequence[tuple[Axes, Array]]]
 
 @dataclass(frozen=True)
 class FaultMark:
-    """A damaged part of a log, as it is drawn.
+    """The mark of a damaged part of a log.
 
     Args:
-        fault: its name, or what else to call it.
-        letter: what stands beside it; the same for all parts with this fault.
-        hatch: as matplotlib writes it.
+        fault: name of the fault, or ``damage``.
+        letter: its letter, the same for all parts with this fault.
+        hatch: matplotlib's hatch pattern.
         where: the damaged part.
     """
 
@@ -46,7 +46,7 @@ class FaultMark:
 
 @dataclass(frozen=True)
 class _Box:
-    """A box around a stretch of a curve, in the panel's coordinates."""
+    """A box around a part of a curve, in data coordinates."""
 
     left: float
     right: float
@@ -55,10 +55,10 @@ class _Box:
 
 
 def assign_fault_marks(log: Log, damages: Iterable[Damaged]) -> tuple[FaultMark, ...]:
-    """Give each fault its letter and its hatch.
+    """Assign a letter and a hatch to each fault.
 
     Raises:
-        BadRequest: a damage lies outside the log, so it must be of another one.
+        BadRequest: a damaged part lies outside the log.
     """
     found = [
         (damage.fault, damage.where) if isinstance(damage, Damage) else ("damage", damage)
@@ -79,21 +79,23 @@ def assign_fault_marks(log: Log, damages: Iterable[Damaged]) -> tuple[FaultMark,
 
 
 def draw_fault_marks(log: Log, damage: Sequence[FaultMark], *, drawn: Signals) -> None:
-    """Draw the damaged stretches around the curves of their runs.
+    """Draw boxes and letters around the damaged parts of the curves.
 
     Args:
         log: the log.
-        damage: what is wrong with it.
-        drawn: run -> the panels it is drawn in, each with its signal, (n,), over the time since the
-            run began.
+        damage: marks of its damaged parts.
+        drawn: run -> its panels, each with its signal (n,) over the time since the run began.
     """
     if not damage:
         return
     limits = {axes: axes.get_ylim() for pairs in drawn.values() for axes, _ in pairs}
-    for axes, (bottom, top) in limits.items():  # panels may share them, so all are asked first
-        room = ROOM * (top - bottom)
-        axes.set_ylim(bottom - room, top + room)
-        axes.set_xlim(axes.get_xlim())  # boxes never widen what is shown
+    for axes, (
+        bottom,
+        top,
+    ) in limits.items():  # panels may share limits, so all are read before any is changed
+        margin = MARGIN * (top - bottom)
+        axes.set_ylim(bottom - margin, top + margin)
+        axes.set_xlim(axes.get_xlim())  # keep the limits when boxes are added
     for index, pairs in drawn.items():
         here = [mark for mark in damage if mark.where.run == index]
         for axes, signal in pairs:
@@ -104,29 +106,35 @@ def draw_fault_marks(log: Log, damage: Sequence[FaultMark], *, drawn: Signals) -
 
 
 def make_legend_entries(damage: Sequence[FaultMark]) -> list[Patch]:
-    """One entry of the legend for each fault."""
+    """A legend entry for each fault."""
     first = {mark.fault: mark for mark in reversed(damage)}
     return [
         Patch(
-            facecolor=GROUND,
+            facecolor=BACKGROUND,
             edgecolor=COLOR,
             hatch=first[fault].hatch,
-            label=f"{first[fault].letter}: {fault}{_apart(first[fault].where)}",
+            label=f"{first[fault].letter}: {fault}{_name_whole_part(first[fault].where)}",
         )
         for fault in dict.fromkeys(mark.fault for mark in damage)
     ]
 
 
 def describe_faults(log: Log, damage: Sequence[FaultMark], *, drawn: Iterable[int]) -> str:
-    """Which fault is where, in sentences; empty if there is none."""
+    """Sentences about where each fault is; empty if there is none.
+
+    Args:
+        log: the log.
+        damage: marks of its damaged parts.
+        drawn: indices of the runs that the picture shows.
+    """
     there, said = set(drawn), ""
     for fault in dict.fromkeys(mark.fault for mark in damage):
         parts = [mark for mark in damage if mark.fault == fault]
-        told = [_place(log, mark.where, there) for mark in parts[:NAMED]]
+        sentences = [_describe_part(log, mark.where, there) for mark in parts[:NAMED]]
         if len(parts) > NAMED:
-            told.append(f"The fault is in {len(parts) - NAMED} more parts.")
+            sentences.append(f"The fault is in {len(parts) - NAMED} more parts.")
         said += f" Hatching and the letter {parts[0].letter} mark the fault “{fault}”. "
-        said += " ".join(told)
+        said += " ".join(sentences)
     return said
 
 
@@ -152,29 +160,29 @@ def _check(log: Log, fault: str, where: LogInterval) -> None:
 
 
 def _box(axes: Axes, run: Run, signal: Array, where: LogInterval) -> _Box:
-    """Around the curve from the sample before the damage to the one after it: a gap has both."""
+    """The box around the curve, from the sample before the damage to the one after it."""
     first = max(int(np.searchsorted(run.time, where.start, side="right")) - 1, 0)
     last = min(int(np.searchsorted(run.time, where.end)), len(run) - 1)
     part = signal[first : last + 1]
     (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
     start, end = where.start - run.time[0], where.end - run.time[0]
     wider = max(NARROWEST * (right - left) - (end - start), 0.0) / 2.0
-    around = AROUND * (top - bottom)
-    return _Box(start - wider, end + wider, part.min() - around, part.max() + around)
+    padding = PADDING * (top - bottom)
+    return _Box(start - wider, end + wider, part.min() - padding, part.max() + padding)
 
 
 def _draw(axes: Axes, box: _Box, hatch: str, *, index: int) -> None:
-    """A hatched ground, and a frame in the color and the dashes of the curve it belongs to."""
+    """Draw a hatched box with a frame in the color and line style of its curve."""
     corner, width, height = (box.left, box.bottom), box.right - box.left, box.top - box.bottom
-    below = 1.5  # the curves are drawn over it
-    ground = {"edgecolor": COLOR, "facecolor": GROUND, "hatch": hatch, "linewidth": 0.0}
+    below = 1.5  # below the curves
+    background = {"edgecolor": COLOR, "facecolor": BACKGROUND, "hatch": hatch, "linewidth": 0.0}
     frame = {"edgecolor": COLORS[index], "linestyle": LINES[index], "linewidth": 1.2, "fill": False}
-    for style in (ground, frame):
+    for style in (background, frame):
         axes.add_patch(Rectangle(corner, width, height, zorder=below, **style))
 
 
 def _letters(axes: Axes, here: Sequence[FaultMark], boxes: Sequence[_Box]) -> None:
-    """Write the letters outside the curve; those that would cover each other side by side."""
+    """Write the letters outside the curve; letters that would overlap share one text."""
     left, right = axes.get_xlim()
     groups: list[list[tuple[_Box, str]]] = []
     for box, mark in sorted(zip(boxes, here, strict=True), key=lambda pair: pair[0].left):
@@ -205,15 +213,15 @@ def _letters(axes: Axes, here: Sequence[FaultMark], boxes: Sequence[_Box]) -> No
         )
 
 
-def _apart(where: LogInterval) -> str:
-    """What the legend adds about damage that no box can show."""
+def _name_whole_part(where: LogInterval) -> str:
+    """Suffix of a legend entry for a missing test or a damaged log, which have no box."""
     if where.run is not None:
         return ""
     return f" ({where.test})" if where.test else " (the whole log)"
 
 
-def _place(log: Log, where: LogInterval, drawn: set[int]) -> str:
-    """A damaged part in words, in the time of its run, which the picture shows."""
+def _describe_part(log: Log, where: LogInterval, drawn: set[int]) -> str:
+    """A sentence about a damaged part, with times since the run began."""
     if where.run is None:
         return (
             f"The test {where.test} is not in the log."

@@ -1,4 +1,4 @@
-"""Bars of gaps: how far models are from logs, in times the noise, side by side for each log."""
+"""Bars of the gaps between models and logs, in multiples of the noise."""
 
 from collections.abc import Mapping
 
@@ -8,8 +8,8 @@ from sim.core.errors import BadRequest
 from sim.plot.picture import COLORS, INK, PAPER, REFERENCE, Picture, add_legend, make_panels
 from sim.plot.table import Table, to_text
 
-HATCHES = ("", "///", "..")  # a log each: color never speaks alone
-THICK = 0.8  # [rows] that the bars of one model take together
+HATCHES = ("", "///", "..")  # one for each log, so that color is not the only difference
+THICK = 0.8  # [rows] height of all bars of one model
 
 
 def plot_gap_bars(gaps: Mapping[str, Mapping[str, float]]) -> Picture:
@@ -40,7 +40,7 @@ def plot_gap_bars(gaps: Mapping[str, Mapping[str, float]]) -> Picture:
             axes.annotate(
                 to_text(float(value)), (value, place), xytext=(4, 0), textcoords="offset points",
                 va="center", fontsize=8, color=INK,
-                bbox={"facecolor": PAPER, "edgecolor": "none", "pad": 0.8},  # over the noise's line
+                bbox={"facecolor": PAPER, "edgecolor": "none", "pad": 0.8},  # over the dashed line
             )  # fmt: skip
     axes.axvline(1.0, color=REFERENCE, linestyle="--", linewidth=1.2, label="the noise")
     axes.set_yticks(range(len(gaps)), list(gaps))
@@ -53,13 +53,13 @@ def plot_gap_bars(gaps: Mapping[str, Mapping[str, float]]) -> Picture:
     rows: list[tuple[str | float, ...]] = [
         (model, *(one[log] for log in logs)) for model, one in gaps.items()
     ]
-    told = "; ".join(
+    listed = "; ".join(
         f"{model}: " + ", ".join(f"{log} {to_text(one[log])}" for log in logs)
         for model, one in gaps.items()
     )
     return Picture(
         figure,
-        f"Bars show how many times the noise each model is away from each log: {told}. A dashed "
+        f"Bars show how many times the noise each model is away from each log: {listed}. A dashed "
         "line at 1 marks the noise.",
         Table(("model", *logs), tuple(rows), caption="gap [times the noise]"),
     )

@@ -1,4 +1,4 @@
-"""A gauge: where a number lies among bands that say what to do about it."""
+"""A gauge: numbers as marks on a scale with named bands."""
 
 from collections.abc import Mapping, Sequence
 
@@ -10,11 +10,13 @@ from sim.plot.picture import COLORS, INK, MARKERS, PAPER, Picture, add_legend, m
 from sim.plot.table import Table, to_text
 
 GOOD = COLORS[2]
-REST = ((COLORS[4], "//"), (COLORS[3], ".."))  # a texture beside each color
+REST = ((COLORS[4], "//"), (COLORS[3], ".."))  # colors and hatches of the other bands
 WORST = (COLORS[1], "xx")
-MOST = len(REST) + 2  # bands: the rest, the good one and the worst
-APART = 0.22  # [half a band's height] from the middle, where there are several marks
-ROOM = 0.05  # [share of the scale] beyond a mark that lies outside the bands
+MOST = len(REST) + 2  # bands at most: these, the good one and the worst
+APART = (
+    0.22  # [half a band's height] largest offset of a mark from the middle, if there are several
+)
+MARGIN = 0.05  # [share of the scale] margin beyond a mark outside the bands
 
 
 def plot_gauge(
@@ -29,14 +31,15 @@ def plot_gauge(
 
     Args:
         values: name -> number.
-        bands: name -> where it ends, rising; the last one has no end of its own, and the scale
-            stops there or beyond the largest number.
-        label: of the scale, with unit.
-        good: the name of the band that asks for nothing.
-        least: where the scale begins, unless a number is smaller.
+        bands: name -> upper end, rising; the last band is open, and the scale ends there or beyond
+            the largest number.
+        label: label of the scale, with unit.
+        good: name of the band in which a number needs no action.
+        least: start of the scale, unless a number is smaller.
 
     Raises:
-        BadRequest: there is nothing to show, the ends do not rise, or no band is the good one.
+        BadRequest: there are no numbers, the ends do not rise, there are too many bands, or none is
+            the good one.
     """
     ends = list(bands.values())
     if not values or good not in bands or ends != sorted(set(ends)) or len(ends) > MOST:
@@ -56,10 +59,10 @@ def plot_gauge(
 
 
 def _span(values: Sequence[float], *, least: float, last: float) -> tuple[float, float]:
-    """Where the scale begins and ends: with the bands, or a little beyond what lies outside."""
+    """Start and end of the scale: those of the bands, or beyond numbers outside them."""
     low, high = min(least, *values), max(last, *values)
-    room = ROOM * (high - low)
-    return low - room * (low < least), high + room * (high > last)
+    margin = MARGIN * (high - low)
+    return low - margin * (low < least), high + margin * (high > last)
 
 
 def _draw(
@@ -72,7 +75,10 @@ def _draw(
 ) -> None:
     """Draw the bands, and the marks on them."""
     low, high = span
-    below, above = iter(REST), reversed(REST)  # what follows the good band looks alike everywhere
+    below, above = (
+        iter(REST),
+        reversed(REST),
+    )  # so that the band after the good one always looks the same
     start, last, good_ends = low, list(bands)[-1], bands[good]
     for name, end in bands.items():
         rest = below if end < good_ends else above
@@ -91,7 +97,7 @@ def _draw(
 
 
 def find_band(value: float, bands: Mapping[str, float]) -> str:
-    """The name of the band that a number lies in; an end belongs to the band that it ends."""
+    """The name of the band of a number; the upper end of a band belongs to the band."""
     names = list(bands)
     return next((name for name in names[:-1] if value <= bands[name]), names[-1])
 

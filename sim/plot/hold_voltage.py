@@ -1,4 +1,4 @@
-"""The voltages that hold a mechanism against gravity: a window, as wide as friction is strong."""
+"""The window of voltages that hold a mechanism against gravity: kG - kS to kG + kS."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from sim.plot.table import Table, to_text
 
 BAND = COLORS[4]
 QUARTER_TURN = 90.0  # [deg]
-CLOSE = 0.03  # [share of the window] that near to an edge is on it
+CLOSE = 0.03  # [share of the window] distance from an edge that counts as on it
 
 
 def plot_hold_window(
@@ -22,16 +22,16 @@ def plot_hold_window(
     window: tuple[float, float],
     marks: Mapping[str, float],
 ) -> Picture:
-    """Speed over constant voltage, with the window in which friction holds the mechanism.
+    """Steady speed over constant voltage, with the window in which friction holds the mechanism.
 
     Args:
-        volts: (n,) [V] that were tried, rising.
-        speeds: (n,) [m/s] what came of each; negative is down.
-        window: [V] its lower and its upper edge, kG - kS and kG + kS.
-        marks: name -> [V] of a voltage worth a mark: what a recipe finds.
+        volts: (n,) constant voltages [V], rising.
+        speeds: (n,) steady speed at each [m/s]; negative is down.
+        window: lower and upper edge, kG - kS and kG + kS [V].
+        marks: name -> voltage to mark [V].
 
     Raises:
-        BadRequest: not one speed for each voltage, or the window's edges changed places.
+        BadRequest: there is not one speed for each voltage, or the lower edge is above the upper.
     """
     if len(volts) != len(speeds) or not len(volts):
         raise BadRequest("every voltage needs one speed", advice="Give as many speeds as voltages.")
@@ -59,7 +59,7 @@ def plot_hold_window(
 
 
 def _where(value: float, low: float, high: float) -> str:
-    """In words where a voltage lies in the window."""
+    """The position of a voltage in the window, in words."""
     near = CLOSE * (high - low)
     if abs(value - low) <= near:
         return "lower edge"
@@ -72,7 +72,7 @@ def _where(value: float, low: float, high: float) -> str:
 
 @dataclass(frozen=True)
 class _Words:
-    """What the angles of a picture are called."""
+    """Names of the angles in a picture."""
 
     angle: str
     across: str
@@ -83,7 +83,7 @@ class _Words:
 _SHOWS_LEVEL = _Words("angle [deg]", "angle from level [deg]", "kG·cos(angle)", "the arm is level")
 
 
-def _askew(offset: float) -> _Words:
+def _name_with_offset(offset: float) -> _Words:
     return _Words(
         "reading [deg]",
         "what the encoder reads [deg]",
@@ -99,16 +99,16 @@ def plot_hold_angles(
     ks: float,
     offset: float | None = None,
 ) -> Picture:
-    """The window of an arm over its angle: its middle is a cosine, its width stays.
+    """The window of an arm over its angle: a cosine with a constant width.
 
     Args:
-        holds: rows of a reading [deg] and the two edges measured there [V].
-        kg: [V] that holds it level.
-        ks: [V] of friction.
-        offset: [deg] to add to a reading for the angle from level; a guess, until the band covers
-            all marks. None says that the encoder shows the angle from level.
+        holds: encoder reading [deg], and lower and upper edge of the window measured there [V].
+        kg: voltage that holds the arm level [V].
+        ks: voltage of static friction [V].
+        offset: what to add to a reading for the angle from level [deg], a guess; None if the
+            encoder shows the angle from level.
     """
-    words, add = _SHOWS_LEVEL if offset is None else _askew(offset), offset or 0.0
+    words, add = _SHOWS_LEVEL if offset is None else _name_with_offset(offset), offset or 0.0
     ends = [reading for reading, *_ in holds]
     readings = np.linspace(min([-QUARTER_TURN, *ends]) - 5.0, max([QUARTER_TURN, *ends]) + 5.0, 181)
     middle = kg * np.cos(np.radians(readings + add))

@@ -1,4 +1,4 @@
-"""A picture with knobs: it is drawn again whenever one of them is turned."""
+"""Interactive pictures, which are drawn again whenever a widget changes."""
 
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -8,17 +8,17 @@ from sim.plot.picture import Picture
 
 
 def show_interactive(draw: Callable[..., Picture | Sequence[Picture]], **knobs: Any) -> Any:  # noqa: ANN401 - ipywidgets has no types
-    """Show a picture below widgets that set the arguments it is drawn with.
+    """Show a picture below widgets that set the arguments of the function that draws it.
 
-    The picture is plain HTML in the page, so it needs no drawing library there; and what is drawn
-    is what the same call gives without any widget: ``draw(ramp=1.0)``.
+    The picture is plain HTML, so the page needs no drawing library. It is the same picture that
+    the function returns without widgets: ``draw(ramp=1.0)``.
 
     Args:
-        draw: arguments by name -> one picture, or several to stand below each other.
+        draw: function of keyword arguments that returns one picture, or several.
         knobs: argument -> widget whose ``value`` is passed.
 
     Returns:
-        A widget to end a notebook cell with.
+        A widget, to be the last expression of a notebook cell.
     """
     import ipywidgets  # type: ignore[import-untyped]  # noqa: PLC0415 - no types; for notebooks
 
@@ -27,7 +27,7 @@ def show_interactive(draw: Callable[..., Picture | Sequence[Picture]], **knobs: 
     def redraw(_: object = None) -> None:
         try:
             drawn = draw(**{name: knob.value for name, knob in knobs.items()})
-        except Refusal as refusal:  # a knob may ask for what cannot be done: say so in its place
+        except Refusal as refusal:  # show the reason in place of the picture
             shown.value = f"<p>{refusal}</p>"
             return
         pictures = [drawn] if isinstance(drawn, Picture) else drawn

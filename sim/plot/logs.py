@@ -1,4 +1,4 @@
-"""What a log holds, to look at before anything is fitted to it."""
+"""Voltage and velocity of a log over time."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -31,14 +31,14 @@ from sim.plot.picture import (
 from sim.plot.table import Cell, Table
 
 KINDS = ("quasistatic", "dynamic")
-APART = 0.15  # [share of a panel] between markers: lines can be told apart, and still be seen
-MOST = 1000  # samples of a curve that are drawn: a panel has fewer pixels across
-HIDDEN = "_"  # matplotlib leaves out of the legend what begins with this
+APART = 0.15  # [share of a panel] distance of markers
+MOST = 1000  # samples of a curve drawn at most: a panel has fewer pixels
+HIDDEN = "_"  # matplotlib leaves labels that begin with this out of the legend
 
 
 @dataclass(frozen=True)
 class _Pen:
-    """How a test is drawn."""
+    """Color, line, marker and width of a test's curve."""
 
     color: str
     line: Dash
@@ -60,16 +60,16 @@ def plot_time_series(
 ) -> Picture:
     """Voltage and velocity of the four tests over time, in the log's own unit.
 
-    Of a test that was repeated the first run is drawn.
+    If a test was repeated, its first run is drawn.
 
     Args:
-        log: with at least one of the four tests.
-        beside: the same tests another way, drawn in thin black: what really happened, or what a
-            model makes of the same voltage.
-        names: what to call the log and what is beside it.
-        dynamic_seconds: [s] how much of the dynamic tests to show; None shows all.
-        damages: where the log is damaged, as found in it or as made: hatched, with a letter for
-            each fault. Those of a run that is not drawn are only told in words.
+        log: a log with at least one of the four tests.
+        beside: a second log of the same tests, drawn as a thin black line: the true motion, or a
+            simulation with the same voltage.
+        names: names of the log and of ``beside``.
+        dynamic_seconds: length of the dynamic tests to show [s]; None shows all.
+        damages: damaged parts, drawn hatched with a letter for each fault; those of runs that are
+            not drawn are only described.
 
     Raises:
         BadRequest: the log has none of the four tests, or a damage is not of this log.
@@ -99,7 +99,7 @@ def plot_time_series(
 
 
 def _first_runs(log: Log) -> dict[int, Run]:
-    """Place in the log -> run, the first of each of the four tests that has a sample."""
+    """Index in the log -> run, for the first run with samples of each of the four tests."""
     found: dict[str, int] = {}
     for index, run in enumerate(log.runs):
         if len(run):
@@ -163,7 +163,7 @@ def _tests_table(runs: Mapping[int, Run], per: Unit) -> Table:
     return Table(header, rows, caption="The log in numbers")
 
 
-def _two(value: Cell) -> str:
+def _format_two_decimals(value: Cell) -> str:
     return f"{round(float(value), 2) + 0.0:.2f}".replace("-", "−")  # never −0.00
 
 
@@ -175,12 +175,12 @@ def _time_words(table: Table, per: Unit, names: Sequence[str]) -> str:
     )
     for test, _, lasts, first, last, fastest in table.rows:
         goes = (
-            f"stays at {_two(first)} V for"
+            f"stays at {_format_two_decimals(first)} V for"
             if first == last
-            else (f"goes from {_two(first)} to {_two(last)} V in")
+            else (f"goes from {_format_two_decimals(first)} to {_format_two_decimals(last)} V in")
         )
         said += f" In {test} the voltage {goes} {lasts:.1f} s, "
-        said += f"and the velocity reaches {_two(fastest)} {per.symbol}/s."
+        said += f"and the velocity reaches {_format_two_decimals(fastest)} {per.symbol}/s."
     for kind in KINDS:
         there = [way for way in DIRECTIONS if any(row[0] == f"{kind}-{way}" for row in table.rows)]
         if len(there) < len(DIRECTIONS):

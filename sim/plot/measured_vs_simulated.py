@@ -1,7 +1,7 @@
-"""A fit's simulation beside its log: measured, simulated, and residual.
+"""Measured and simulated signals of a fit, and their residuals.
 
-A simulation that is right leaves nothing but noise, so beneath each curve stands what it leaves,
-with the band in which noise alone would keep it 95 times of a hundred.
+With a correct model, the residual is sensor noise alone. So the residual is drawn below each curve,
+with the band that holds 95 % of this noise.
 """
 
 from collections.abc import Iterable, Sequence
@@ -17,13 +17,13 @@ from sim.plot.decimate import decimate_curve
 from sim.plot.picture import COLORS, INK, PAPER, Picture
 from sim.plot.table import Table, to_text
 
-MOST = 500  # samples of a curve that are drawn: a panel has fewer pixels across
-BAND = 1.96  # [standard deviations] that hold 95 of 100 samples of noise
-SEEN, SAID = "measured", "simulated"
-MARK = 0.12  # [share of a panel] between the simulation's markers
+MOST = 500  # samples of a curve drawn at most: a panel has fewer pixels
+BAND = 1.96  # [standard deviations] half width of a band with 95 % of the noise
+MEASURED, SIMULATED = "measured", "simulated"
+MARK = 0.12  # [share of a panel] distance of the simulation's markers
 ROWS, HEIGHT, WIDTH = 3, 4.6, 7.6  # panels above each other; [in] of one run
-SIDE_BY_SIDE = 2  # runs, where all are in one picture
-EVERY = 40  # runs: more in one picture are too small to read, and too large to write
+SIDE_BY_SIDE = 2  # runs in a row, in a picture of all runs
+MOST_RUNS = 40  # runs in one picture at most: more would be too small to read
 
 
 def plot_measured_vs_simulated(one: RunReplay, *, per: Unit) -> Picture:
@@ -44,14 +44,14 @@ def draw_all_runs(
     """Draw all runs into one figure, two per row.
 
     Args:
-        runs: of more than can be read the first are drawn.
+        runs: at most the first ``MOST_RUNS`` are drawn.
         per: the unit of position to show.
-        more: how many empty blocks to leave at the end.
+        more: number of empty blocks at the end.
 
     Returns:
         The figure, and its empty blocks.
     """
-    drawn = runs[:EVERY]
+    drawn = runs[:MOST_RUNS]
     rows = -(-len(drawn) // SIDE_BY_SIDE) + -(-more // SIDE_BY_SIDE)
     size = (SIDE_BY_SIDE * WIDTH, rows * HEIGHT)
     figure = Figure(figsize=size, layout="constrained", facecolor=PAPER)
@@ -63,12 +63,12 @@ def draw_all_runs(
 
 
 def describe_run(one: RunReplay, *, per: Unit) -> str:
-    """What the picture of a run shows, in sentences with numbers."""
-    velocity, position = _misses(one)
+    """A description of the picture of a run, with numbers."""
+    velocity, position = _rms_residuals(one)
     run, symbol = one.run, per.symbol
     return (
-        f"{run.test}: measured and simulated velocity and position over {_lasts(one):.2f} s. Below "
-        "each is the difference of the two, with the band of noise. The voltage goes from "
+        f"{run.test}: measured and simulated velocity and position over {_duration(one):.2f} s. "
+        "Below each is the difference of the two, with the band of noise. The voltage goes from "
         f"{run.voltage[0]:.2f} to {run.voltage[-1]:.2f} V. The velocity reaches "
         f"{to_text(_farthest(run.velocity) / per.si)} {symbol}/s. While it moves, the simulated "
         f"velocity is off by {to_text(velocity / per.si)} {symbol}/s (RMS), which is "
@@ -78,15 +78,15 @@ def describe_run(one: RunReplay, *, per: Unit) -> str:
 
 
 def make_error_table(runs: Sequence[RunReplay], *, per: Unit) -> Table:
-    """A table of the simulation's errors, run by run."""
+    """A table of the simulation errors (RMS) of each run."""
     rows = []
     for one in runs:
-        velocity, position = _misses(one)
+        velocity, position = _rms_residuals(one)
         rows.append(
             (
                 one.run.test,
                 len(one.run),
-                round(_lasts(one), 2),
+                round(_duration(one), 2),
                 _farthest(one.run.velocity) / per.si,
                 velocity / per.si,
                 velocity / max(one.velocity_noise, 1e-12),
@@ -101,8 +101,8 @@ def make_error_table(runs: Sequence[RunReplay], *, per: Unit) -> Table:
     return Table(header, tuple(rows))
 
 
-def _misses(one: RunReplay) -> tuple[float, float]:
-    """RMS residuals of velocity and position while it moves."""
+def _rms_residuals(one: RunReplay) -> tuple[float, float]:
+    """RMS residuals of velocity and position in SI, while the mechanism moves."""
     where = one.moving if one.moving.any() else np.ones(len(one.run), dtype=bool)
     return (
         float(np.sqrt(np.mean(one.velocity_error[where] ** 2))),
@@ -110,7 +110,7 @@ def _misses(one: RunReplay) -> tuple[float, float]:
     )
 
 
-def _lasts(one: RunReplay) -> float:
+def _duration(one: RunReplay) -> float:
     return float(one.run.time[-1] - one.run.time[0])
 
 
@@ -119,7 +119,7 @@ def _farthest(values: Array) -> float:
 
 
 def _draw(figure: Figure | SubFigure, one: RunReplay, *, per: Unit) -> None:
-    """Velocity on the left, position on the right; their residuals beneath; the voltage below."""
+    """Draw velocity on the left and position on the right, residuals and voltage below them."""
     grid = figure.subplots(
         ROWS, 2, sharex=True, squeeze=False, gridspec_kw={"height_ratios": (3, 1.5, 1.5)}
     )
@@ -129,10 +129,12 @@ def _draw(figure: Figure | SubFigure, one: RunReplay, *, per: Unit) -> None:
         ("velocity", f"{symbol}/s", one.run.velocity, one.velocity, one.velocity_noise),
         ("position", symbol, one.run.position, one.position, one.position_noise),
     )
-    for column, (name, unit, seen, said, noise) in enumerate(sides):
-        _curves(grid[0, column], time, seen / per.si, said / per.si)
+    for column, (name, unit, measured, simulated, noise) in enumerate(sides):
+        _curves(grid[0, column], time, measured / per.si, simulated / per.si)
         grid[0, column].set_ylabel(f"{name} [{unit}]", color=INK, fontsize=9)
-        _left(grid[1, column], time, (seen - said) / per.si, band=BAND * noise / per.si)
+        _draw_residual(
+            grid[1, column], time, (measured - simulated) / per.si, band=BAND * noise / per.si
+        )
         grid[1, column].set_ylabel(f"residual [{unit}]", color=INK, fontsize=9)
         _line(grid[2, column], time, one.run.voltage, color=COLORS[5], label="voltage")
         low, high = grid[2, column].get_ylim()
@@ -143,7 +145,7 @@ def _draw(figure: Figure | SubFigure, one: RunReplay, *, per: Unit) -> None:
 
 
 def add_shared_legend(figure: Figure | SubFigure, axes: Iterable[Axes]) -> None:
-    """One legend below a figure or a part of one."""
+    """Add one legend below a figure or a part of one."""
     entries = [panel.get_legend_handles_labels() for panel in axes]
     figure.legend(
         [handle for handles, _ in entries for handle in handles],
@@ -157,7 +159,7 @@ def add_shared_legend(figure: Figure | SubFigure, axes: Iterable[Axes]) -> None:
 
 
 def make_plain_axes(axes: Iterable[Axes]) -> None:
-    """Empty axes as all pictures have them."""
+    """Apply the common style of all pictures to axes."""
     for panel in axes:
         panel.set_facecolor(PAPER)
         panel.grid(visible=True, color="#DDDDDD", linewidth=0.6)
@@ -165,18 +167,18 @@ def make_plain_axes(axes: Iterable[Axes]) -> None:
         panel.tick_params(colors=INK, labelsize=8)
 
 
-def _curves(axes: Axes, time: Array, seen: Array, said: Array) -> None:
-    """Measured as a broad pale line, simulated as a thin dark one with marks, on top."""
-    kept = decimate_curve(seen, most=MOST)
-    axes.plot(time[kept], seen[kept], color=COLORS[4], linewidth=3.2, label=SEEN)
-    kept = decimate_curve(said, most=MOST)
+def _curves(axes: Axes, time: Array, measured: Array, simulated: Array) -> None:
+    """Draw the measured curve broad and pale, and over it the simulated one thin with markers."""
+    kept = decimate_curve(measured, most=MOST)
+    axes.plot(time[kept], measured[kept], color=COLORS[4], linewidth=3.2, label=MEASURED)
+    kept = decimate_curve(simulated, most=MOST)
     axes.plot(
-        time[kept], said[kept], color=COLORS[1], linewidth=1.1, linestyle="--", marker="s",
-        markersize=3.2, markevery=MARK, label=SAID,
+        time[kept], simulated[kept], color=COLORS[1], linewidth=1.1, linestyle="--", marker="s",
+        markersize=3.2, markevery=MARK, label=SIMULATED,
     )  # fmt: skip
 
 
-def _left(axes: Axes, time: Array, rest: Array, *, band: float) -> None:
+def _draw_residual(axes: Axes, time: Array, rest: Array, *, band: float) -> None:
     axes.axhspan(-band, band, color="#BBBBBB", alpha=0.6, linewidth=0, label="95% of the noise")
     _line(axes, time, rest, color=COLORS[0], label="measured minus simulated")
     axes.axhline(0.0, color=INK, linewidth=0.6)

@@ -1,4 +1,4 @@
-"""A figure that can also be read: its picture, the same in words, and its numbers in a table."""
+"""Accessible figures: a drawing, its description in words, and a table of its numbers."""
 
 import base64
 import io
@@ -22,29 +22,29 @@ from sim.support.atomic_file import atomic_path
 Dash: TypeAlias = str | tuple[float, tuple[float, ...]]  # a line style, as matplotlib takes it
 
 SUFFIXES = (".svg", ".png", ".pdf")
-PAPER = "white"  # an opaque ground: colors chosen for contrast on white stay legible on a dark page
+PAPER = "white"  # opaque, so that colors chosen for white stay legible on a dark page
 INK = "#222222"
-# JupyterLab's dark theme shows the same drawing with light and dark exchanged, hues kept.
+# In JupyterLab's dark theme, the drawing's lightness is inverted, and its hues are kept.
 DARK = 'body[data-jp-theme-light="false"] figure.picture img{filter:invert(0.9) hue-rotate(180deg)}'
 
-# Okabe and Ito's colors, which people who see few colors can tell apart, without the yellow that
-# is too pale on white. Each has a marker and a line style of its own: color never speaks alone.
+# Okabe and Ito's colors for color-blind people, without yellow, too pale on white. Each has
+# its own marker and line style, so that color is never the only difference.
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#000000")
-# The same on a dark page: only its blue and its black are too dark there.
+# The same for a dark page, where blue and black would be too dark.
 COLORS_ON_DARK = ("#3A8FD0", *COLORS[1:-1], "#FFFFFF")
 MARKERS = ("o", "s", "^", "D", "v", "x")
 LINES: tuple[Dash, ...] = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (1, 1)))
-REFERENCE = "#000000"  # what is true, asked for, or really happened
+REFERENCE = "#000000"  # color of the truth and of targets
 
 
 @dataclass(frozen=True, eq=False)
 class Picture:
-    """A figure with everything a reader without eyes, colors or JavaScript needs.
+    """A figure with a description and a table, readable without seeing it, and without JavaScript.
 
     Args:
         figure: the drawing.
-        alt: what it shows, in a few sentences with numbers.
-        table: its numbers; None where ``alt`` says them all.
+        alt: a description in a few sentences with numbers.
+        table: its numbers; None if ``alt`` holds them all.
     """
 
     figure: Figure
@@ -55,8 +55,8 @@ class Picture:
     def svg(self) -> str:
         """The drawing as SVG; the same figure always gives the same text.
 
-        Where matplotlib's font lacks a sign, for instance of a Chinese name, the text stays text,
-        and whoever shows the drawing takes a font of the computer's.
+        If matplotlib's font lacks a character, for example of a Chinese name, text is not converted
+        to paths, and the viewer uses a font of the computer.
         """
         try:
             return self._draw_svg("path", missing="error")
@@ -72,7 +72,7 @@ class Picture:
 
     @property
     def html(self) -> str:
-        """Picture, words and table as a piece of HTML that needs nothing from elsewhere."""
+        """Picture, description and table as self-contained HTML."""
         source = base64.b64encode(self.svg.encode("utf-8")).decode("ascii")
         width = round(self.figure.get_figwidth() * 96)
         return (
@@ -85,10 +85,12 @@ class Picture:
         )
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the drawing into a file, whole or not at all; its title is the alternative text.
+        """Write the drawing into a file; its title is the description.
+
+        If that fails, an existing file stays as it was.
 
         Raises:
-            BadRequest: the name ends in no kind of picture, or the file cannot be written.
+            BadRequest: the name does not end in .svg, .png or .pdf, or the file cannot be written.
         """
         target = Path(path)
         kind = target.suffix.lower()
@@ -116,14 +118,17 @@ class Picture:
             ) from None
 
     def __str__(self) -> str:
-        """The words and the numbers, for a terminal."""
+        """The description and the table, for a terminal."""
         return f"{self.alt}\n\n{self.table}" if self.table else self.alt
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, str]:
         return {"text/plain": str(self), "text/html": self.html}
 
 
-_DATE = {".svg": "Date", ".pdf": "CreationDate"}  # left out, so that a picture never changes
+_DATE = {
+    ".svg": "Date",
+    ".pdf": "CreationDate",
+}  # omitted, so that the same picture gives the same file
 
 
 def make_panels(
@@ -132,10 +137,10 @@ def make_panels(
     """A figure with a grid of empty axes.
 
     Args:
-        rows: of the grid.
-        columns: of the grid.
-        width: [in] of the figure.
-        height: [in] of the figure.
+        rows: rows of the grid.
+        columns: columns of the grid.
+        width: width of the figure [in].
+        height: height of the figure [in].
         shared: whether a column shares its x axis, and a row its y axis.
     """
     figure = Figure(figsize=(width, height), layout="constrained", facecolor=PAPER)
@@ -157,12 +162,12 @@ def make_panels(
 def add_legend(
     figure: Figure, axes: Sequence[Axes], *, columns: int = 3, extra: Sequence[Artist] = ()
 ) -> None:
-    """One legend below all panels, each name once.
+    """Add one legend below all panels, with each name once.
 
     Args:
-        figure: where it goes.
+        figure: the figure of the panels.
         axes: the panels whose labels it lists.
-        columns: at most so many names side by side.
+        columns: largest number of names in a row.
         extra: further labeled entries.
     """
     entries: dict[str, Artist] = {}

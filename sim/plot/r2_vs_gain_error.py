@@ -1,4 +1,4 @@
-"""Many fits in one picture: the score that each was given, and by how much its gains are off."""
+"""Scores of many fits (as R²), and the errors of their gains, in one picture."""
 
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 
 PASSED, FAILED = ("✓", "#009E73", ""), ("✗", "#D55E00", "///")
 PERCENT = 100.0
-LINEAR = 10.0  # [%] within which errors are drawn to scale; beyond, by their order of size
-ROW, FOOT = 0.27, 1.25  # [in]
+LINEAR = 10.0  # [%] smaller errors are on a linear scale, larger ones on a logarithmic scale
+ROW, FOOT = 0.27, 1.25  # [in] height of a row, and of the rest
 TICKS = (-1000, -100, -10, 0, 10, 100, 1000)
 
 
@@ -36,13 +36,13 @@ def plot_r2_vs_gain_error(
     score: str,
     off: Mapping[str, Mapping[str, float]] | None = None,
 ) -> Picture:
-    """The score of each fit, and the errors of its gains beside it.
+    """The score of each fit, and the errors of its gains.
 
     Args:
         scores: fit -> its score, from top to bottom.
-        good: a higher score passes.
-        score: what the score is called.
-        off: gain -> fit -> by which share it is off, 0.1 is 10 % too large; None hides that.
+        good: the threshold; a higher score passes.
+        score: name of the score.
+        off: gain -> fit -> relative error, 0.1 is 10 % too large; None hides the errors.
 
     Raises:
         BadRequest: there are no scores, or a gain lacks a fit.
@@ -67,7 +67,7 @@ def plot_r2_vs_gain_error(
 
 
 def _badges(axes: Axes, scores: Mapping[str, float], *, good: float, score: str) -> None:
-    """Bars with a sign and a number each; the threshold as a line."""
+    """Draw a bar with sign and number for each score, and the threshold as a line."""
     for place, value in enumerate(scores.values()):
         sign, color, hatch = PASSED if value > good else FAILED
         shown = min(max(value, 0.0), 1.0)
@@ -97,7 +97,7 @@ def _badges(axes: Axes, scores: Mapping[str, float], *, good: float, score: str)
 def _errors(
     axes: Axes, scores: Mapping[str, float], off: Mapping[str, Mapping[str, float]]
 ) -> None:
-    """A mark for each gain, on a scale that shows 1 % and 500 % alike."""
+    """Draw a marker for each error, on a scale on which both 1 % and 500 % are visible."""
     axes.set_xscale("symlog", linthresh=LINEAR, linscale=0.8)
     axes.axvline(0.0, color=REFERENCE, linewidth=1.2)
     for index, (gain, found) in enumerate(off.items()):
@@ -128,15 +128,15 @@ def _table(
     ]
     if off is None:
         return Table(header, tuple(rows))
-    told = (
+    full_rows = (
         (*row, *(format_percent(found[name]) for found in off.values()))
         for name, row in zip(scores, rows, strict=True)
     )
-    return Table((*header, *(f"{gain} off by" for gain in off)), tuple(told))
+    return Table((*header, *(f"{gain} off by" for gain in off)), tuple(full_rows))
 
 
 def format_percent(share: float) -> str:
-    """A share as a signed percentage without decimals."""
+    """A ratio as a signed percentage without decimals: 0.1 gives ``+10 %``."""
     whole = round(PERCENT * share)
     return f"{whole:+d} %".replace("-", "−") if whole else "0 %"
 

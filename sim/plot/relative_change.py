@@ -1,4 +1,4 @@
-"""What a change does to several numbers: each as a multiple of what it was."""
+"""Relative changes of several numbers, each as a multiple of its value before."""
 
 from collections.abc import Mapping
 
@@ -6,18 +6,18 @@ from sim.core.errors import BadRequest
 from sim.plot.picture import COLORS, INK, MARKERS, PAPER, REFERENCE, Picture, make_panels
 from sim.plot.table import Table, to_text
 
-SAME = 0.005  # [share] by which a number may differ and still be called the same
-WIDTH = 3.0  # [times] the scale shows at least, so that a small change looks small
+SAME = 0.005  # [1] smaller relative changes are called the same
+WIDTH = 3.0  # least upper end of the scale, so that a small change looks small
 
 
 def plot_relative_change(times: Mapping[str, float]) -> Picture:
     """Several numbers after a change, each divided by its value before.
 
     Args:
-        times: name -> now over before, from top to bottom.
+        times: name -> value after / value before, from top to bottom.
 
     Raises:
-        BadRequest: there are none, or one is not above zero.
+        BadRequest: there are no numbers, or one is not above zero.
     """
     if not times or not all(value > 0.0 for value in times.values()):
         raise BadRequest(

@@ -1,4 +1,4 @@
-"""A robot on a floor with a mark: where it is, when the motors are off, what the battery does."""
+"""A test on a floor with a tape and a wall: the robot's position, speed and battery voltage."""
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -9,11 +9,11 @@ from sim.plot.picture import COLORS, INK, PAPER, REFERENCE, Picture, make_panels
 from sim.plot.table import Table
 from sim.teaching.runway import FloorTest
 
-LONG, WIDE = 0.8, 0.8  # [m] of a robot with its bumpers, as drawn
+LONG, WIDE = 0.8, 0.8  # [m] size of the robot with its bumpers, as drawn
 BEHIND = 1.2  # [m] of floor behind the start
-ROOMY = 0.25  # [share of the floor] that two words need between a line and the wall's own word
-SEEN, TAPE, BUMP = COLORS[0], COLORS[3], COLORS[1]
-LIT = "#F5C2A3"  # a paler vermilion: words over it stay legible
+TEXT_WIDTH = 0.25  # [share of the floor] width of a label beside the label of the wall
+ROBOT, TAPE, BUMP = COLORS[0], COLORS[3], COLORS[1]
+LAMP_ON = "#F5C2A3"  # pale, so that text over it stays legible
 
 
 def plot_runway(drive: FloorTest, *, moment: float = 1.0) -> Picture:
@@ -21,7 +21,7 @@ def plot_runway(drive: FloorTest, *, moment: float = 1.0) -> Picture:
 
     Args:
         drive: the test, in meters.
-        moment: [share of the test's time] at which the robot is drawn.
+        moment: time at which the robot is drawn, as a share of the test, 0 to 1.
 
     Raises:
         BadRequest: the moment is not within the test.
@@ -35,7 +35,7 @@ def plot_runway(drive: FloorTest, *, moment: float = 1.0) -> Picture:
     speed.set_ylabel("speed [m/s]", color=INK)
     _over_time(battery, drive, drive.battery, now)
     battery.axhline(drive.brownout, color=REFERENCE, linestyle="--", linewidth=1.0)
-    battery.annotate(  # at the floor of the picture: a battery that gives in dips through the line
+    battery.annotate(  # at the bottom, because the curve may cross the line
         f"dashed: brownout below {drive.brownout:g} V", (0.0, 0.0), xytext=(3, 3),
         textcoords="offset points", fontsize=8, color=INK,
     )  # fmt: skip
@@ -48,7 +48,7 @@ def plot_runway(drive: FloorTest, *, moment: float = 1.0) -> Picture:
 
 
 def _floor(axes: Axes, drive: FloorTest, now: int) -> None:
-    """The floor from above: start, tape, wall, and the robot's front where it is."""
+    """Draw the floor from above: start, tape, wall, and the robot now and at its final position."""
     wall, rests = drive.floor.wall, drive.final_position
     axes.set_xlim(-BEHIND, wall + 0.06 * (wall + BEHIND))
     axes.set_ylim(-1.0, 1.0)
@@ -64,7 +64,7 @@ def _floor(axes: Axes, drive: FloorTest, now: int) -> None:
     if drive.hit_wall is None:
         there = float(np.interp(drive.released, drive.time, drive.position))
         axes.axvline(there, color=INK, linewidth=1.2, linestyle=":")
-        near = wall - there < ROOMY * (wall + BEHIND)
+        near = wall - there < TEXT_WIDTH * (wall + BEHIND)
         _sign(axes, there, "motors off", ha="right" if near else "left", below=True)
     _robot(axes, rests, fill=False)
     _robot(axes, float(drive.position[now]), fill=True)
@@ -88,8 +88,8 @@ def _sign(axes: Axes, x: float, text: str, *, ha: str, below: bool = False) -> N
 
 
 def _robot(axes: Axes, front: float, *, fill: bool) -> None:
-    """A robot whose front bumper is at a place; as a mere outline where it will stand."""
-    face, edge, line = (SEEN, INK, "-") if fill else ("none", SEEN, "--")
+    """Draw a robot by the position [m] of its front bumper, filled or as an outline."""
+    face, edge, line = (ROBOT, INK, "-") if fill else ("none", ROBOT, "--")
     axes.add_patch(
         Rectangle(
             (front - LONG, -WIDE / 2), LONG, WIDE, facecolor=face, edgecolor=edge, linestyle=line,
@@ -101,16 +101,16 @@ def _robot(axes: Axes, front: float, *, fill: bool) -> None:
 def _over_time(
     axes: Axes, drive: FloorTest, signal: "np.typing.NDArray[np.float64]", now: int
 ) -> None:
-    """A signal, the moment shown, and when the motors were off."""
-    axes.plot(drive.time, signal, color=SEEN, linewidth=1.6)
-    axes.plot(drive.time[now], signal[now], "o", color=SEEN, markeredgecolor=INK, markersize=8)
+    """Draw a signal over time, the time shown, and the time when the motors were turned off."""
+    axes.plot(drive.time, signal, color=ROBOT, linewidth=1.6)
+    axes.plot(drive.time[now], signal[now], "o", color=ROBOT, markeredgecolor=INK, markersize=8)
     if drive.hit_wall is None:
         axes.axvline(drive.released, color=INK, linestyle=":", linewidth=1.2)
     axes.set_xlim(0.0, float(drive.time[-1]) * 1.02)
 
 
 def _lamp(axes: Axes, drive: FloorTest) -> None:
-    """A lamp above the floor that says by color, sign and word whether the battery gave in."""
+    """Draw a lamp that shows by color, sign and word whether there was a brownout."""
     out = drive.browned_out
     axes.set_title("the floor from above", fontsize=10, color=INK, loc="left")
     axes.set_title(
@@ -119,12 +119,16 @@ def _lamp(axes: Axes, drive: FloorTest) -> None:
         color=INK,
         loc="right",
         x=0.99,  # its frame ends with the floor
-        bbox={"facecolor": LIT if out else PAPER, "edgecolor": INK, "boxstyle": "round,pad=0.3"},
+        bbox={
+            "facecolor": LAMP_ON if out else PAPER,
+            "edgecolor": INK,
+            "boxstyle": "round,pad=0.3",
+        },
     )
 
 
 def _passed(drive: FloorTest) -> float | None:
-    """[s] when the tape was passed."""
+    """The time [s] when the robot passed the tape; None if it did not, or without tape."""
     tape = drive.floor.tape
     if tape is None or drive.final_position < tape:
         return None
@@ -161,8 +165,8 @@ def _words(drive: FloorTest, now: int) -> str:
     if drive.hit_wall is not None:
         said += f"It hits the wall after {drive.hit_wall:.2f} s. "
     else:
-        room = drive.floor.wall - drive.final_position
-        said += f"It stops at {drive.final_position:.2f} m, {room:.2f} m before the wall. "
+        margin = drive.floor.wall - drive.final_position
+        said += f"It stops at {drive.final_position:.2f} m, {margin:.2f} m before the wall. "
     said += (
         f"The picture shows it at {drive.time[now]:.2f} s, {drive.position[now]:.2f} m from the "
     )

@@ -1,4 +1,4 @@
-"""Step responses of feedback gains: those that are suggested, and the learner's own."""
+"""Step responses of feedback gains: the suggested ones, and the user's own."""
 
 from collections.abc import Sequence
 
@@ -14,20 +14,20 @@ from sim.plot.picture import COLORS, INK, LINES, MARKERS, PAPER, REFERENCE, Pict
 from sim.plot.table import Table, to_text
 
 WIDTH, HEIGHT = 7.6, 4.2  # [in]
-MOST = 500  # points of a curve that are drawn
-MARK = 0.13  # [share of a panel] between markers
-WIDER = 1.6  # [times the step] shown around it at most: what runs away leaves the picture
+MOST = 500  # points of a curve drawn at most
+MARK = 0.13  # [share of a panel] distance of markers
+WIDER = 1.6  # [steps] upper limit of the axis: an unstable response leaves the picture
 
 
 def plot_step_responses(tried: Sequence[FeedbackTrial], *, per: Unit) -> Picture:
     """The step response of each loop, with its voltage.
 
     Args:
-        tried: at least one, of one loop or of both.
-        per: the unit of position that they count in.
+        tried: the trials of one loop or of both, at least one.
+        per: the unit of position of the trials.
 
     Raises:
-        BadRequest: there is none.
+        BadRequest: there are no trials.
     """
     if not tried:
         raise BadRequest("no feedback gains to draw", advice="Fit a log whose gains are positive.")
@@ -39,20 +39,20 @@ def plot_step_responses(tried: Sequence[FeedbackTrial], *, per: Unit) -> Picture
 
 
 def group_by_loop(tried: Sequence[FeedbackTrial]) -> list[list[FeedbackTrial]]:
-    """The trials of each loop that there are any of."""
+    """The trials grouped by loop."""
     loops = dict.fromkeys(trial.loop for trial in tried)
     return [[trial for trial in tried if trial.loop == loop] for loop in loops]
 
 
 def draw_loop(figure: SubFigure, tried: Sequence[FeedbackTrial], *, per: Unit) -> None:
-    """Draw the responses of one loop: what is held above, the voltage below.
+    """Draw the step responses of one loop: the controlled signal above, the voltage below.
 
     Args:
-        figure: an empty one.
-        tried: of one loop.
-        per: the unit of position that they count in.
+        figure: an empty figure.
+        tried: the trials of one loop.
+        per: the unit of position of the trials.
     """
-    target, end = tried[0].response.target, max(map(_worth, tried))
+    target, end = tried[0].response.target, max(map(_time_to_show, tried))
     upper, lower = figure.subplots(2, 1, sharex=True)
     make_plain_axes((upper, lower))
     for index, trial in enumerate(tried):
@@ -76,8 +76,8 @@ def draw_loop(figure: SubFigure, tried: Sequence[FeedbackTrial], *, per: Unit) -
     add_shared_legend(figure, (upper,))
 
 
-def _worth(trial: FeedbackTrial) -> float:
-    """[s] how much is worth a look: twice what it takes to settle, or to leave the picture."""
+def _time_to_show(trial: FeedbackTrial) -> float:
+    """Time to show [s]: twice the time to settle or to leave the picture."""
     response, settled = trial.response, trial.verdict.settled
     reach = (WIDER - 0.5) * abs(response.target)
     pairs = zip(response.time, response.value, strict=True)

@@ -12,7 +12,7 @@ from sim.plot.picture import COLORS, INK, PAPER, REFERENCE, Picture, make_panels
 from sim.plot.table import Table, to_text
 from sim.reconcile.story import Story, TriedCandidate
 
-BARS = 10  # suspects that are drawn: the others explain nothing
+BARS = 10  # candidates drawn at most
 TAKEN, PASSED, REFUSED = "taken", "also possible", "not admitted"
 LOOKS = {TAKEN: (COLORS[0], ""), PASSED: (COLORS[4], ".."), REFUSED: ("#CCCCCC", "///")}
 
@@ -21,11 +21,11 @@ def plot_candidate_bars(story: Story, chapter: int = 0) -> Picture:
     """Bars of the candidates of a round: how much each would explain.
 
     Args:
-        story: what was found.
+        story: result of ``reconcile``.
         chapter: number of the chapter.
 
     Raises:
-        BadRequest: no such chapter, or nothing was tried there.
+        BadRequest: there is no such chapter, or no candidate was tried in it.
     """
     count = len(story.chapters)
     if not -count <= chapter < count:
@@ -47,15 +47,16 @@ def plot_candidate_bars(story: Story, chapter: int = 0) -> Picture:
     axes.grid(visible=False, axis="y")
     axes.set_axisbelow(True)
     axes.legend(fontsize=8, labelcolor=INK, loc="lower right")
-    told = ". ".join(
-        f"{one.effect} {_points(one.improvement)}, {_why(one, taken)}" for one in drawn
+    listed = ". ".join(
+        f"{one.effect} {_format_score(one.improvement)}, {_describe_status(one, taken)}"
+        for one in drawn
     )
-    alt = f"Bars show what each suspect explains, the likeliest first: {told}."
+    alt = f"Bars show what each suspect explains, the likeliest first: {listed}."
     return Picture(figure, alt, make_candidate_table(story, chapter))
 
 
 def _bars(axes: Axes, drawn: Sequence[TriedCandidate], taken: str) -> None:
-    """A bar for each suspect, as long as it explains."""
+    """Draw a bar for each candidate, as long as its improvement."""
     most = max((max(one.improvement, 0.0) for one in drawn), default=0.0) or 1.0
     seen: set[str] = set()
     for place, one in enumerate(drawn):
@@ -66,7 +67,7 @@ def _bars(axes: Axes, drawn: Sequence[TriedCandidate], taken: str) -> None:
             linewidth=0.6, height=0.7, label=kind if kind not in seen else None,
         )  # fmt: skip
         seen.add(kind)
-        _beside(axes, max(one.improvement, 0.0), place, _points(one.improvement))
+        _write_at_bar(axes, max(one.improvement, 0.0), place, _format_score(one.improvement))
     axes.set_xlim(0.0, 1.15 * most)
 
 
@@ -74,7 +75,12 @@ def make_candidate_table(story: Story, chapter: int) -> Table:
     """A table of all candidates of a round."""
     taken = find_next_effect(story, chapter)
     rows = tuple(
-        (one.effect, _points(one.improvement), _known(one.gap_ratio), _why(one, taken))
+        (
+            one.effect,
+            _format_score(one.improvement),
+            _format_gap_value(one.gap_ratio),
+            _describe_status(one, taken),
+        )
         for one in story.chapters[chapter].tried
     )
     header = ("suspect", "likelier by", "gap becomes, times", "and so")
@@ -94,13 +100,13 @@ def describe_candidate_status(one: TriedCandidate, taken: str) -> str:
     return PASSED if one.admitted else REFUSED
 
 
-def _why(one: TriedCandidate, taken: str) -> str:
+def _describe_status(one: TriedCandidate, taken: str) -> str:
     kind = describe_candidate_status(one, taken)
     return f"{kind}: {one.why}" if kind == REFUSED and one.why else kind
 
 
-def _points(score: float) -> str:
-    """A score without digits that mean nothing."""
+def _format_score(score: float) -> str:
+    """The score rounded to an integer, as text."""
     return f"{round(score)}".replace("-", "−") if np.isfinite(score) else "not known"
 
 
@@ -110,7 +116,7 @@ def plot_gap_by_round(story: Story) -> Picture:
     floor = story.noise_floor if story.noise_floor > 0.0 else 1.0
     gaps = [one.gap / floor for one in story.chapters]
     figure, ((axes,),) = make_panels(1, 1, height=1.1 + 0.42 * len(gaps))
-    _lengths(axes, gaps)
+    _draw_gaps(axes, gaps)
     axes.axvline(1.0, color=REFERENCE, linestyle="--", linewidth=1.2)
     axes.annotate(
         "the noise of the velocity", (1.0, -0.55), xytext=(4, 0),
@@ -123,20 +129,20 @@ def plot_gap_by_round(story: Story) -> Picture:
     axes.set_axisbelow(True)
     symbol = find_unit(story.shown.units).symbol
     rows = tuple(
-        (name, _known(one.gap), _known(gap))
+        (name, _format_gap_value(one.gap), _format_gap_value(gap))
         for name, one, gap in zip(names, story.chapters, gaps, strict=True)
     )
-    told = ", ".join(f"{name} {times}" for name, _, times in rows)
+    listed = ", ".join(f"{name} {times}" for name, _, times in rows)
     return Picture(
         figure,
-        f"Bars show how many times the noise the simulation is off: {told}. A dashed line at 1 "
+        f"Bars show how many times the noise the simulation is off: {listed}. A dashed line at 1 "
         "marks the noise.",
         Table(("model", f"gap [{symbol}/s]", "times the noise"), rows),
     )
 
 
-def _lengths(axes: Axes, gaps: Sequence[float]) -> None:
-    """A bar for each gap; the base model's is hatched, and a diverged one is the longest."""
+def _draw_gaps(axes: Axes, gaps: Sequence[float]) -> None:
+    """Draw a bar for each gap; that of the base model is hatched, infinite ones are longest."""
     longest = max([gap for gap in gaps if np.isfinite(gap)] or [1.0])
     for place, gap in enumerate(gaps):
         length = gap if np.isfinite(gap) else 1.3 * longest
@@ -144,18 +150,18 @@ def _lengths(axes: Axes, gaps: Sequence[float]) -> None:
             place, length, color=COLORS[0] if place else COLORS[1], height=0.6,
             hatch="" if place else "///", edgecolor=PAPER,
         )  # fmt: skip
-        _beside(axes, length, place, _known(gap))
+        _write_at_bar(axes, length, place, _format_gap_value(gap))
     away = not np.isfinite(gaps).all()
     axes.set_xlim(0.0, max((1.6 if away else 1.15) * longest, 1.8))
 
 
-def _known(value: float) -> str:
+def _format_gap_value(value: float) -> str:
     if math.isnan(value):
         return "not computed"
     return to_text(value) if math.isfinite(value) else "ran away"
 
 
-def _beside(axes: Axes, x: float, y: float, text: str) -> None:
+def _write_at_bar(axes: Axes, x: float, y: float, text: str) -> None:
     axes.annotate(
         text, (x, y), xytext=(4, 0), textcoords="offset points", va="center", fontsize=8, color=INK
     )

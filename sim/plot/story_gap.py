@@ -1,4 +1,4 @@
-"""Where simulation and measurement disagree, as maps: one shade for slower, another for faster."""
+"""Maps of the residuals of a story: blue where the robot is slower, orange where it is faster."""
 
 import math
 from collections.abc import Sequence
@@ -20,16 +20,20 @@ from sim.plot.table import Table
 from sim.reconcile.residual_map import map_residuals
 from sim.reconcile.story import Story
 
-VELOCITY = 1  # of the two signals
-MOST_RUNS = 12  # rows of the first map
-LOUD = 20.0  # [noises] at which a shade is full; the scale is logarithmic beyond one noise
+VELOCITY = 1  # index of the velocity among the two signals
+MOST_RUNS = 12  # rows of a map at most
+FULL_SHADE = 20.0  # [times the noise] at the end of the color scale, about logarithmic above 1
 TICKS = (-20, -5, -1, 0, 1, 5, 20)
-TOLD = 5  # places in words
-DIGITS = 4  # after the point that a tick has room for
-WIDE, ROW, SPARE = 8.4, 0.27, 0.72  # [in] of the picture, of a row, and around each map
-# Blue for slower, orange for faster: Okabe and Ito's, pale enough for dark numbers on top.
+DESCRIBED = 5  # places in the description and in the table
+DECIMALS = 4  # decimals of a tick label at most
+WIDE, ROW, SPARE = (
+    8.4,
+    0.27,
+    0.72,
+)  # [in] width of the picture, height of a row, height around each map
+# Pale tones of Okabe and Ito's blue and orange, so that dark numbers on them stay legible.
 SHADES = LinearSegmentedColormap.from_list("gap", ["#4C9BD1", PAPER, "#F08A4B"])
-NOWHERE = "#E9E9E9"  # no samples
+NO_SAMPLES = "#E9E9E9"  # no samples
 TITLES = {
     RUN: "run by run, from its beginning to its end",
     SPEED: "by speed",
@@ -66,17 +70,21 @@ def plot_residual_maps(story: Story) -> Picture:
 
 
 def _map(story: Story, tracks: Sequence[Array]) -> GapMap | None:
-    """What a model leaves of the shown runs; None if no velocity shows."""
+    """The residual maps of a model on the shown runs; None without enough velocity samples."""
     floor = story.noise_floor * find_unit(story.shown.units).si
     if not floor > 0.0:
         raise BadRequest("the noise is not known", advice="Give runs in which it moves.")
     made = map_residuals(story.shown, tracks, compared=story.compared, floor=floor)
-    return made if made and any(map(_there, made.all_maps)) else None
+    return made if made and any(map(_has_velocity, made.all_maps)) else None
 
 
 def _draw(found: Sequence[GapMap], titles: Sequence[str], *, per: Unit) -> Figure:
     first = found[0]
-    kinds = [n for n in range(len(first.all_maps)) if any(_there(one.all_maps[n]) for one in found)]
+    kinds = [
+        n
+        for n in range(len(first.all_maps))
+        if any(_has_velocity(one.all_maps[n]) for one in found)
+    ]
     rows = [min(len(first.all_maps[number].rows), MOST_RUNS) for number in kinds]
     height = sum(rows) * ROW + SPARE * len(rows) + 1.3
     figure = Figure(figsize=(WIDE, height), layout="constrained", facecolor=PAPER)
@@ -89,22 +97,22 @@ def _draw(found: Sequence[GapMap], titles: Sequence[str], *, per: Unit) -> Figur
             cells = one.all_maps[number]
             _heat(grid[line, column], cells, per=per, named=column == 0)
             grid[line, column].set_title(TITLES[cells.what], fontsize=8, color=INK, loc="left")
-    _heads(figure, grid, titles)
+    _draw_headings(figure, grid, titles)
     return figure
 
 
-def _there(cells: BinnedResiduals) -> bool:
+def _has_velocity(cells: BinnedResiduals) -> bool:
     """Whether any cell has enough samples of the velocity."""
     return bool(np.isfinite(cells.mean[VELOCITY]).any())
 
 
-def _heads(figure: Figure, grid: "np.ndarray[tuple[int, int], np.dtype[np.object_]]",
+def _draw_headings(figure: Figure, grid: "np.ndarray[tuple[int, int], np.dtype[np.object_]]",
            titles: Sequence[str]) -> None:  # fmt: skip
-    """What each column is, and what shades mean."""
+    """Draw the title of each column, the color scale and the legend."""
     for column, title in enumerate(titles):
         text = f"{title}\n{grid[0, column].get_title(loc='left')}"
         grid[0, column].set_title(text, fontsize=8, color=INK, loc="left")
-    full = float(_shade(np.array(LOUD)))
+    full = float(_shade(np.array(FULL_SHADE)))
     bar = figure.colorbar(
         ScalarMappable(Normalize(-full, full), SHADES), ax=grid.ravel().tolist(), location="bottom",
         shrink=0.7, aspect=40, ticks=[float(_shade(np.array(float(tick)))) for tick in TICKS],
@@ -117,24 +125,24 @@ def _heads(figure: Figure, grid: "np.ndarray[tuple[int, int], np.dtype[np.object
         fontsize=8, color=INK,
     )  # fmt: skip
     figure.legend(
-        handles=[Patch(facecolor=NOWHERE, edgecolor="#AAAAAA", hatch="///", label="no samples")],
+        handles=[Patch(facecolor=NO_SAMPLES, edgecolor="#AAAAAA", hatch="///", label="no samples")],
         loc="outside lower right", fontsize=8, frameon=False, labelcolor=INK,
     )  # fmt: skip
 
 
 def _heat(axes: Axes, cells: BinnedResiduals, *, per: Unit, named: bool) -> None:
     mean = cells.mean[VELOCITY][:MOST_RUNS]
-    loud = np.abs(np.nan_to_num(mean)) >= 1.0
-    full = float(_shade(np.array(LOUD)))
-    axes.set_facecolor(NOWHERE)
+    significant = np.abs(np.nan_to_num(mean)) >= 1.0
+    full = float(_shade(np.array(FULL_SHADE)))
+    axes.set_facecolor(NO_SAMPLES)
     rows, columns = mean.shape
-    axes.add_patch(_nothing(columns, rows))
+    axes.add_patch(_make_background(columns, rows))
     axes.imshow(
         _shade(mean), cmap=SHADES, vmin=-full, vmax=full, aspect="auto", interpolation="nearest",
         zorder=2,
     )  # fmt: skip
-    for row, column in zip(*np.nonzero(loud), strict=True):
-        text = _whole(float(mean[row, column]))
+    for row, column in zip(*np.nonzero(significant), strict=True):
+        text = _format_cell(float(mean[row, column]))
         axes.text(column, row, text, ha="center", va="center", fontsize=6, color=INK, zorder=3)
     axes.set_yticks(range(rows), cells.rows[:MOST_RUNS] if named else [""] * rows)
     axes.tick_params(labelsize=7, colors=INK, length=2)
@@ -142,16 +150,16 @@ def _heat(axes: Axes, cells: BinnedResiduals, *, per: Unit, named: bool) -> None
     axes.spines[:].set_color("#AAAAAA")
 
 
-def _nothing(columns: int, rows: int) -> Patch:
-    """The ground that shows where no cell is."""
+def _make_background(columns: int, rows: int) -> Patch:
+    """The hatched background, visible where a cell has no samples."""
     return Rectangle(
-        (-0.5, -0.5), columns, rows, facecolor=NOWHERE, edgecolor="#AAAAAA", hatch="///",
+        (-0.5, -0.5), columns, rows, facecolor=NO_SAMPLES, edgecolor="#AAAAAA", hatch="///",
         linewidth=0, zorder=1,
     )  # fmt: skip
 
 
 def _ticks(cells: BinnedResiduals, *, per: Unit) -> tuple[list[float], list[str]]:
-    """Where the edges of columns are, in the log's unit."""
+    """Positions and labels of the column edges, in the log's unit."""
     count = cells.edges.shape[1]
     if cells.what == RUN:
         return [-0.5, count / 2.0 - 1.0, count - 1.5], ["begins", "", "ends"]
@@ -160,18 +168,18 @@ def _ticks(cells: BinnedResiduals, *, per: Unit) -> tuple[list[float], list[str]
     scale = per.si if cells.what in {SPEED, POSITION} else 1.0
     values = cells.edges[0] / scale
     digits = max(1 - math.floor(math.log10(float(np.ptp(values)) / count or 1.0)), 0)
-    form = f".{digits}f" if digits <= DIGITS else ".1e"
+    form = f".{digits}f" if digits <= DECIMALS else ".1e"
     labels = [f"{values[edge]:{form}}".replace("-", "−") for edge in some]
     labels[-1] += f" {units[cells.what]}"
     return [edge - 0.5 for edge in some], labels
 
 
 def _shade(mean: Array) -> Array:
-    """Shades that tell one noise from five, and five from twenty."""
+    """Position on the color scale, asinh(mean), which separates 1, 5 and 20 times the noise."""
     return np.asarray(np.arcsinh(mean))
 
 
-def _whole(value: float) -> str:
+def _format_cell(value: float) -> str:
     text = f"{value:+.0f}" if abs(value) >= 1.0 else f"{value:+.1f}"
     return text.replace("-", "−")
 
@@ -188,7 +196,7 @@ def _words(found: Sequence[GapMap], titles: Sequence[str]) -> str:
     )
     said = [first]
     for one, title in zip(found, titles, strict=True):
-        places = one.find_places(TOLD, signal="velocity")
+        places = one.find_places(DESCRIBED, signal="velocity")
         if places:
             said.append(f"{title}: " + ". ".join(place.sentence for place in places) + ".")
         else:
@@ -201,7 +209,7 @@ def _numbers(found: Sequence[GapMap], titles: Sequence[str]) -> Table:
     rows = [
         (place.where, _signed(place.error), f"{place.sure:.0f}", title)
         for one, title in zip(found, titles, strict=True)
-        for place in one.find_places(TOLD, signal="velocity")
+        for place in one.find_places(DESCRIBED, signal="velocity")
     ]
     if not rows:
         rows = [("nowhere clearly more than the noise", "", "", "any")]

@@ -1,14 +1,14 @@
-"""A mechanism that moves as it was simulated, beside its plots, on one clock.
+"""An animated mechanism and plots of its motion, with a common time cursor.
 
     animate_mechanism("drivetrain", Scene(time, (Motion("robot", velocity=v),)), ...)
 
-What it returns is plain HTML with a script inside. It moves in JupyterLab and in a page without a
-server, and asks nothing of the network. Where a motion has gains, the page simulates it itself
-(``sim/physics/engine/simulate.js``), so that a knob answers at once.
+The result is HTML with a script inside. It works in JupyterLab and in a page without a server, and
+needs no network. If a motion has gains, the page simulates it (``sim/physics/engine/simulate.js``),
+so that a slider has an effect at once.
 
 animation.js   clock, controls and plots
-stages.js      the mechanisms as they are drawn
-animation.css  how all of it looks, on light and on dark pages
+stages.js      drawings of the mechanisms
+animation.css  styles, for light and dark pages
 """
 
 import base64
@@ -58,20 +58,23 @@ __all__ = [
 
 FOLDER = Path(__file__).parent
 KINDS = ("drivetrain", "elevator", "arm", "flywheel", "swerve")
-FLOORS = ("drivetrain", "swerve")  # which drive on a floor
-LONG, BEHIND = 0.9, 0.16  # [m] of a robot with its bumpers; [share of the floor] it takes at most
-DIGITS = 5  # significant ones of what is drawn
-ROOM = 0.08  # [share of what is shown] that axes leave beyond it
+FLOORS = ("drivetrain", "swerve")  # kinds that drive on a floor
+LONG, BEHIND = (
+    0.9,
+    0.16,
+)  # length of a robot with bumpers [m]; largest share of the floor drawn behind its start [1]
+DIGITS = 5  # significant digits of what is drawn
+MARGIN = 0.08  # [1] margin of the axes, relative to the range of the values
 DASHES = {"-": "", "--": "7 4", "-.": "8 3 2 3", ":": "2 3"}  # matplotlib's line styles in SVG
 
 
 @dataclass(frozen=True)
 class Animation:
-    """A moving figure.
+    """An animated figure.
 
     Args:
-        data: what the script draws, ready for JSON.
-        alt: what is seen, in a few sentences with numbers.
+        data: the scenes and plots for the script, as plain data.
+        alt: a description of the figure in a few sentences with numbers.
     """
 
     data: Mapping[str, Any]
@@ -79,9 +82,9 @@ class Animation:
 
     @property
     def html(self) -> str:
-        """Figure, words, style and script as a piece of HTML that needs nothing from elsewhere."""
+        """Figure, description, style and script as self-contained HTML."""
         data = json.dumps(self.data, allow_nan=False, ensure_ascii=False, separators=(",", ":"))
-        data = data.replace("</", "<\\/")  # no name may end the script
+        data = data.replace("</", "<\\/")  # a name in the data must not end the script
         style = _write_palette() + (FOLDER / "animation.css").read_text(encoding="utf-8")
         return (
             f"<style>{style}</style>"
@@ -94,7 +97,7 @@ class Animation:
         )
 
     def __str__(self) -> str:
-        """The words, for a terminal."""
+        """The description, for a terminal."""
         return self.alt
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, str]:
@@ -102,12 +105,12 @@ class Animation:
 
 
 def _color_name(at: int) -> str:
-    """The CSS variable of a color of the palette."""
+    """The name of the CSS variable of a color of the palette."""
     return f"--motion-color-{at}"
 
 
 def _write_palette() -> str:
-    """The colors as CSS variables: JupyterLab names its theme, other pages have a color scheme."""
+    """The colors as CSS variables, by JupyterLab's theme or by the page's color scheme."""
 
     def rule(selector: str, colors: Iterable[str]) -> str:
         named = (f"{_color_name(at)}:{color}" for at, color in enumerate(colors))
@@ -157,35 +160,35 @@ def animate_mechanism(
     marks: Mapping[str, float | Gain] | None = None,
     slow: float = 1.0,
 ) -> Animation:
-    """A mechanism that moves, beside its plots; a time cursor moves both.
+    """An animated mechanism and plots of its motion, with a common time cursor.
 
     Args:
-        kind: ``drivetrain``, ``elevator``, ``arm``, ``flywheel`` or ``swerve``: what is drawn.
-        scenes: what happens; where there are choices, one scene for each combination of options.
-        panels: the plots below each other; limits that are not given hold what the scenes hold.
-        alt: what is seen, with numbers.
-        choices: menus that pick the scene.
-        knobs: sliders that set the gains of motions which the page simulates.
-        score: the motion that is measured against the target.
-        rules: what a plan has to keep; each is ticked or not as the knobs stand.
-        span: [m or rad] lowest and highest position drawn; by default, what the scenes hold.
-        wall: [m] where the floor of a drivetrain ends.
-        marks: name -> [m] lines across that floor.
+        kind: ``drivetrain``, ``elevator``, ``arm``, ``flywheel`` or ``swerve``.
+        scenes: the scene, or with choices one scene for each combination of options.
+        panels: the plots, from top to bottom; limits that are not given fit the scenes.
+        alt: a description of the figure with numbers.
+        choices: menus that select the scene.
+        knobs: sliders that set gains of the motions that the page simulates.
+        score: the motion that is compared with the target.
+        rules: conditions on a test plan; the page shows which are met.
+        span: lowest and highest position drawn [m or rad]; by default, those of the scenes.
+        wall: position of the wall of a drivetrain's floor [m].
+        marks: name -> position of a line across that floor [m].
         slow: turns drawn for each turn of a flywheel, which is too fast for the eye.
 
     Raises:
-        BadRequest: no such mechanism, a combination of options without a scene, or a motion whose
-            numbers are not as many as its scene's times.
+        BadRequest: no such mechanism, a combination of options without a scene, or a signal that
+            does not have one value for each time of its scene.
     """
     _check_kind(kind)
     every = _by_options(scenes, choices)
     start = {knob.name: knob.value for knob in knobs}
     low, high = span or _limits(_curves("position", every, start))
     if span is None and kind in FLOORS:
-        low -= min(LONG, BEHIND * (high - low))  # a position is that of the front
+        low -= min(LONG, BEHIND * (high - low))  # a position is that of the front bumper
     stage = {
-        "low": _short(low),
-        "high": _short(high),
+        "low": _round(low),
+        "high": _round(high),
         "wall": _describe_value(wall),
         "marks": [{"label": n, "at": _describe_value(at)} for n, at in (marks or {}).items()],
         "slow": slow,
@@ -222,7 +225,7 @@ def _describe_kind(kind: str) -> dict[str, str]:
 def _by_options(
     scenes: Scene | Mapping[tuple[str, ...], Scene], choices: Sequence[Choice]
 ) -> dict[tuple[str, ...], Scene]:
-    """Options -> scene, checked."""
+    """The scenes by their options, after ``_check_scenes``."""
     every: dict[tuple[str, ...], Scene] = (
         {(): scenes} if isinstance(scenes, Scene) else dict(scenes)
     )
@@ -231,7 +234,7 @@ def _by_options(
 
 
 def _check_scenes(scenes: Mapping[tuple[str, ...], Scene], choices: Sequence[Choice]) -> None:
-    """Refuse options without a scene, and motions of another length than their scene's time."""
+    """Refuse options without a scene, and signals without one value for each time."""
     wanted: list[tuple[str, ...]] = [()]
     for choice in choices:
         wanted = [(*key, option) for key in wanted for option in choice.options]
@@ -255,7 +258,7 @@ def _check_scenes(scenes: Mapping[tuple[str, ...], Scene], choices: Sequence[Cho
 
 
 def _describe_scene(scene: Scene) -> dict[str, Any]:
-    """A scene as the script reads it; colors and dashes by the order of its motions."""
+    """A scene as plain data for the script; its motions take colors and dashes in their order."""
     motions: list[dict[str, Any]] = []
     colored = 0
     for motion in scene.motions:
@@ -300,7 +303,7 @@ def _describe_gains(gains: Mapping[str, float | Gain] | None) -> dict[str, Any] 
 
 
 def _describe_value(value: float | Gain | None) -> Any:  # noqa: ANN401 - as JSON has it
-    """A number, a knob's, or none; what is endless is none."""
+    """A number or the data of a ``Gain``; None for None and for infinite numbers."""
     if isinstance(value, Gain):
         return vars(value)
     return None if value is None or not math.isfinite(value) else float(value)
@@ -318,29 +321,29 @@ def _describe_panel(
     found = _limits([panel.scale * one for one in _curves(panel.signal, scenes, knobs)])
     low = found[0] if panel.low is None else panel.low
     high = found[1] if panel.high is None else panel.high
-    return {**vars(panel), "low": _short(low), "high": _short(high)}
+    return {**vars(panel), "low": _round(low), "high": _round(high)}
 
 
 def _curves(
     signal: str, scenes: Mapping[tuple[str, ...], Scene], knobs: Mapping[str, float]
 ) -> list[Array]:
-    """A signal of every motion that has it."""
+    """The signal of every motion that has it."""
     found = [one.curve(signal, scene, knobs) for scene in scenes.values() for one in scene.motions]
     return [curve for curve in found if curve is not None]
 
 
 def _limits(curves: Sequence[Array]) -> tuple[float, float]:
-    """Lowest and highest of some curves, zero among them, and a little room beyond."""
+    """Lower and upper limit of an axis for some curves, with zero and a margin."""
     values = np.concatenate([np.zeros(1), *curves])
     low, high = float(values.min()), float(values.max())
-    room = ROOM * ((high - low) or 1.0)
-    return (low - room if low < 0.0 else low), high + room
+    margin = MARGIN * ((high - low) or 1.0)
+    return (low - margin if low < 0.0 else low), high + margin
 
 
 def _numbers(values: Array | None) -> list[float] | None:
-    """(n,) numbers, as short as the eye allows."""
-    return None if values is None else [_short(value) for value in np.asarray(values).tolist()]
+    """(n,) values rounded to ``DIGITS`` significant digits."""
+    return None if values is None else [_round(value) for value in np.asarray(values).tolist()]
 
 
-def _short(value: float) -> float:
+def _round(value: float) -> float:
     return float(f"{value:.{DIGITS}g}")

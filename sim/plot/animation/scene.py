@@ -1,4 +1,4 @@
-"""What an animation shows: motions over time, knobs, menus and plots, as plain data."""
+"""The content of an animation as plain data: motions over time, sliders, menus and plots."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -13,12 +13,12 @@ from sim.physics.model import Model
 
 @dataclass(frozen=True)
 class Gain:
-    """A gain that a knob sets: ``plus + times · knob``.
+    """A gain that a slider sets: ``plus + times · knob``.
 
     Args:
         knob: the name of the knob.
-        times: [unit of the gain per unit of the knob].
-        plus: [unit of the gain].
+        times: factor [unit of the gain per unit of the knob].
+        plus: offset [unit of the gain].
     """
 
     knob: str
@@ -32,17 +32,17 @@ class Gain:
 
 @dataclass(frozen=True)
 class TestPlan:
-    """The voltage of one test: ``step + ramp · time``, until it is over; then 0 V, in brake mode.
+    """The voltage of one test: ``step + ramp · time`` until it ends; then 0 V, in brake mode.
 
     Args:
-        ramp: [V/s].
-        step: [V].
-        mark: [m] where a driver begins to react.
-        reaction: [s] from the mark until the motors are off.
-        timeout: [s] after which they are off in any case.
+        ramp: slope of the voltage [V/s].
+        step: voltage at the start [V].
+        mark: position at which the driver begins to react [m].
+        reaction: time from the mark until the motors are off [s].
+        timeout: time after which they are off in any case [s].
     """
 
-    __test__ = False  # no test of pytest's
+    __test__ = False  # tells pytest that this is not a test class
 
     ramp: float | Gain = 0.0
     step: float | Gain = 0.0
@@ -53,12 +53,12 @@ class TestPlan:
     def voltage(
         self, time: Array, knobs: Mapping[str, float], move: Callable[[Array], Array]
     ) -> Array:
-        """(n,) [V] voltage of the test.
+        """The voltage of the test, (n,) [V].
 
         Args:
             time: (n,) [s].
             knobs: name -> value.
-            move: simulates: (n,) [V] -> (n,) position.
+            move: simulates the position (n,) under a voltage (n,) [V].
         """
         volts = find_value(self.step, knobs) + find_value(self.ramp, knobs) * time
         volts = np.where(time < self.timeout, volts, 0.0)
@@ -70,22 +70,22 @@ class TestPlan:
 
 @dataclass(frozen=True, eq=False)
 class Motion:
-    """One mechanism of a scene, with what it did, or with the gains that let the page simulate it.
+    """One mechanism of a scene, with recorded signals or with gains with which it is simulated.
 
     Args:
-        name: beside its curve.
+        name: the label of its curve.
         velocity: (n,) [m/s or rad/s].
         position: (n,) [m or rad]; without it, the integral of the velocity.
         voltage: (n,) [V], each held until the next time; a gain is one voltage, set by its knob.
         heading: (n,) [rad] of a swerve drive.
-        ghost: drawn as an outline over the others: a model beside the robot.
-        asked: whether it is the target: an outline and a line in the color of the text.
+        ghost: whether it is drawn as an outline over the others, as a model over the robot.
+        asked: whether it is the target: an outline, and a line in the color of the text.
         gains: kS [V], kV, kA and, where the type has it, kG [V]: the motion is simulated with them.
-        program: the gains of a feedforward that follows the scene's target; None takes ``voltage``.
-        plan: the test that is driven, in place of a voltage.
+        program: gains of a feedforward that follows the scene's target; None uses ``voltage``.
+        plan: the test plan that sets the voltage; it has priority over ``program``.
         type: ``simple``, ``elevator`` or ``arm``.
-        start: [m or rad] where a simulated motion begins, at rest.
-        turns: whether the wheels of a swerve drive stand for turning on the spot.
+        start: initial position of a motion at rest [m or rad].
+        turns: whether the wheels of a swerve drive are set for turning on the spot.
     """
 
     name: str
@@ -103,11 +103,11 @@ class Motion:
     turns: bool = False
 
     def curve(self, signal: str, scene: "Scene", knobs: Mapping[str, float]) -> Array | None:
-        """(n,) one signal of the motion, simulated if it has gains; None if it lacks the signal.
+        """One signal of the motion (n,), simulated if it has gains; None if it lacks the signal.
 
         Args:
             signal: ``position``, ``velocity``, ``voltage`` or ``error``.
-            scene: which it is in.
+            scene: the scene that the motion belongs to.
             knobs: name -> value.
         """
         if signal == "error":
@@ -122,7 +122,7 @@ class Motion:
         return moved.position if signal == "position" else moved.velocity
 
     def _error(self, scene: "Scene", knobs: Mapping[str, float]) -> Array | None:
-        """(n,) position minus the target position."""
+        """Position minus target position, (n,) [m or rad]; None for the target, or without one."""
         asked = next((one for one in scene.motions if one.asked), None)
         if asked is None or asked is self:
             return None
@@ -130,7 +130,7 @@ class Motion:
         return None if here is None or there is None else here - there
 
     def _own_position(self, scene: "Scene") -> Array:
-        """(n,) the positions given, or the integral of the velocities given."""
+        """The positions given, or the integral of the velocities given, (n,) [m or rad]."""
         if self.position is not None:
             return np.asarray(self.position)
         velocity = np.zeros(scene.time.size) if self.velocity is None else np.asarray(self.velocity)
@@ -144,7 +144,7 @@ class Motion:
         )
 
     def _volts(self, scene: "Scene", knobs: Mapping[str, float]) -> Array:
-        """(n,) [V] of its plan, of its program along the target, or those it was given."""
+        """The voltage (n,) [V] of its plan, of its program, or the one given, in this order."""
         if self.plan is not None:
             return self.plan.voltage(
                 scene.time, knobs, lambda volts: self._move(scene.time, volts, knobs).position
@@ -159,12 +159,12 @@ class Motion:
 
 
 def follow_target(time: Array, target: Array, gains: Mapping[str, float]) -> Array:
-    """(n,) [V] of a feedforward along a velocity, each held until the next time.
+    """The voltage (n,) [V] of a feedforward for a target velocity, each held until the next time.
 
     Args:
         time: (n,) [s].
-        target: (n,) [m/s or rad/s].
-        gains: kS, kV, kA and, where there is one, kG.
+        target: (n,) target velocity [m/s or rad/s].
+        gains: kS, kV, kA and, if there is one, kG.
     """
     velocity = (target[:-1] + target[1:]) / 2
     acceleration = np.diff(target) / np.diff(time)
@@ -179,8 +179,8 @@ class Scene:
     Args:
         time: (n,) [s], rising.
         motions: the mechanisms, the first one in front.
-        target: (n,) [m/s or rad/s] the velocity that programs follow; None where there are none.
-        title: above the figure; may be empty.
+        target: (n,) velocity that programs follow [m/s or rad/s]; None without programs.
+        title: title above the figure; may be empty.
     """
 
     time: Array
@@ -194,12 +194,12 @@ class Knob:
     """A slider that sets gains.
 
     Args:
-        name: by which gains refer to it.
-        label: what is written beside it, with its unit.
-        low: first value.
-        high: last value.
-        step: between two values.
-        value: where it stands at first.
+        name: its name, to which a ``Gain`` refers.
+        label: its label, with the unit.
+        low: lowest value.
+        high: highest value.
+        step: distance of two values.
+        value: initial value.
     """
 
     name: str
@@ -212,12 +212,12 @@ class Knob:
 
 @dataclass(frozen=True)
 class Choice:
-    """A menu that picks a scene.
+    """A menu that selects a scene.
 
     Args:
-        label: what is written beside it.
-        options: what can be picked.
-        value: what is picked at first; empty is the first option.
+        label: its label.
+        options: the options to choose from.
+        value: option selected at first; empty selects the first.
     """
 
     label: str
@@ -230,13 +230,14 @@ class Panel:
     """A plot over time whose axes do not change when a slider moves.
 
     Args:
-        signal: ``position``, ``velocity``, ``voltage``, or ``error``: how far a position is ahead
-            of the target.
-        label: of its axis, with the unit.
+        signal: ``position``, ``velocity``, ``voltage``, or ``error``: position minus target
+            position.
+        label: label of its axis, with the unit.
         low: lowest value in the label's unit; None fits the axis to the scenes as first shown.
         high: highest value; None as for ``low``.
         scale: factor from SI to the unit of the label: 100 for centimeters.
-        terms: whether the voltage of the first motion is shared out among kS, kV and kA, as areas.
+        terms: whether the shares of kS, kV and kA in the voltage of the first motion are drawn as
+            areas.
     """
 
     signal: str
@@ -252,9 +253,9 @@ class Score:
     """A displayed score: the RMS difference of a motion's velocity from the target.
 
     Args:
-        motion: its name.
-        unit: of the velocity.
-        seconds: [s] from the first move of a knob until tries no longer count; 0 counts all.
+        motion: name of the motion.
+        unit: unit of the velocity.
+        seconds: time limit for tries, from the first move of a slider [s]; 0 is no limit.
     """
 
     motion: str
@@ -264,15 +265,15 @@ class Score:
 
 @dataclass(frozen=True)
 class Rule:
-    """A condition on a test plan, checked whenever a knob moves.
+    """A condition on a test plan, checked whenever a slider moves.
 
     Args:
         label: what is measured, with its unit.
         measure: ``farthest`` or ``fastest`` of all motions, ``moving`` [s] of one; or a
-            knob's name.
-        times: factor from the measure to what is shown.
-        motion: whose; empty means all.
-        at_most: upper bound, or a knob that sets it.
+            slider's name.
+        times: factor from the measure to the number shown.
+        motion: name of the motion; empty takes all.
+        at_most: upper bound, or the slider that sets it.
         at_least: lower bound.
     """
 
