@@ -163,7 +163,7 @@ def _tests_table(runs: Mapping[int, Run], per: Unit) -> Table:
     return Table(header, rows, caption="The log in numbers")
 
 
-def _format_two_decimals(value: Cell) -> str:
+def _two_decimals(value: Cell) -> str:
     return f"{round(float(value), 2) + 0.0:.2f}".replace("-", "−")  # never −0.00
 
 
@@ -175,12 +175,12 @@ def _time_words(table: Table, per: Unit, names: Sequence[str]) -> str:
     )
     for test, _, lasts, first, last, fastest in table.rows:
         goes = (
-            f"stays at {_format_two_decimals(first)} V for"
+            f"stays at {_two_decimals(first)} V for"
             if first == last
-            else (f"goes from {_format_two_decimals(first)} to {_format_two_decimals(last)} V in")
+            else (f"goes from {_two_decimals(first)} to {_two_decimals(last)} V in")
         )
         said += f" In {test} the voltage {goes} {lasts:.1f} s, "
-        said += f"and the velocity reaches {_format_two_decimals(fastest)} {per.symbol}/s."
+        said += f"and the velocity reaches {_two_decimals(fastest)} {per.symbol}/s."
     for kind in KINDS:
         there = [way for way in DIRECTIONS if any(row[0] == f"{kind}-{way}" for row in table.rows)]
         if len(there) < len(DIRECTIONS):

@@ -1,4 +1,4 @@
-"""A table of a few numbers, for eyes and for screen readers."""
+"""Tables of a few numbers as HTML, which screen readers can read, and as plain text."""
 
 import math
 from collections.abc import Sequence
@@ -8,8 +8,8 @@ from typing import TypeAlias
 
 Cell: TypeAlias = str | float
 
-DIGITS = 3  # significant ones: more than any gain of a robot deserves
-NUMERIC = (*"+-−±<>≤≥~≈.–—",)  # what a number may begin with, and what stands where there is none
+DIGITS = 3  # significant digits
+NUMERIC = (*"+-−±<>≤≥~≈.–—",)  # first characters of numbers, and dashes in place of them
 LONGEST = 1e5  # a larger number is written with an exponent
 
 
@@ -18,9 +18,9 @@ class Table:
     """A table: a header, and rows that are named by their first cell.
 
     Args:
-        header: what each column holds, with its unit.
-        rows: as many cells each as the header; numbers are shown with three digits.
-        caption: what the table shows; may be empty.
+        header: title of each column, with its unit.
+        rows: as many cells each as the header; numbers are shown with three significant digits.
+        caption: title of the table; may be empty.
     """
 
     header: tuple[str, ...]
@@ -29,7 +29,7 @@ class Table:
 
     @property
     def html(self) -> str:
-        """The table in HTML that takes its colors from the page it stands in."""
+        """The table as HTML, with the colors of the page that contains it."""
         caption = f"<caption>{escape(self.caption)}</caption>" if self.caption else ""
         left = self._left
         head = "".join(
@@ -65,16 +65,16 @@ class Table:
 
     @property
     def _left(self) -> list[bool]:
-        """Of each column, whether it holds words, and not numbers."""
+        """Whether each column holds text, which is aligned to the left."""
         columns = zip(*self.rows, strict=True) if self.rows else ((),) * len(self.header)
-        return [place == 0 or _words(column) for place, column in enumerate(columns)]
+        return [place == 0 or _is_text_column(column) for place, column in enumerate(columns)]
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, str]:
         return {"text/plain": str(self), "text/html": self.html}
 
 
-def _words(column: Sequence[Cell]) -> bool:
-    """Whether no cell of a column begins as a number does, and one says something."""
+def _is_text_column(column: Sequence[Cell]) -> bool:
+    """Whether no cell of a column begins like a number, and at least one is not empty."""
     return any(column) and all(
         isinstance(cell, str) and not cell[:1].isdigit() and cell[:1] not in NUMERIC
         for cell in column
@@ -82,7 +82,7 @@ def _words(column: Sequence[Cell]) -> bool:
 
 
 def _cell(tag: str, text: str, *, left: bool, scope: str = "col") -> str:
-    """One cell: words to the left, numbers to the right, one under the other."""
+    """One cell as HTML, aligned to the left or to the right."""
     style = f"text-align:{'left' if left else 'right'};padding:0.1em 0.7em"
     if tag == "td":
         return f'<td style="{style}">{escape(text)}</td>'
@@ -91,7 +91,7 @@ def _cell(tag: str, text: str, *, left: bool, scope: str = "col") -> str:
 
 
 def to_text(cell: Cell) -> str:
-    """A cell as text; a number gets three significant digits and a true minus sign."""
+    """A cell as text; a number gets three significant digits and a minus sign (−)."""
     if isinstance(cell, str):
         return cell
     if isinstance(cell, int):

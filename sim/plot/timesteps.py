@@ -1,7 +1,7 @@
 """The time between samples: what SysId calls "Timesteps vs. Time".
 
-SysId draws all steps over one time axis, with their mean as a line. Here every test has a panel of
-its own, the line is the median, which gaps do not move, and the gaps are marked and named.
+SysId draws all steps over one time axis, with their mean as a line. Here every test has its
+own panel, the line is the median, which gaps do not change, and the gaps are marked and described.
 Source: WPILib SysId 2026, ``view/AnalyzerPlot.cpp``.
 """
 
@@ -20,13 +20,15 @@ from sim.plot.decimate import decimate_cloud, decimate_curve
 from sim.plot.picture import COLORS, INK, MARKERS, REFERENCE, Picture, add_legend, make_panels
 from sim.plot.table import Table, to_text
 
-GAP = 1.5  # [median steps] a longer step is a gap: 20 ms loops do end after 21 ms now and then
-HIGHEST = 15.0  # [median steps] the panels are at most this high; what is longer sits at their edge
-NEAR_MEDIAN = 2.5  # [median steps] the panels are at least this high
+GAP = 1.5  # [median steps] a longer step is a gap; shorter ones are jitter
+HIGHEST = 15.0  # [median steps] largest height of a panel; longer steps are marked at its edge
+NEAR_MEDIAN = 2.5  # [median steps] least height of a panel
 MOST = 160  # ordinary steps drawn in a panel
 MOST_GAPS = 200  # gaps drawn in a panel
-TOLD = 4  # gaps of a test that are told one by one
-EDGE = 0.955  # [share of a panel's height] where the mark of a gap stands that is longer than it
+DESCRIBED = 4  # gaps of a test in the description
+EDGE = (
+    0.955  # [share of a panel's height] height of the mark of a gap that is longer than the panel
+)
 TITLE, ROW, FOOT = 0.3, 1.6, 0.85  # [in] above the panels, for each row of them, and below
 MILLI = 1e3
 
@@ -36,10 +38,10 @@ class _Steps:
     """The steps of one run.
 
     Args:
-        run: of the log.
-        after: (n,) [s] since the run began, where each step starts.
-        length: (n,) [ms].
-        gaps: (n,) which of them are gaps.
+        run: the run.
+        after: (n,) start of each step since the run began [s].
+        length: (n,) length of each step [ms].
+        gaps: (n,) whether each step is a gap.
     """
 
     run: Run
@@ -52,7 +54,8 @@ def plot_timesteps(log: Log) -> Picture:
     """The time between one sample and the next, over the time since each test began.
 
     Args:
-        log: any; tests that SysId does not know are drawn, too, and repeated ones together.
+        log: any log; kinds of tests that SysId does not have are drawn, too, and repeated tests are
+            drawn in one panel.
 
     Raises:
         BadRequest: no run has two samples.
@@ -70,12 +73,12 @@ def plot_timesteps(log: Log) -> Picture:
     top = median * min(max(NEAR_MEDIAN, 1.15 * longest / median), HIGHEST)
     ways = [way for way in DIRECTIONS if any(one.run.direction == way for one in all_steps)]
     figure, grid = make_panels(len(kinds), len(ways), height=_height(len(kinds)), shared=True)
-    _arrange(figure, rows=len(kinds))
+    _place_panels(figure, rows=len(kinds))
     for kind, row in zip(kinds, grid, strict=True):
         for way, axes in zip(ways, row, strict=True):
             these = [one for one in all_steps if one.run.test == f"{kind}-{way}"]
             _draw(axes, these, median=median, top=top)
-            _dress(axes, f"{kind}-{way}", these)
+            _set_title_and_ticks(axes, f"{kind}-{way}", these)
         row[0].set_ylabel("step [ms]", color=INK)
     for axes in grid[-1]:
         axes.set_xlabel("time since the test began [s]", color=INK)
@@ -84,12 +87,12 @@ def plot_timesteps(log: Log) -> Picture:
 
 
 def _height(rows: int) -> float:
-    """[in] of the figure: so much for each row of panels, and below them for label and legend."""
+    """The height of the figure [in], for rows of panels with title, labels and legend."""
     return TITLE + ROW * rows + FOOT
 
 
-def _arrange(figure: Figure, *, rows: int) -> None:
-    """Place the panels by hand: with a dozen of them matplotlib needs half a second for it."""
+def _place_panels(figure: Figure, *, rows: int) -> None:
+    """Set the positions of the panels: matplotlib's own layout takes half a second for twelve."""
     height = _height(rows)
     figure.set_layout_engine(None)
     figure.subplots_adjust(
@@ -125,9 +128,7 @@ def _draw(axes: Axes, these: Sequence[_Steps], *, median: float, top: float) -> 
         for name in ("after", "length", "gaps")
     )
     kept = np.flatnonzero(~gaps)
-    kept = kept[
-        decimate_curve(length[kept], most=MOST)
-    ]  # as close everywhere: a hole would look like a gap
+    kept = kept[decimate_curve(length[kept], most=MOST)]  # evenly: a hole would look like a gap
     axes.plot(
         after[kept],
         length[kept],
@@ -152,8 +153,8 @@ def _draw(axes: Axes, these: Sequence[_Steps], *, median: float, top: float) -> 
             )
 
 
-def _dress(axes: Axes, test: str, these: Sequence[_Steps]) -> None:
-    """Title and ticks; few ticks, because their labels are most of the work of a tall picture."""
+def _set_title_and_ticks(axes: Axes, test: str, these: Sequence[_Steps]) -> None:
+    """Set title and ticks; only few ticks, because drawing their labels is slow."""
     gaps = sum(int(one.gaps.sum()) for one in these)
     count = "no" if not gaps else str(gaps)
     said = f"{count} gap{'' if gaps == 1 else 's'}" if these else "not in this log"
@@ -183,11 +184,11 @@ def _words(all_steps: Sequence[_Steps], *, median: float, top: float) -> str:
         where = np.flatnonzero(one.gaps)
         if not where.size:
             continue
-        worst = np.sort(where[np.argsort(one.length[where])[::-1][:TOLD]])
-        told = ", ".join(f"{to_text(one.length[i])} ms at {one.after[i]:.2f} s" for i in worst)
-        only = "" if where.size <= TOLD else f" The {TOLD} longest:"
+        worst = np.sort(where[np.argsort(one.length[where])[::-1][:DESCRIBED]])
+        listed = ", ".join(f"{to_text(one.length[i])} ms at {one.after[i]:.2f} s" for i in worst)
+        only = "" if where.size <= DESCRIBED else f" The {DESCRIBED} longest:"
         gap = "gap" if where.size == 1 else "gaps"
-        said += f" {one.run.test} has {where.size} {gap}{only and '.'}{only or ':'} {told}."
+        said += f" {one.run.test} has {where.size} {gap}{only and '.'}{only or ':'} {listed}."
     beyond = sum(int((one.length > top).sum()) for one in all_steps)
     if beyond:
         verb, mark = (
@@ -198,7 +199,7 @@ def _words(all_steps: Sequence[_Steps], *, median: float, top: float) -> str:
 
 
 def _share(part: int, total: int) -> str:
-    """A share as a percentage, never rounded to nothing."""
+    """A share as a percentage, with significant digits, so that it is never rounded to 0."""
     return f"{to_text(100.0 * part / total)} %"
 
 

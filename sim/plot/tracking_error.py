@@ -19,7 +19,7 @@ from sim.plot.picture import (
 )
 from sim.plot.table import Table, to_text
 
-APART = 0.12  # [share of a panel] between markers
+APART = 0.12  # [share of a panel] distance of markers
 
 
 @dataclass(frozen=True)
@@ -27,8 +27,8 @@ class TrackingError:
     """RMS and largest difference from a target.
 
     Args:
-        typical: root mean square.
-        largest: the largest, without its sign.
+        typical: root mean square error.
+        largest: largest absolute error.
     """
 
     typical: float
@@ -36,11 +36,11 @@ class TrackingError:
 
 
 def measure_tracking_error(target: Array, velocity: Array) -> TrackingError:
-    """The error of a velocity against its target.
+    """The RMS and the largest error of a velocity.
 
     Args:
-        target: (n,).
-        velocity: (n,) in the same unit.
+        target: (n,) target velocity.
+        velocity: (n,) velocity in the same unit.
     """
     off = np.asarray(velocity) - np.asarray(target)
     return TrackingError(float(np.sqrt(np.mean(off**2))), float(np.abs(off).max()))
@@ -54,17 +54,17 @@ def plot_tracking_error(
     unit: str = "m/s",
     title: str = "",
 ) -> Picture:
-    """A target and the curves that followed it, with the error of each below.
+    """A target velocity and velocities that follow it, with the error of each below.
 
     Args:
         time: (n,) [s].
-        target: (n,) the target.
-        followers: name -> (n,) what came of it.
-        unit: of all values.
-        title: above the picture; may be empty.
+        target: (n,) target velocity.
+        followers: name -> (n,) velocity.
+        unit: unit of all velocities.
+        title: title of the picture; may be empty.
 
     Raises:
-        BadRequest: nobody follows, or lengths differ.
+        BadRequest: there is no velocity, or lengths differ.
     """
     if not followers or any(len(one) != len(time) for one in (*followers.values(), target)):
         raise BadRequest(

@@ -13,11 +13,11 @@ from sim.plot.decimate import decimate_cloud
 from sim.plot.picture import COLORS, INK, LINES, MARKERS, REFERENCE, Picture, make_panels
 from sim.plot.table import Table
 
-MOST = 150  # samples of a ramp in a panel that shows all of it: more cover each other
-CLOSEST = 500  # samples of a ramp in the panel near standstill
-MOVING = 0.05  # [share of the top speed] slower samples are taken for standing
-FEWEST = 3  # samples that a straight line can miss
-ODD = 0.02  # [share of the samples near standstill] that may lie off the panel: it is no overview
+MOST = 150  # samples of a ramp drawn in the panel of the whole ramp
+CLOSEST = 500  # samples of a ramp drawn in the panel near standstill
+MOVING = 0.05  # [share of the top speed] slower samples count as standstill
+FEWEST = 3  # samples needed to fit a straight line
+OUTSIDE = 0.02  # [share of the samples near standstill] that may lie outside the panel, at each end
 
 
 @dataclass(frozen=True)
@@ -25,7 +25,7 @@ class Line:
     """A straight line in the picture of voltage against velocity: V = intercept + slope·v.
 
     Args:
-        intercept: [V].
+        intercept: voltage at velocity 0 [V].
         slope: [V·s/unit].
     """
 
@@ -39,7 +39,7 @@ class _Ramps:
 
     Args:
         way: ``forward`` or ``reverse``.
-        runs: how many.
+        runs: number of runs.
         velocity: (n,) [unit/s].
         voltage: (n,) [V].
     """
@@ -53,12 +53,12 @@ class _Ramps:
 def plot_voltage_velocity(log: Log, *, lines: Mapping[str, Line] | None = None) -> Picture:
     """Voltage against velocity of the quasistatic tests, as a whole and near standstill.
 
-    The second panel shows the slowest eighth of forward motion; of a mechanism with gravity of both
-    directions, because there the two meet standstill at different voltages, kG + kS and kG - kS.
+    The second panel shows speeds up to an eighth of the top speed: of forward motion, or of both
+    directions for elevators and arms, whose voltage at standstill is kG + kS or kG - kS.
 
     Args:
-        log: with a quasistatic test.
-        lines: name -> straight line for forward motion, per the log's unit; extended to v = 0.
+        log: a log with a quasistatic test.
+        lines: name -> line for forward motion, in the log's unit; drawn from v = 0.
 
     Raises:
         BadRequest: the log has no quasistatic test.
@@ -73,10 +73,10 @@ def plot_voltage_velocity(log: Log, *, lines: Mapping[str, Line] | None = None) 
         )
     drawn = dict(lines or {})
     top = max(float(np.abs(one.velocity).max()) for one in ramps)
-    near = top / 8.0 or 1.0  # of what never moved, any width shows the same
+    near = top / 8.0 or 1.0  # without motion, any width will do
     figure, ((whole, close),) = make_panels(1, 2)
     _draw(whole, ramps, drawn, top=top, most=MOST)
-    _limit(close, ramps, drawn, near=near, both=log.type in {"elevator", "arm"})
+    _set_limits(close, ramps, drawn, near=near, both=log.type in {"elevator", "arm"})
     _draw(close, _within(ramps, close), drawn, top=top, most=CLOSEST)
     for axes in (whole, close):
         axes.set_xlabel(f"velocity [{per.symbol}/s]", color=INK)
@@ -88,7 +88,7 @@ def plot_voltage_velocity(log: Log, *, lines: Mapping[str, Line] | None = None) 
 
 
 def _ramps(runs: Sequence[Run], per: Unit) -> list[_Ramps]:
-    """The runs of each direction together; only directions there are."""
+    """The runs joined by direction; directions without runs are left out."""
     found = []
     for way in DIRECTIONS:
         these = [run for run in runs if run.direction == way]
@@ -99,10 +99,10 @@ def _ramps(runs: Sequence[Run], per: Unit) -> list[_Ramps]:
     return found
 
 
-def _limit(
+def _set_limits(
     axes: Axes, ramps: Sequence[_Ramps], lines: Mapping[str, Line], *, near: float, both: bool
 ) -> None:
-    """Set the limits of the panel near standstill to what there is to see."""
+    """Set the limits of the panel near standstill to the samples and lines in it."""
     ways = {one.way for one in ramps}
     left = -near if both or ways == {"reverse"} else -0.15 * near
     right = 0.15 * near if ways == {"reverse"} and not both else near
@@ -114,11 +114,11 @@ def _limit(
             if both or one.way == "forward" or len(ways) == 1
         ]
     )
-    usual = np.quantile(there, [ODD, 1.0 - ODD]) if there.size else np.zeros(0)
+    usual = np.quantile(there, [OUTSIDE, 1.0 - OUTSIDE]) if there.size else np.zeros(0)
     ends = [line.intercept + line.slope * v for line in lines.values() for v in (0.0, near)]
     seen = np.array([0.0, *usual, *ends])
-    room = 0.06 * (float(np.ptp(seen)) or 1.0)
-    axes.set_ylim(float(seen.min()) - room, float(seen.max()) + room)
+    margin = 0.06 * (float(np.ptp(seen)) or 1.0)
+    axes.set_ylim(float(seen.min()) - margin, float(seen.max()) + margin)
 
 
 def _within(ramps: Sequence[_Ramps], axes: Axes) -> list[_Ramps]:
@@ -163,13 +163,13 @@ def _draw(
 
 
 def _moving(one: _Ramps, *, top: float) -> "np.ndarray[tuple[int], np.dtype[np.bool_]]":
-    """(n,) which samples move the way their test is called; an elevator begins by falling."""
+    """Whether each sample (n,) moves in the direction of its test; an elevator falls at first."""
     sign = 1.0 if one.way == "forward" else -1.0
     return np.asarray(sign * one.velocity > MOVING * top)
 
 
-def _stray(one: _Ramps, *, top: float) -> float | None:
-    """[V] by how much the moving samples miss their own best straight line; None if undefined."""
+def _rms_from_line(one: _Ramps, *, top: float) -> float | None:
+    """RMS distance [V] of moving samples from their best straight line; None if undefined."""
     moving = _moving(one, top=top)
     velocity, voltage = one.velocity[moving], one.voltage[moving]
     if velocity.size < FEWEST or not np.ptp(velocity) > 0.0:
@@ -178,11 +178,11 @@ def _stray(one: _Ramps, *, top: float) -> float | None:
     return float(np.sqrt(np.mean((voltage - line(velocity)) ** 2)))
 
 
-def _two(value: float) -> str:
+def _decimals(value: float) -> str:
     return f"{round(value, 2) + 0.0:.2f}".replace("-", "−")  # never −0.00
 
 
-def _way(way: str) -> str:
+def _direction_text(way: str) -> str:
     return "in reverse" if way == "reverse" else way
 
 
@@ -196,14 +196,17 @@ def _words(ramps: Sequence[_Ramps], lines: Mapping[str, Line], per: Unit, *, top
         moving = _moving(one, top=top)
         tests = f"{one.way} test" if one.runs == 1 else f"{one.runs} {one.way} tests"
         said += f" The {one.velocity.size} samples of the {tests} reach "
-        said += f"{_two(one.velocity[index])} {per.symbol}/s at {_two(one.voltage[index])} V"
-        fast = f"{_way(one.way)} faster than {MOVING * top:.2f} {per.symbol}/s"
         said += (
-            f". At {_two(one.voltage[moving][0])} V, the mechanism moves {fast} for the first time"
+            f"{_decimals(one.velocity[index])} {per.symbol}/s at {_decimals(one.voltage[index])} V"
+        )
+        fast = f"{_direction_text(one.way)} faster than {MOVING * top:.2f} {per.symbol}/s"
+        said += (
+            f". At {_decimals(one.voltage[moving][0])} V, the mechanism moves {fast} for the "
+            "first time"
             if moving.any()
             else f". The mechanism never moves {fast}"
         )
-        stray = _stray(one, top=top)
+        stray = _rms_from_line(one, top=top)
         if stray is not None:
             said += (
                 f". While it moves, the samples are {stray:.3f} V (RMS) away from a straight line"
@@ -216,7 +219,7 @@ def _words(ramps: Sequence[_Ramps], lines: Mapping[str, Line], per: Unit, *, top
 
 
 def _table(ramps: Sequence[_Ramps], lines: Mapping[str, Line], per: Unit, *, top: float) -> Table:
-    """The lines in numbers; without lines the samples."""
+    """A table of the lines; without lines, of the samples."""
     if lines:
         return Table(
             ("line", "at standstill [V]", f"slope [V·s/{per.symbol}]"),
@@ -228,7 +231,7 @@ def _table(ramps: Sequence[_Ramps], lines: Mapping[str, Line], per: Unit, *, top
             one.velocity.size,
             float(one.voltage[np.argmax(np.abs(one.voltage))]),
             float(one.velocity[np.argmax(np.abs(one.velocity))]),
-            "–" if (stray := _stray(one, top=top)) is None else stray,
+            "–" if (stray := _rms_from_line(one, top=top)) is None else stray,
         )
         for one in ramps
     )
