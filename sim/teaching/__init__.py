@@ -1,1 +1,1 @@
-"""What only the lessons use: predictions, the runway, and cases that R² hides."""
+"""Tools of the lessons only: predictions, checked formulas, a runway, and R² cases."""

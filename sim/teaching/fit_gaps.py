@@ -1,4 +1,4 @@
-"""The three gaps of a fit by least squares that a learner fills in, each checked at once.
+"""The three blanks of a least-squares fit that a student fills in, each checked at once.
 
 a = α·v + β·V + γ·sgn(v)        kS = −γ/β, kV = −α/β, kA = 1/β
 """
@@ -10,8 +10,8 @@ import numpy as np
 
 from sim.core.log import Array
 
-SAMPLES = 12  # rows on which a learner's line is compared with ours
-CLOSE = 1e-9  # [share] what rounding may change
+SAMPLES = 12  # rows on which a student's line is compared with the right one
+CLOSE = 1e-9  # [1] relative tolerance for rounding errors
 
 Signals = Callable[[Array, Array, Array], object]
 Solved = Callable[[float, float, float], object]
@@ -19,13 +19,13 @@ Solved = Callable[[float, float, float], object]
 
 @dataclass(frozen=True)
 class FilledGaps:
-    """The lines of a fit: the learner's if they are right, ours if not.
+    """The lines of a fit: the student's if they are right, else the right ones.
 
     Args:
-        left: voltage, velocity, acceleration, each (n,) -> (n,) what stands on the left side.
-        columns: the same -> the columns of α, β and γ, each (n,).
-        gains: α, β, γ -> kS [V], kV and kA.
-        report: what was found, one line for each gap.
+        left: function of voltage, velocity and acceleration, (n,) each; the left side, (n,).
+        columns: function of the same; the columns of α, β and γ, (n,) each.
+        gains: function of α, β and γ; kS [V], kV and kA.
+        report: the feedback, one line for each blank.
     """
 
     left: Callable[[Array, Array, Array], Array]
@@ -50,12 +50,12 @@ def compute_gains(alpha: float, beta: float, gamma: float) -> dict[str, float]:
 
 
 def fill_gaps(*, left: Signals, columns: Signals, gains: Solved) -> FilledGaps:
-    """Check what a learner wrote into the three gaps, on a few made-up rows.
+    """Check what a student wrote into the three blanks, on random rows.
 
     Args:
-        left: gap 1, as ``FilledGaps.left``; ``...`` is an empty gap, as in the other two.
-        columns: gap 2.
-        gains: gap 3.
+        left: blank 1, as ``FilledGaps.left``; ``...`` is an empty blank, as in the other two.
+        columns: blank 2, as ``FilledGaps.columns``.
+        gains: blank 3, as ``FilledGaps.gains``.
     """
     rng = np.random.default_rng(7)
     rows = tuple(rng.standard_normal(SAMPLES) for _ in range(3))
@@ -73,13 +73,13 @@ def fill_gaps(*, left: Signals, columns: Signals, gains: Solved) -> FilledGaps:
         list(compute_gains(*solved).values()),
         "Use kV = −α/β and kA = 1/β.",
     )
-    said = (first, second, third)
-    right = [one == RIGHT for one in said]
+    feedback = (first, second, third)
+    right = [one == RIGHT for one in feedback]
     return FilledGaps(
         left if right[0] else put_acceleration_left,  # type: ignore[arg-type]  # judged to return such an array
         columns if right[1] else make_columns,  # type: ignore[arg-type]  # the same
         gains if right[2] else compute_gains,  # type: ignore[arg-type]  # the same
-        "\n".join(f"Gap {number}: {one}" for number, one in enumerate(said, start=1)),
+        "\n".join(f"Gap {number}: {one}" for number, one in enumerate(feedback, start=1)),
     )
 
 
@@ -87,17 +87,23 @@ RIGHT, EMPTY = "right.", "still empty. Put your answer in place of the three dot
 
 
 def _in_order(gains: object) -> object:
-    """The gains as a list, where they are a dict with these names."""
+    """The gains kS, kV and kA as a list, if they are a dict; other values unchanged."""
     return [gains[name] for name in ("kS", "kV", "kA")] if isinstance(gains, dict) else gains
 
 
 def judge_gap(answer: Callable[[], object], expected: object, hint: str) -> str:
-    """The feedback to one gap of a learner: right, still empty, or not yet with a hint."""
+    """The feedback to one blank: right, still empty, an error, or not yet with a hint.
+
+    Args:
+        answer: returns the student's answer.
+        expected: the right answer: a number, or arrays of one shape.
+        hint: the hint for a wrong answer.
+    """
     try:
         found = answer()
         if found is ... or (isinstance(found, list | tuple) and any(one is ... for one in found)):
             return EMPTY
         same = np.allclose(np.asarray(found, dtype=float), np.asarray(expected), rtol=CLOSE)
-    except Exception as error:  # noqa: BLE001 - a learner's line may fail in any way
+    except Exception as error:  # noqa: BLE001 - a student's line may fail in any way
         return f"it stops with an error: {error}."
     return RIGHT if same else f"not yet. {hint}"

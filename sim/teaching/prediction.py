@@ -1,4 +1,4 @@
-"""A prediction before an experiment, compared with the answer afterwards, never graded."""
+"""A prediction before an experiment, compared with the answer afterwards, without a grade."""
 
 from html import escape
 from typing import ClassVar
@@ -12,8 +12,8 @@ class Prediction:
     Without buttons, plain code does the same: ``guess.value = "kA"``.
 
     Args:
-        question: what is asked.
-        options: the answers one can choose.
+        question: text of the question.
+        options: the answers to choose from.
     """
 
     _results: ClassVar[dict[str, bool]] = {}  # question -> whether the prediction was right
@@ -30,7 +30,11 @@ class Prediction:
 
     @property
     def value(self) -> str | None:
-        """The chosen answer; None as long as nothing was chosen."""
+        """The chosen answer; None before one is chosen.
+
+        Raises:
+            BadRequest: an answer is set that is not one of the options.
+        """
         chosen: str | None = self._buttons.value
         return chosen
 
@@ -44,9 +48,9 @@ class Prediction:
         self._buttons.value = chosen
 
     def reveal(self, answer: str) -> str:
-        """Compare the prediction with the answer, and count how many were right on this page.
+        """The answer, with whether the prediction was right, and the score in this notebook.
 
-        Without a prediction only the answer is given.
+        Without a prediction, only the answer is returned.
 
         Raises:
             BadRequest: the answer is not one of the options.
@@ -66,7 +70,7 @@ class Prediction:
         return f"You predicted: {self.value}. The answer is: {answer}. {score}"
 
     def __str__(self) -> str:
-        """What was chosen, to be shown again when the answer is known."""
+        """The chosen answer, or ``nothing yet``."""
         return self.value or "nothing yet"
 
     def __repr__(self) -> str:

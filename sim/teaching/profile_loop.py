@@ -4,8 +4,8 @@
             + pid.calculate(position, now.position)
 
 The controllers have the names, the order of arguments and the arithmetic of WPILib 2026.2.2
-(``ElevatorFeedforward``, ``PIDController``, ``TrapezoidProfile``), so that a learner's loop is the
-robot's loop. The mechanism is the bench's, with its hidden effects, battery and stops.
+(``ElevatorFeedforward``, ``PIDController``, ``TrapezoidProfile``), so that a student's loop works
+on a robot. The mechanism is a simulated one, with its hidden effects, battery and stops.
 """
 
 import math
@@ -21,11 +21,11 @@ from sim.core.log import Array
 from sim.physics.engine import State as Body
 from sim.physics.engine import simulate_run
 
-LOOP = 0.02  # [s] of the robot program
-ONBOARD = 0.001  # [s] of a loop inside Phoenix 6's motor controllers
-BATTERY = 12.0  # [V] the most that a controller asks for
-STILL = 0.5  # [s] that a move is watched after its profile has ended
-MASSLESS = 1e-9  # [V·s²/unit] below this kA WPILib takes the next velocity alone
+LOOP = 0.02  # [s] loop period of the robot program
+ONBOARD = 0.001  # [s] loop period inside Phoenix 6's motor controllers
+BATTERY = 12.0  # [V] limit of the commanded voltage
+SETTLING = 0.5  # [s] simulated after the end of the profile
+MASSLESS = 1e-9  # [V·s²/unit] with a smaller kA, WPILib uses the next velocity alone
 
 
 @dataclass(frozen=True)
@@ -43,16 +43,16 @@ class Setpoint:
 
 @dataclass(frozen=True)
 class TrapezoidProfile:
-    """A move from rest to rest: speed up, hold the speed, slow down.
+    """A move from rest to rest: constant acceleration, constant velocity, constant deceleration.
 
     Args:
-        start: [m or rad].
-        goal: [m or rad].
-        max_velocity: [m/s or rad/s].
-        max_acceleration: [m/s² or rad/s²].
+        start: initial position [m or rad].
+        goal: final position [m or rad].
+        max_velocity: limit of the speed [m/s or rad/s].
+        max_acceleration: limit of the acceleration [m/s² or rad/s²].
 
     Raises:
-        BadRequest: a limit that is not above zero, or no way to go.
+        BadRequest: a limit is not above zero, or start and goal are equal or not finite.
     """
 
     start: float
@@ -69,13 +69,13 @@ class TrapezoidProfile:
 
     @property
     def top_speed(self) -> float:
-        """[m/s or rad/s] reached on the way; less than allowed where the way is short."""
+        """The highest speed [m/s or rad/s]; below the limit if the distance is short."""
         way = abs(self.goal - self.start)
         return min(self.max_velocity, math.sqrt(way * self.max_acceleration))
 
     @property
     def duration(self) -> float:
-        """[s] duration of the move."""
+        """The duration of the move [s]."""
         return abs(self.goal - self.start) / self.top_speed + self.top_speed / self.max_acceleration
 
     def calculate(self, time: float) -> Setpoint:
@@ -85,7 +85,7 @@ class TrapezoidProfile:
             return Setpoint(self.goal, 0.0)
         rising = self.top_speed / self.max_acceleration
         time, left = max(time, 0.0), self.duration - max(time, 0.0)
-        if left < rising:  # slowing down is speeding up, seen from the end
+        if left < rising:  # the deceleration is the acceleration reversed in time
             way = self.max_acceleration * left * left / 2.0
             return Setpoint(self.goal - sign * way, sign * self.max_acceleration * left)
         fast = max(time - rising, 0.0)
@@ -103,7 +103,7 @@ class ElevatorFeedforward:
         kG: [V].
         kV: [V·s/unit].
         kA: [V·s²/unit].
-        period: [s] between the two velocities.
+        period: time between the two velocities [s].
     """
 
     kS: float  # noqa: N815 - WPILib's name
@@ -113,13 +113,14 @@ class ElevatorFeedforward:
     period: float = LOOP
 
     def calculateWithVelocities(self, current: float, following: float) -> float:  # noqa: N802 - WPILib's name
-        """[V] voltage that takes the mechanism from one velocity to the next in a period.
+        """The voltage [V] that brings the mechanism from one velocity to the next in a period.
 
-        kS gets the sign of the current velocity: from rest there is none in the first loop.
+        kS gets the sign of the current velocity, so it is left out in the first loop from rest. If
+        kA is negligible, it gets the sign of the next velocity.
 
         Args:
-            current: [m/s or rad/s] velocity now.
-            following: [m/s or rad/s] velocity after one period.
+            current: velocity now [m/s or rad/s].
+            following: velocity after one period [m/s or rad/s].
         """
         if self.kA < MASSLESS:
             return self.kS * _sign(following) + self.kG + self.kV * following
@@ -134,10 +135,10 @@ class PIDController:
     """WPILib's class of that name.
 
     Args:
-        kP: [V per unit of error].
-        kI: [V per unit of error and second].
-        kD: [V·s per unit of error].
-        period: [s] of the loop.
+        kP: proportional gain [V/unit].
+        kI: integral gain [V/(unit·s)].
+        kD: derivative gain [V·s/unit].
+        period: loop period [s].
     """
 
     kP: float  # noqa: N815 - WPILib's name
@@ -149,14 +150,16 @@ class PIDController:
         self._total, self._last = 0.0, 0.0
 
     def calculate(self, measurement: float, setpoint: float) -> float:
-        """[V] output of the controller in one loop.
+        """The output [V] of the controller in one loop.
 
         Args:
-            measurement: [m or rad] measured position.
-            setpoint: [m or rad] wanted position.
+            measurement: measured position [m or rad].
+            setpoint: target position [m or rad].
         """
         error = setpoint - measurement
-        change = (error - self._last) / self.period  # in the first loop from zero, as WPILib's
+        change = (
+            error - self._last
+        ) / self.period  # in the first loop, the last error is 0, as in WPILib
         self._last = error
         if self.kI:
             most = 1.0 / abs(self.kI)  # WPILib's limit: the integral adds at most one volt
@@ -169,10 +172,10 @@ class LoopInput:
     """The values that a controller knows in one loop.
 
     Args:
-        now: what the profile asks for now.
-        after: what it asks for in the next loop.
-        position: [m or rad] measured.
-        velocity: [m/s or rad/s] measured.
+        now: setpoint of the profile now.
+        after: setpoint in the next loop.
+        position: measured position [m or rad].
+        velocity: measured velocity [m/s or rad/s].
     """
 
     now: Setpoint
@@ -187,9 +190,9 @@ class FollowedMove:
 
     Args:
         time: (n,) [s].
-        target: (n,) [m or rad] target position.
-        position: (n,) [m or rad] reached.
-        voltage: (n,) [V] command from each time on.
+        target: (n,) target position [m or rad].
+        position: (n,) position [m or rad].
+        voltage: (n,) voltage commanded from each time on [V].
     """
 
     time: Array
@@ -199,12 +202,12 @@ class FollowedMove:
 
     @property
     def error(self) -> Array:
-        """(n,) [m or rad] target minus position: above zero where it is late on the way up."""
+        """Target minus position, (n,) [m or rad]; positive if it lags behind on the way up."""
         return self.target - self.position
 
     @property
     def worst_error(self) -> float:
-        """[m or rad] the largest error, without its sign."""
+        """The largest absolute error [m or rad]."""
         return float(np.abs(self.error).max())
 
 
@@ -215,20 +218,20 @@ def follow_in_closed_loop(
     *,
     period: float = LOOP,
 ) -> FollowedMove:
-    """Let a mechanism follow a profile, from rest, and watch it for half a second more.
+    """Simulate a mechanism that follows a profile from rest, and half a second more.
 
     Args:
-        mechanism: the bench's, with its hidden effects, between its stops.
-        profile: the desired motion.
-        volts: the controller, called once each loop; its answer is held until the next.
-        period: [s] of the loop: ``LOOP`` in a robot program, ``ONBOARD`` in a motor controller.
+        mechanism: a simulated mechanism, with its hidden effects.
+        profile: the target motion.
+        volts: the controller, called once each loop; its voltage [V] holds until the next.
+        period: loop period [s]: ``LOOP`` in a robot program, ``ONBOARD`` in a motor controller.
 
     Raises:
-        BadRequest: the controller answers with no finite number.
+        BadRequest: the controller does not return a finite number.
     """
     model, wires = mechanism.model, make_power_path_array(mechanism)
     body = Body.cold_at(profile.start)
-    count = math.ceil((profile.duration + STILL) / period)
+    count = math.ceil((profile.duration + SETTLING) / period)
     position, velocity, asked = [profile.start], [0.0], []
     for loop in range(count):
         now, after = profile.calculate(loop * period), profile.calculate((loop + 1) * period)
@@ -254,18 +257,20 @@ def follow_in_closed_loop(
 
 Loop = Callable[[ElevatorFeedforward, PIDController, LoopInput], float]
 
-EXAMPLE = LoopInput(Setpoint(0.4, 0.8), Setpoint(0.418, 0.92), 0.37, 0.74)  # no two numbers alike
-CLOSE = 1e-9  # [share] what rounding may change
+EXAMPLE = LoopInput(
+    Setpoint(0.4, 0.8), Setpoint(0.418, 0.92), 0.37, 0.74
+)  # all numbers differ, so that mistakes can be told apart
+CLOSE = 1e-9  # [1] relative tolerance for rounding errors
 RIGHT = "Your loop: right."
 OURS = " The next cells use our loop until then."
 
 
 @dataclass(frozen=True)
 class CheckedLoop:
-    """A learner's loop, and the feedback to it.
+    """A student's loop, and the feedback to it.
 
     Args:
-        loop: the learner's feedback function if it is right, else ours.
+        loop: the student's function if it is right, else ``compute_loop_voltage``.
         report: the feedback to it, one line.
     """
 
@@ -274,26 +279,26 @@ class CheckedLoop:
 
 
 def compute_loop_voltage(ff: ElevatorFeedforward, pid: PIDController, one: LoopInput) -> float:
-    """[V] output of the loop that lesson 8 asks for: feedforward plus feedback."""
+    """The output [V] of the loop in lesson 8: feedforward plus feedback."""
     forward = ff.calculateWithVelocities(one.now.velocity, one.after.velocity)
     return forward + pid.calculate(one.position, one.now.position)
 
 
 def check_loop(mine: Callable[..., object]) -> CheckedLoop:
-    """Check a learner's loop at one time step of a profile; ``...`` is an unfilled blank.
+    """Check a student's loop at one time step of a profile; ``...`` is an empty blank.
 
     Args:
-        mine: feedforward, feedback and what is known in a loop -> [V].
+        mine: the student's function of feedforward, PID controller and ``LoopInput``; returns [V].
     """
     try:
         answer = mine(*_controllers(), EXAMPLE)
         if answer is ... or answer is None:
-            said = "Your loop: still empty. Put your answer in place of the three dots."
-            return CheckedLoop(compute_loop_voltage, said + OURS)
+            feedback_text = "Your loop: still empty. Put your answer in place of the three dots."
+            return CheckedLoop(compute_loop_voltage, feedback_text + OURS)
         found = float(answer)  # type: ignore[arg-type]  # whatever it is, the next lines say so
-    except Exception as error:  # noqa: BLE001 - a learner's line may fail in any way
-        said = f"Your loop: it stops with an error: {error}."
-        return CheckedLoop(compute_loop_voltage, said + OURS)
+    except Exception as error:  # noqa: BLE001 - a student's line may fail in any way
+        feedback_text = f"Your loop: it stops with an error: {error}."
+        return CheckedLoop(compute_loop_voltage, feedback_text + OURS)
     wanted = compute_loop_voltage(*_controllers(), EXAMPLE)
     if math.isclose(found, wanted, rel_tol=CLOSE):
         return CheckedLoop(mine, RIGHT)  # type: ignore[arg-type]  # judged to answer with a number
@@ -305,12 +310,12 @@ def check_loop(mine: Callable[..., object]) -> CheckedLoop:
 
 
 def _controllers() -> tuple[ElevatorFeedforward, PIDController]:
-    """A feedforward and a feedback, both new: a PID controller remembers the last error."""
+    """A new feedforward and a new PID controller, which stores the last error."""
     return ElevatorFeedforward(0.25, 2.0, 4.5, 0.2), PIDController(7.0)
 
 
 def _wrong_loops() -> list[tuple[float, str]]:
-    """[V] of loops that learners write, and what to say to each."""
+    """Outputs [V] of common wrong loops, each with its hint."""
     ff, pid = _controllers()
     now, after, measured = EXAMPLE.now, EXAMPLE.after, EXAMPLE.position
     forward = ff.calculateWithVelocities(now.velocity, after.velocity)
@@ -355,13 +360,13 @@ def _wrong_loops() -> list[tuple[float, str]]:
 def compute_phoenix_voltage(
     gains: Mapping[str, float], one: LoopInput, *, meters_per_rotation: float
 ) -> float:
-    """[V] output of Motion Magic with the gains of ``Slot0Configs``, in a loop of ``ONBOARD``.
+    """The output [V] of Motion Magic with the gains of ``Slot0Configs``, with period ``ONBOARD``.
 
     Args:
         gains: kS and kG [V], kV [V per rot/s], kA [V per rot/s²], kP [V per rot], all per rotation
             of the mechanism.
-        one: the profile and the measurement, in meters.
-        meters_per_rotation: [m] that one rotation of the mechanism moves.
+        one: setpoints and measurements in meters.
+        meters_per_rotation: distance per rotation of the mechanism [m].
     """
     velocity = one.now.velocity / meters_per_rotation
     acceleration = (one.after.velocity - one.now.velocity) / ONBOARD / meters_per_rotation
@@ -371,5 +376,5 @@ def compute_phoenix_voltage(
 
 
 def _sign(value: float) -> float:
-    """Java's ``Math.signum``."""
+    """The sign of a number, as Java's ``Math.signum``."""
     return float((value > 0.0) - (value < 0.0))

@@ -1,11 +1,11 @@
-"""One test on a floor with a stop mark: when the driver lets go, and where the robot stops.
+"""One test on a floor with a stop mark: when the driver releases the button, where it stops.
 
-The voltage of the routine is on until the mark has passed and a thumb has reacted, or until the
-timeout. Then the motors brake, as hard as their own back-EMF and the carpet allow:
+The voltage of the routine is on until the robot has passed the mark and the driver has reacted, or
+until the timeout. Then the motors brake, limited by back-EMF and grip:
 
     v' = -min((kV·v + kS)/kA, grip·g)
 
-What comes to the wall before that is not followed any further.
+A robot that reaches the wall is not simulated further.
 """
 
 import math
@@ -20,12 +20,12 @@ from sim.core.errors import BadRequest
 from sim.core.log import Array
 from sim.physics.engine import State, simulate_run
 
-PERIOD = 0.02  # [s] of the robot program's loop
-STANDS = 0.01  # [m/s] slower is standing
+PERIOD = 0.02  # [s] loop period of the robot program
+STANDSTILL = 0.01  # [m/s] slower counts as standing
 GRAVITY = 9.81  # [m/s²]
-GRIP = 1.1  # [1] of wheels on carpet, roughly
-FINE = 20  # steps to a loop while it brakes
-THUMB = 0.3  # [s] from seeing the mark to having let go: a person who waits for it
+GRIP = 1.1  # [1] coefficient of friction of wheels on carpet, roughly
+FINE = 20  # integration steps per loop while it brakes
+THUMB = 0.3  # [s] reaction time of a driver who waits for the mark
 
 
 @dataclass(frozen=True)
@@ -33,14 +33,14 @@ class Floor:
     """A floor with a start, a stop mark and a wall.
 
     Args:
-        wall: [m] from the start to what must not be hit.
-        tape: [m] from the start to the mark; None has none.
-        thumb: [s] from the mark to the button's release.
-        watched: [s] after which somebody ends the test in any case; infinite is nobody.
-        grip: [1] of the wheels.
+        wall: distance from the start to the wall [m].
+        tape: distance from the start to the mark [m]; None is no mark.
+        thumb: time from the mark to the release of the button [s].
+        watched: time after which somebody ends the test in any case [s]; infinite is never.
+        grip: coefficient of friction of the wheels [1].
 
     Raises:
-        BadRequest: a length or a time that is not above zero.
+        BadRequest: a number is not above zero.
     """
 
     wall: float
@@ -61,14 +61,14 @@ class FloorTest:
     """The result of a simulated test on a floor.
 
     Args:
-        floor: where.
-        time: (n,) [s] since the button was pressed.
-        position: (n,) [m] from the start.
+        floor: the floor of the test.
+        time: (n,) time since the button was pressed [s].
+        position: (n,) distance from the start [m].
         velocity: (n,) [m/s].
-        battery: (n,) [V].
-        released: [s] when the motors were off.
-        hit_wall: [s] when it came to the wall, which is the last sample; None if it did not.
-        brownout: [V] below which the robot controller takes the motors off.
+        battery: (n,) battery voltage [V].
+        released: time when the motors were turned off [s].
+        hit_wall: time when it hit the wall, the last sample [s]; None if it did not.
+        brownout: voltage below which the robot controller turns the motors off [V].
     """
 
     floor: Floor
@@ -82,23 +82,23 @@ class FloorTest:
 
     @property
     def final_position(self) -> float:
-        """[m] where it stands in the end, or hits the wall."""
+        """The position at the end of the test, or at the wall [m]."""
         return float(self.position[-1])
 
     @property
     def browned_out(self) -> bool:
-        """Whether the battery sank below the threshold."""
+        """Whether the battery voltage dropped below the brownout voltage."""
         return float(self.battery.min()) < self.brownout
 
 
 def drive_test(mechanism: Mechanism, routine: Routine, *, test: str, floor: Floor) -> FloorTest:
-    """Run one forward test.
+    """Simulate one forward test on a floor.
 
     Args:
-        mechanism: without stops of its own.
-        routine: which voltages.
+        mechanism: a drivetrain, without hard stops of its own.
+        routine: the voltages of the tests.
         test: ``quasistatic-forward`` or ``dynamic-forward``.
-        floor: where.
+        floor: start, mark and wall.
 
     Raises:
         BadRequest: the routine has no such test, or it does not go forward.
@@ -114,8 +114,8 @@ def drive_test(mechanism: Mechanism, routine: Routine, *, test: str, floor: Floo
         state=State(),
         wires=make_power_path_array(mechanism),
     )
-    on = _until_released(track.position, floor)
-    way, speed = _braked(
+    on = _count_samples_until_off(track.position, floor)
+    way, speed = _simulate_braking(
         float(track.position[on - 1]), float(track.velocity[on - 1]), mechanism, floor
     )
     position = np.concatenate([track.position[:on], way])
@@ -136,21 +136,21 @@ def drive_test(mechanism: Mechanism, routine: Routine, *, test: str, floor: Floo
     )
 
 
-def _until_released(position: Array, floor: Floor) -> int:
-    """How many samples there are until the motors are off, that moment among them."""
+def _count_samples_until_off(position: Array, floor: Floor) -> int:
+    """The number of samples up to the moment when the motors are turned off, inclusive."""
     passed = np.flatnonzero(position >= floor.tape) if floor.tape is not None else np.array([])
     if not passed.size:
         return position.size
     return min(int(passed[0]) + round(floor.thumb / PERIOD) + 1, position.size)
 
 
-def _braked(
+def _simulate_braking(
     position: float, velocity: float, mechanism: Mechanism, floor: Floor
 ) -> tuple[Array, Array]:
-    """Position and velocity, (n,) each, from the loop after the motors are off until it stands."""
+    """Position [m] and velocity [m/s], (n,) each, after the motors are off until it stands."""
     gains, step = mechanism.gains, PERIOD / FINE
     way, speed = [position], [velocity]
-    while velocity > STANDS:
+    while velocity > STANDSTILL:
         for _ in range(FINE):
             slows = (gains["kV"] * velocity + gains["kS"]) / gains["kA"]
             velocity = max(velocity - step * min(slows, floor.grip * GRAVITY), 0.0)

@@ -2,7 +2,7 @@
 
     found = gains of SysId's recipe        off = found/true - 1
 
-The truth is known, so beside each R² stands by how much the gains are off: what no robot tells.
+The truth is known, so each R² comes with the errors of the gains, which are unknown on a robot.
 """
 
 from collections.abc import Callable, Mapping
@@ -15,20 +15,20 @@ from sim.fit import Fit, fit
 from sim.teaching.r2_cases import drivetrains, harm
 
 GOOD = 0.9  # [1] simulated velocity R² above which WPILib's docs call a fit good
-MEDIAN = 5  # [samples] the window that repairs single spikes
+MEDIAN = 5  # [samples] window of the median filter, which removes single spikes
 
 
 @dataclass(frozen=True, eq=False)
 class Case:
-    """A log, what is wrong with it, and what SysId's recipe makes of it.
+    """A log with a fault, and the fit of SysId's recipe to it.
 
     Args:
-        name: a few words.
-        story: what happened, one sentence with numbers.
-        log: as it was recorded.
-        truth: the gains of the mechanism in it.
-        fit: what SysId's recipe finds.
-        harmful: whether it was recorded wrongly and nothing was repaired.
+        name: name of the fault, in a few words.
+        story: what happened, in one sentence with numbers.
+        log: the recorded log.
+        truth: the true gains of the mechanism.
+        fit: the fit of SysId's recipe.
+        harmful: whether the log has a fault that was not repaired.
     """
 
     name: str
@@ -44,13 +44,13 @@ class Case:
 
     @property
     def has_good_r2(self) -> bool:
-        """Whether its simulated velocity R² passes for good."""
+        """Whether its simulated velocity R² is above ``GOOD``."""
         return self.fit.simulated_velocity_r2 > GOOD
 
 
 @dataclass(frozen=True)
 class _Recipe:
-    """How a case is made: a mechanism and its routine, and damage to the log."""
+    """The definition of a case: mechanism and routine, and damage to the log."""
 
     name: str
     story: str
@@ -167,15 +167,15 @@ def make_cases(*, rng: np.random.Generator) -> tuple[Case, ...]:
     """Make the logs and fit them.
 
     Args:
-        rng: the source of noise and of where gaps fall; the same state gives the same cases.
+        rng: random numbers for noise and gaps; the same state gives the same cases.
 
     Returns:
-        One case for each kind of harm, the sound log first.
+        One case for each recipe, the undamaged log first.
     """
-    return tuple(_case(recipe, rng) for recipe in _RECIPES)
+    return tuple(_make_case(recipe, rng) for recipe in _RECIPES)
 
 
-def _case(recipe: _Recipe, rng: np.random.Generator) -> Case:
+def _make_case(recipe: _Recipe, rng: np.random.Generator) -> Case:
     setup = recipe.setup
     log = recipe.spoil(setup.log(rng=rng), rng)
     found = fit(log, method="sysid", median=recipe.median)

@@ -1,4 +1,4 @@
-"""The drivetrains and routines behind the cases: four motors, 60 kg."""
+"""The drivetrains and routines of the cases: four motors, 60 kg."""
 
 import math
 from dataclasses import dataclass, replace
@@ -14,15 +14,15 @@ from sim.physics.battery import Battery
 from sim.physics.model import Part
 from sim.physics.motors import find_motor
 
-NOISE = 0.01  # [m/s] of the velocity while it moves
+NOISE = 0.01  # [m/s] standard deviation of the velocity while it moves
 ROUTINE = Routine(ramp=1.0, step=3.5, timeout=7.0)
-AVERAGED = 0.224  # [s] a mean over so long is 112 ms late, as a NEO's own velocity is
-FORWARD, REVERSE = 0.15, 0.45  # [V] friction that differs
+AVERAGED = 0.224  # [s] averaging window; its mean is 112 ms late, as the velocity of a NEO
+FORWARD, REVERSE = 0.15, 0.45  # [V] friction of the case in which it differs
 
 
 @dataclass(frozen=True)
 class Setup:
-    """A mechanism and the routine that is run on it."""
+    """A mechanism and the routine run on it."""
 
     mechanism: Mechanism
     routine: Routine = ROUTINE
@@ -32,13 +32,13 @@ class Setup:
         return simulate(self.mechanism, self.routine, rng=rng)
 
 
-def _built() -> Mechanism:
+def _make_drivetrain() -> Mechanism:
     plain = MECHANISMS["drivetrain"]
     sensor = replace(plain.sensor, velocity_noise=NOISE)
     return replace(plain, sensor=sensor, travel=None, supply=math.inf, brownout=0.0)
 
 
-DRIVETRAIN = _built()
+DRIVETRAIN = _make_drivetrain()
 UNLIMITED = replace(DRIVETRAIN, stator=math.inf, battery=Battery(resistance=0.0))
 
 PLAIN = Setup(DRIVETRAIN)

@@ -1,4 +1,4 @@
-"""The damage that turns a sound log into each of the cases."""
+"""The kinds of damage to a log of which the cases are made."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -14,20 +14,20 @@ from sim.teaching.r2_cases.drivetrains import Setup
 
 Harm: TypeAlias = Callable[[Log, np.random.Generator], Log]
 
-FORWARD_RAMP, STEPS = 0, (2, 3)  # where the tests stand in a log
+FORWARD_RAMP, STEPS = 0, (2, 3)  # indices of tests in a log
 RAMPS = (FORWARD_RAMP, 1)
-PERIOD = 0.02  # [s]
-SPIKE = 1.6  # [m/s]
-WITHIN = (0.3, 0.9)  # [share of the ramp] where spikes fall
-JUMP, JUMP_LASTS, JUMP_BEGINS = 1.2, 0.2, 3.0  # [m/s, s, s] how much too fast, how long, and when
-STOP, PRESSED = 0.6, 0.3  # [share of the top speed, s]
+PERIOD = 0.02  # [s] between samples
+SPIKE = 1.6  # [m/s] height of a spike
+WITHIN = (0.3, 0.9)  # [share of the ramp] interval with spikes
+JUMP, JUMP_LASTS, JUMP_BEGINS = 1.2, 0.2, 3.0  # height [m/s], duration and start [s]
+STOP, PRESSED = 0.6, 0.3  # speed at the stop [share of the top speed], time against it [s]
 CUT = FaultStrike(FORWARD_RAMP, start=1.5, severity=1.0)
-LATE = 0.2  # [share of the loops]
-SHORTEST = 0.04  # [s] of a late loop
-GRIP = 1.1 * 9.81  # [m/s²] what carpet gives a robot at most
-LIGHT = 0.1  # [share of kA] that is the wheels' and rotors' own
-FINE = 50  # steps per sample in which wheels are spun up
-RATIO = 1.25
+LATE = 0.2  # [share of the loops] that are late
+SHORTEST = 0.04  # [s] shortest late loop
+GRIP = 1.1 * 9.81  # [m/s²] largest acceleration on carpet
+LIGHT = 0.1  # [share of kA] due to wheels and rotors
+FINE = 50  # integration steps per sample
+RATIO = 1.25  # error of the gear ratio
 
 
 def leave_unchanged(log: Log, rng: np.random.Generator) -> Log:  # noqa: ARG001 - as every harm
@@ -36,7 +36,7 @@ def leave_unchanged(log: Log, rng: np.random.Generator) -> Log:  # noqa: ARG001 
 
 
 def add_spikes(count: int) -> Harm:
-    """Let single velocities of the forward ramp be far off, up and down in turn."""
+    """Damage that adds velocity spikes to the forward ramp, up and down in turn."""
 
     def spoil(log: Log, rng: np.random.Generator) -> Log:  # noqa: ARG001 - as every harm
         run = log.runs[FORWARD_RAMP]
@@ -49,7 +49,7 @@ def add_spikes(count: int) -> Harm:
 
 
 def add_encoder_slip(loss: float) -> Harm:
-    """Let the encoder lose a share of the motion from the middle of both ramps on."""
+    """Damage by which the encoder misses a share of the motion in the second half of both ramps."""
 
     def spoil(log: Log, rng: np.random.Generator) -> Log:  # noqa: ARG001 - as every harm
         for index in RAMPS:
@@ -62,7 +62,7 @@ def add_encoder_slip(loss: float) -> Harm:
 
 
 def add_position_jump(log: Log, rng: np.random.Generator) -> Log:  # noqa: ARG001 - as every harm
-    """Add a jump of the position to the forward ramp."""
+    """Add a sudden motion to the forward ramp: 1.2 m/s too fast at most, for 0.2 s."""
     run = log.runs[FORWARD_RAMP]
     since = np.clip((run.time - run.time[0] - JUMP_BEGINS) / JUMP_LASTS, 0.0, 1.0)
     bump = JUMP * np.sin(np.pi * since)
@@ -73,7 +73,7 @@ def add_position_jump(log: Log, rng: np.random.Generator) -> Log:  # noqa: ARG00
 
 
 def add_early_stop(log: Log, rng: np.random.Generator) -> Log:  # noqa: ARG001 - as every harm
-    """Let both step tests run into a stop too early to determine the gains."""
+    """Let both step tests hit a stop at 60 % of the top speed, with voltage for 0.3 s more."""
     for index in STEPS:
         run = log.runs[index]
         speed = np.abs(run.velocity)
@@ -84,10 +84,12 @@ def add_early_stop(log: Log, rng: np.random.Generator) -> Log:  # noqa: ARG001 -
 
 
 def log_commanded_voltage(setup: Setup) -> Harm:
-    """Log the commanded voltage."""
+    """Damage that replaces the motor voltage by the commanded voltage."""
 
     def spoil(log: Log, rng: np.random.Generator) -> Log:  # noqa: ARG001 - as every harm
-        return replace(log, runs=tuple(replace(r, voltage=_asked(r, setup)) for r in log.runs))
+        return replace(
+            log, runs=tuple(replace(r, voltage=_command_voltage(r, setup)) for r in log.runs)
+        )
 
     return spoil
 
@@ -98,50 +100,52 @@ def add_brownout(log: Log, rng: np.random.Generator) -> Log:
 
 
 def drop_samples(longest: float) -> Harm:
-    """Lose the samples of late loops."""
+    """Damage that drops the samples of late loops, up to a length [s]."""
 
     def spoil(log: Log, rng: np.random.Generator) -> Log:
-        return replace(log, runs=tuple(_late(run, longest=longest, rng=rng) for run in log.runs))
+        return replace(
+            log, runs=tuple(_drop_late_loops(run, longest=longest, rng=rng) for run in log.runs)
+        )
 
     return spoil
 
 
 def add_wheel_slip(setup: Setup) -> Harm:
-    """Let the wheels of both steps spin until the robot has caught up with them."""
+    """Damage by which the wheels spin in both steps until the robot has their speed."""
 
     def spoil(log: Log, rng: np.random.Generator) -> Log:  # noqa: ARG001 - as every harm
         for index in STEPS:
-            log = replace_run(log, index, _spun(log.runs[index], setup))
+            log = replace_run(log, index, _add_slip(log.runs[index], setup))
         return log
 
     return spoil
 
 
 def scale_encoder(log: Log, rng: np.random.Generator) -> Log:  # noqa: ARG001 - as every harm
-    """Divide what the encoder says by a ratio that is not there."""
-    return _scaled(log, 1.0 / RATIO)
+    """Divide the encoder's position and velocity by a wrong gear ratio."""
+    return _scale_motion(log, 1.0 / RATIO)
 
 
 def flip_encoder(log: Log, rng: np.random.Generator) -> Log:  # noqa: ARG001 - as every harm
     """Reverse the sign of the encoder."""
-    return _scaled(log, -1.0)
+    return _scale_motion(log, -1.0)
 
 
-def _scaled(log: Log, factor: float) -> Log:
+def _scale_motion(log: Log, factor: float) -> Log:
     runs = (
         replace(r, position=factor * r.position, velocity=factor * r.velocity) for r in log.runs
     )
     return replace(log, runs=tuple(runs))
 
 
-def _asked(run: Run, setup: Setup) -> Array:
-    """(n,) [V] the routine's commanded voltage."""
+def _command_voltage(run: Run, setup: Setup) -> Array:
+    """The routine's commanded voltage (n,) [V]."""
     since = run.time - run.time[0] + LOOPS_BEFORE_DRIVE * PERIOD
     return np.array([setup.routine.command_voltage(run.test, t) for t in since.tolist()])
 
 
-def _late(run: Run, *, longest: float, rng: np.random.Generator) -> Run:
-    """The run without what late loops did not log."""
+def _drop_late_loops(run: Run, *, longest: float, rng: np.random.Generator) -> Run:
+    """The run without the samples that late loops did not log."""
     keep = np.ones(len(run), dtype=bool)
     place = 1
     while place < len(run) - 1:
@@ -154,21 +158,21 @@ def _late(run: Run, *, longest: float, rng: np.random.Generator) -> Run:
     return select_samples(run, keep)
 
 
-def _spun(run: Run, setup: Setup) -> Run:
-    """The step as its wheels see it: kA_w·v' = V - kS - kV·v - F, with F [V] what carpet holds.
+def _add_slip(run: Run, setup: Setup) -> Run:
+    """The step with wheel slip: kA_w·v' = V - kS - kV·v - F, with the grip of the carpet F [V].
 
-    The noise of the encoder stays what it was.
+    The noise of the encoder does not change.
     """
     gains = setup.mechanism.gains
-    plain = _speed(run, gains, holds=np.inf)
-    slipping = _speed(run, gains, holds=gains["kA"] * GRIP)
+    plain = _wheel_speed(run, gains, holds=np.inf)
+    slipping = _wheel_speed(run, gains, holds=gains["kA"] * GRIP)
     more = np.sign(run.voltage[0]) * (slipping - plain)
     moved = np.concatenate(([0.0], np.cumsum(0.5 * (more[1:] + more[:-1]) * np.diff(run.time))))
     return replace(run, velocity=run.velocity + more, position=run.position + moved)
 
 
-def _speed(run: Run, gains: "dict[str, float]", *, holds: float) -> Array:
-    """(n,) [m/s] of the wheels, on carpet that holds so many volts."""
+def _wheel_speed(run: Run, gains: "dict[str, float]", *, holds: float) -> Array:
+    """The speed of the wheels (n,) [m/s] on carpet whose grip is ``holds`` [V]."""
     ka, wheels, robot, loose = gains["kA"], 0.0, 0.0, False
     speeds = [0.0]
     for span, volts in zip(np.diff(run.time).tolist(), np.abs(run.voltage).tolist(), strict=False):
