@@ -156,4 +156,4 @@ class Workers:
 )
 def test_workers_that_would_make_something_else_are_refused(has, said):
     with pytest.raises(cluster.BadRequest, match=said):
-        cluster._workers(Workers(*has), "tcp://host:1")
+        cluster._count_workers(Workers(*has), "tcp://host:1")

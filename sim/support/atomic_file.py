@@ -1,4 +1,4 @@
-"""Files written whole or not at all, and files that only their owner may read."""
+"""Atomic writing of files, and files and folders that only their owner may read."""
 
 import os
 import time
@@ -7,23 +7,29 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from uuid import uuid4
 
-OWNER_ONLY, USUAL = 0o600, 0o666  # rights of a new file; the system takes its mask off the second
+OWNER_ONLY, USUAL = (
+    0o600,
+    0o666,
+)  # permissions of a new file; the system's umask applies to the second
 OWNER_ONLY_FOLDER = 0o700
-TRIES, PAUSE = 20, 0.05  # [s] Windows refuses to replace a file while another program reads it
+TRIES, PAUSE = (
+    20,
+    0.05,
+)  # number, and [s]: Windows refuses to replace a file while a program reads it
 
 
 def write_atomically(path: Path, content: str | bytes, *, private: bool = False) -> None:
-    """Write a file so that whoever reads it finds the old content or the new, never a part.
+    """Write a file so that a reader finds the old content or all of the new.
 
-    The new content is on the disk before it takes the place of the old.
+    The new content is on the disk before it replaces the old.
 
     Args:
-        path: of the file; its folder has to be there.
-        content: a text is written in UTF-8, with line ends as they are.
+        path: path of the file; its folder must exist.
+        content: the new content; a text is written in UTF-8, with its own line endings.
         private: whether only the owner may read it, where a system recognizes owners (POSIX).
 
     Raises:
-        OSError: it cannot be written; nothing is left behind.
+        OSError: the file cannot be written; no partial file remains.
     """
     raw = content.encode("utf-8") if isinstance(content, str) else content
     write_pieces_atomically(path, (raw,), private=private)
@@ -33,12 +39,12 @@ def write_pieces_atomically(path: Path, pieces: Iterable[bytes], *, private: boo
     """``write_atomically`` for content that comes in pieces.
 
     Args:
-        path: of the file; its folder has to be there.
-        pieces: one behind the other.
+        path: path of the file; its folder must exist.
+        pieces: the content, in order.
         private: whether only the owner may read it, where a system recognizes owners (POSIX).
 
     Raises:
-        OSError: it cannot be written; nothing is left behind.
+        OSError: the file cannot be written; no partial file remains.
     """
     flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
     rights = OWNER_ONLY if private else USUAL
@@ -53,12 +59,12 @@ def write_pieces_atomically(path: Path, pieces: Iterable[bytes], *, private: boo
 
 @contextmanager
 def atomic_path(path: Path) -> Iterator[Path]:
-    """A path in the same folder, with the same suffix, for a file's new content.
+    """A context with a temporary path in the same folder, for a file's new content.
 
-    The new file takes the old one's place when the block ends, and is removed if the block fails.
+    When the block ends, the new file replaces the old one; if the block fails, it is removed.
 
     Args:
-        path: of the file; its folder has to be there.
+        path: path of the file; its folder must exist.
 
     Raises:
         OSError: the old file cannot be replaced.
@@ -68,7 +74,7 @@ def atomic_path(path: Path) -> Iterator[Path]:
         yield part
         _replace(part, path)
     finally:
-        with suppress(OSError):  # nothing is left to remove when all went well
+        with suppress(OSError):  # after success, there is nothing to remove
             part.unlink()
 
 
@@ -85,12 +91,12 @@ def _replace(part: Path, path: Path) -> None:
 
 
 def make_private_folder(path: Path) -> None:
-    """Make a folder, and those above it, that only its owner may look into (POSIX).
+    """Create a folder, and its parents, that only its owner may read (POSIX).
 
-    Folders that are there already keep their rights.
+    Existing folders keep their permissions.
 
     Raises:
-        OSError: it cannot be made.
+        OSError: the folder cannot be created.
     """
     for folder in reversed([path, *path.parents]):
         if not folder.is_dir():

@@ -1,4 +1,4 @@
-"""A catalogue is a folder: each module in it is one member, and nothing is registered."""
+"""Catalogues: packages in which each module is one member, without a registry."""
 
 from importlib import import_module
 from pkgutil import iter_modules
@@ -6,10 +6,10 @@ from types import ModuleType
 
 
 def list_members(package: ModuleType) -> dict[str, ModuleType]:
-    """The modules of a catalogue, by the name a person types: ``encoder_slip`` -> ``encoder-slip``.
+    """The modules of a catalogue by name, with dashes: ``encoder-slip`` for ``encoder_slip``.
 
     Args:
-        package: the catalogue's own package.
+        package: the package of the catalogue.
     """
     return {
         found.name.replace("_", "-"): import_module(f"{package.__name__}.{found.name}")

@@ -1,4 +1,4 @@
-"""Shared by both commands: exit codes, one-line errors, and consoles of any encoding."""
+"""Code of both commands: exit codes, one-line errors, and consoles of any encoding."""
 
 import codecs
 import io
@@ -13,8 +13,8 @@ from sim.core.errors import Refusal
 from sim.support.printable import make_printable
 
 DONE, NOT_RIGHT, COULD_NOT = 0, 1, 2
-INTERRUPTED = 130  # what a shell reports for Ctrl+C
-TRACEBACK = "SYSID_TRACEBACK"  # set in the environment, it shows a traceback for our own mistakes
+INTERRUPTED = 130  # exit code of a shell for Ctrl+C
+TRACEBACK = "SYSID_TRACEBACK"  # environment variable: show tracebacks of unexpected errors
 
 PLAIN = str.maketrans(
     {
@@ -28,16 +28,17 @@ PLAIN = str.maketrans(
 def run_command(
     command: click.Command, *, name: str, arguments: Sequence[str] | None = None
 ) -> int:
-    """Run a command and return its exit code; nothing gets out as a traceback.
+    """Run a command and return its exit code, without a traceback.
 
-    A refusal, a wrong option or a mistake of ours becomes one line on standard error and code 2.
+    A refusal, a wrong option or an unexpected error becomes one line on standard error and code 2.
+    With the environment variable SYSID_TRACEBACK, errors are raised instead.
 
     Args:
-        command: whose callback returns an exit code, or None for 0.
-        name: as typed, for messages.
-        arguments: None takes the process's own.
+        command: the command; its callback returns an exit code, or None for 0.
+        name: name of the command in messages.
+        arguments: its arguments; None takes those of the process.
     """
-    _any_encoding()
+    _allow_any_encoding()
     try:
         code = command.main(arguments, prog_name=name, standalone_mode=False)
         sys.stdout.flush()
@@ -46,35 +47,35 @@ def run_command(
         return DONE
     except (KeyboardInterrupt, click.Abort):
         return INTERRUPTED
-    except BrokenPipeError:  # the reader of our output has gone, as `head` does
+    except BrokenPipeError:  # the reader of the output has closed it, as `head` does
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return COULD_NOT
     except Exception as error:
         if os.environ.get(TRACEBACK):
             raise
-        print_error(_sentence(error, name=name), name=name)
+        print_error(_describe_error(error, name=name), name=name)
         return COULD_NOT
     return code if isinstance(code, int) else DONE
 
 
-def print_error(said: str, *, name: str) -> None:
+def print_error(text: str, *, name: str) -> None:
     """Print one line to standard error.
 
     Args:
-        said: the line; line breaks in it become spaces.
-        name: the command that says it.
+        text: the line; line breaks in it become spaces.
+        name: name of the command, printed first.
     """
-    plain = make_printable(click.unstyle(said))  # what other programs say may be colored
+    plain = make_printable(click.unstyle(text))  # texts of other programs may be colored
     click.echo(f"{name}: {' '.join(plain.split())}", err=True)
 
 
 def quote_path(path: str | os.PathLike[str]) -> str:
-    """A path as one word of a command line: in double quotes, where a shell would split it.
+    """A path as one word of a command line, in double quotes if a shell would split it.
 
     Double quotes work in PowerShell, cmd and POSIX shells.
 
     Args:
-        path: of a file that a suggested command names.
+        path: path of a file in a suggested command.
     """
     text = os.fspath(path)
     if re.fullmatch(r"[A-Za-z0-9_./:~+-]+", text.replace(os.sep, "/")):
@@ -84,8 +85,8 @@ def quote_path(path: str | os.PathLike[str]) -> str:
     return f'"{text}"'
 
 
-def _sentence(error: Exception, *, name: str) -> str:
-    """What a person reads instead of a traceback."""
+def _describe_error(error: Exception, *, name: str) -> str:
+    """The message for an error, in one sentence."""
     match error:
         case Refusal():
             return str(error)
@@ -106,15 +107,15 @@ def _sentence(error: Exception, *, name: str) -> str:
             )
 
 
-def _any_encoding() -> None:
-    """Let both streams print anything: a sign their encoding lacks becomes plain letters."""
-    codecs.register_error("plain", _plainly)
+def _allow_any_encoding() -> None:
+    """Let both output streams print any text: characters outside their encoding become ASCII."""
+    codecs.register_error("plain", _replace_unprintable)
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="plain")
 
 
-def _plainly(error: UnicodeError) -> tuple[str, int]:
+def _replace_unprintable(error: UnicodeError) -> tuple[str, int]:
     if not isinstance(error, UnicodeEncodeError):
         raise error
     lacking = error.object[error.start : error.end].translate(PLAIN)

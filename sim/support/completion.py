@@ -1,4 +1,4 @@
-"""Completion of names in a shell: what a person may type, without importing any of it."""
+"""Completion of names in a shell, without importing the modules they name."""
 
 import re
 from collections.abc import Callable
@@ -12,32 +12,32 @@ Completion = Callable[[click.Context, click.Parameter, str], list[CompletionItem
 
 
 def complete_members(folder: Path) -> Completion:
-    """A completion of the members of a catalogue, by the name that each file gives itself.
+    """A completion of the members of a catalogue, by the name in each file.
 
     Args:
-        folder: of the catalogue.
+        folder: folder of the catalogue.
     """
 
     def complete(
-        _context: click.Context, _parameter: click.Parameter, begun: str
+        _context: click.Context, _parameter: click.Parameter, incomplete: str
     ) -> list[CompletionItem]:
         names = sorted(map(_read_name, folder.glob("[!_]*.py")))
-        return [CompletionItem(name) for name in names if name.startswith(begun)]
+        return [CompletionItem(name) for name in names if name.startswith(incomplete)]
 
     return complete
 
 
 def _read_name(path: Path) -> str:
-    """The name of a member, read from its text: an import would take longer than one waits."""
+    """The name of a member, read from its source text, because an import would be too slow."""
     found = NAME.search(path.read_text(encoding="utf-8"))
     return found[1] if found else path.stem.replace("_", "-")
 
 
 def explain_completion(command: str) -> str:
-    """How to switch completion on, for the end of a command's help.
+    """How to turn on completion, for the end of a command's help.
 
     Args:
-        command: as it is typed.
+        command: name of the command.
     """
     variable = f"_{command.upper()}_COMPLETE"
     return (

@@ -1,4 +1,4 @@
-"""The user's cache: files that can be made again."""
+"""The user's cache: files that can be computed again."""
 
 import os
 from collections.abc import Iterable
@@ -9,17 +9,17 @@ import platformdirs
 
 from sim.support.atomic_file import write_atomically
 
-CACHE = "SYSID_CACHE"  # environment variable: another folder
+CACHE = "SYSID_CACHE"  # environment variable with another folder
 
 
 def find_cache_folder() -> Path:
-    """The folder of the user's cache, which may not be there yet."""
+    """The folder of the user's cache, which may not exist yet."""
     asked = os.environ.get(CACHE)
     return Path(asked or platformdirs.user_cache_dir("sysid-course", appauthor=False))
 
 
 def read_cached(path: Path) -> bytes | None:
-    """Read a cached file; None where there is none, or it cannot be read."""
+    """The content of a cached file; None if it does not exist or cannot be read."""
     try:
         return path.read_bytes()
     except OSError:
@@ -30,14 +30,14 @@ def write_cached(path: Path, content: bytes) -> None:
     """Write a cached file atomically: a reader sees its old content or all of the new.
 
     Raises:
-        OSError: there is no place for it.
+        OSError: the file cannot be written.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
     write_atomically(path, content)
 
 
 def select_older(paths: Iterable[Path], *, than: int) -> list[Path]:
-    """All but the ``than`` newest files, without those that another process removed."""
+    """All but the ``than`` newest files, oldest first; files that no longer exist are left out."""
     ages = []
     for path in paths:
         with suppress(OSError):
@@ -46,7 +46,7 @@ def select_older(paths: Iterable[Path], *, than: int) -> list[Path]:
 
 
 def remove_files(paths: Iterable[Path]) -> None:
-    """Remove files, but for those that another process uses."""
+    """Remove files, except those that another process uses."""
     for path in paths:
         with suppress(OSError):
             path.unlink()

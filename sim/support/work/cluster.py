@@ -1,8 +1,8 @@
 """Run jobs on a Dask cluster (extra ``cluster``).
 
-A worker gets a job and gives back plain data, and this process writes it: machines need this
-package in the same version, and no disk in common. What a job holds does travel, be it a seed, the
-truth about a log or a learner's answer: over a network that is not one's own, use ``tls://``.
+A worker gets a job and returns plain data, and this process writes it. So all machines need the
+same version of this package, but no shared disk. Jobs go through the network, with seeds, true
+parameters or students' answers: in a network that you do not trust, use ``tls://``.
 """
 
 import logging
@@ -22,30 +22,31 @@ Job = TypeVar("Job")
 Result = TypeVar("Result")
 
 ADDRESS = re.compile(r"((tcp|tls|wss?)://)?(\[[0-9a-fA-F:]+\]|[^\s/:]+):\d{1,5}/?")
-PATIENCE = 10.0  # [s] until a scheduler has to answer
-US = "sysid-course"
+PATIENCE = 10.0  # [s] to wait for the answer of a scheduler
+PACKAGE = "sysid-course"
 
 
 def run_jobs_on_cluster(
     work: Callable[[Job], Result], jobs: Sequence[Job], *, address: str
 ) -> Iterator[Result]:
-    """Do jobs on a Dask cluster.
+    """Results of jobs done on a Dask cluster, in the order in which they finish.
 
     Args:
         work: does one job; a function of a module of this package.
-        jobs: what to do.
-        address: of its scheduler: ``tcp://10.0.0.5:8786``.
+        jobs: the jobs.
+        address: address of the scheduler: ``tcp://10.0.0.5:8786``.
 
     Raises:
-        BadRequest: Dask is not installed here, nobody answers, or the workers cannot do it.
+        BadRequest: Dask is not installed here, no scheduler answers, there are no workers, a
+            worker has another version of this package, or the connection is lost.
     """
-    dask = _dask()
-    with _quiet(), _client(dask, address) as client:
-        workers = _workers(client, address)
+    dask = _import_dask()
+    with _disable_logging(), _connect(dask, address) as client:
+        workers = _count_workers(client, address)
         try:
             executor = client.get_executor(pure=False)
             yield from collect_results(executor, work, jobs, ahead=AHEAD * workers)
-        except Exception as error:  # whatever Dask makes of a connection that is gone
+        except Exception as error:  # Dask raises many types when a connection is lost
             lost = isinstance(error, CancelledError | OSError | dask.KilledWorker)
             if client.status == "running" and not lost:
                 raise
@@ -57,8 +58,8 @@ def run_jobs_on_cluster(
 
 
 @contextmanager
-def _quiet() -> Iterator[None]:
-    """Without the pages that Dask logs of a lost connection: what is lost is said in one line."""
+def _disable_logging() -> Iterator[None]:
+    """Disable logging: Dask logs pages about a lost connection, which is reported in one line."""
     before = logging.root.manager.disable
     logging.disable(logging.CRITICAL)
     try:
@@ -67,8 +68,12 @@ def _quiet() -> Iterator[None]:
         logging.disable(before)
 
 
-def _dask() -> ModuleType:
-    """Dask's own package; nothing else here needs it."""
+def _import_dask() -> ModuleType:
+    """Dask's package ``distributed``, imported only when it is needed.
+
+    Raises:
+        BadRequest: it is not installed.
+    """
     try:
         return import_module("distributed")
     except ImportError:
@@ -78,32 +83,40 @@ def _dask() -> ModuleType:
         ) from None
 
 
-def _client(dask: ModuleType, address: str) -> Any:  # noqa: ANN401 - of a package that may be absent
-    """A connection to a scheduler."""
+def _connect(dask: ModuleType, address: str) -> Any:  # noqa: ANN401 - of a package that may be absent
+    """A connection to a scheduler.
+
+    Raises:
+        BadRequest: the address is invalid, or no scheduler answers.
+    """
     advice = "Start one with: dask scheduler; and give the address it prints."
     if not ADDRESS.fullmatch(address):
         raise BadRequest(f"{address!r} is not the address of a Dask scheduler", advice=advice)
     try:
         return dask.Client(address, timeout=PATIENCE, set_as_default=False)
-    except (OSError, ValueError) as error:  # what cannot be reached, and what has no such protocol
+    except (OSError, ValueError) as error:  # not reachable, or an unknown protocol
         raise BadRequest(
             f"no Dask scheduler answers at {address} ({type(error).__name__})", advice=advice
         ) from None
 
 
-def _workers(client: Any, address: str) -> int:  # noqa: ANN401 - as above
-    """How many workers there are; none, or one that would make something else, is refused."""
-    found = client.run(version, US, on_error="return")
+def _count_workers(client: Any, address: str) -> int:  # noqa: ANN401 - as above
+    """The number of workers.
+
+    Raises:
+        BadRequest: there are none, or one has another version of this package.
+    """
+    found = client.run(version, PACKAGE, on_error="return")
     if not found:
         raise BadRequest(
             f"the scheduler at {address} has no workers",
             advice=f"Start some with: dask worker {address}",
         )
     for worker, theirs in found.items():
-        if theirs != version(US):
-            has = f"has {US} {theirs}" if isinstance(theirs, str) else f"has no {US}"
+        if theirs != version(PACKAGE):
+            has = f"has {PACKAGE} {theirs}" if isinstance(theirs, str) else f"has no {PACKAGE}"
             raise BadRequest(
                 f"the worker at {worker} {has}",
-                advice=f"Install {US} {version(US)} on every machine, as here.",
+                advice=f"Install {PACKAGE} {version(PACKAGE)} on every machine, as here.",
             )
     return len(found)

@@ -9,8 +9,8 @@ from types import FrameType
 
 @contextmanager
 def interrupts_blocked_for_children() -> Iterator[None]:
-    """A context whose child processes never hear Ctrl+C: it is for the parent."""
-    if not _is_heard():
+    """A context whose child processes ignore Ctrl+C, so that only the parent gets it."""
+    if not _handles_interrupts():
         yield
         return
     before = signal.signal(signal.SIGINT, signal.SIG_IGN)
@@ -22,10 +22,10 @@ def interrupts_blocked_for_children() -> Iterator[None]:
 
 @contextmanager
 def deferred_interrupt() -> Iterator[Callable[[], None]]:
-    """A context in which the first Ctrl+C is only noted; a second one acts at once.
+    """A context in which the first Ctrl+C is only stored; a second one interrupts at once.
 
     Yields:
-        What to call where stopping is safe: it raises KeyboardInterrupt if one was noted.
+        A function to call where stopping is safe; it raises KeyboardInterrupt after a Ctrl+C.
     """
     found: list[int] = []
 
@@ -38,7 +38,7 @@ def deferred_interrupt() -> Iterator[Callable[[], None]]:
         if found:
             raise KeyboardInterrupt
 
-    if not _is_heard():
+    if not _handles_interrupts():
         yield stop_if_noted
         return
     before = signal.signal(signal.SIGINT, note)
@@ -48,7 +48,7 @@ def deferred_interrupt() -> Iterator[Callable[[], None]]:
         signal.signal(signal.SIGINT, before)
 
 
-def _is_heard() -> bool:
-    """Whether Ctrl+C means anything here: not in a thread, nor in what a shell runs behind."""
+def _handles_interrupts() -> bool:
+    """Whether this code handles Ctrl+C: not in a thread, nor in the background of a shell."""
     main = threading.current_thread() is threading.main_thread()
     return main and signal.getsignal(signal.SIGINT) is not signal.SIG_IGN

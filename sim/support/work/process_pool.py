@@ -17,14 +17,14 @@ from sim.support.work.interrupt import interrupts_blocked_for_children
 if TYPE_CHECKING:
     from concurrent.futures import Executor, Future
 
-AHEAD = 4  # [jobs a worker] that are handed out at a time: enough that none waits for work
+AHEAD = 4  # [jobs per worker] submitted at a time, so that no worker waits
 
 Job = TypeVar("Job")
 Result = TypeVar("Result")
 
 
 class WorkerLost(BadRequest):
-    """A process was ended from outside, or brought down by what it did."""
+    """A worker process was ended from outside, or crashed."""
 
 
 def count_available_cores() -> int:
@@ -37,16 +37,16 @@ def count_available_cores() -> int:
 def run_jobs_locally(
     work: Callable[[Job], Result], jobs: Sequence[Job], *, processes: int, worth: int
 ) -> Iterator[Result]:
-    """Do jobs on this machine.
+    """Results of jobs done on this machine, in the order in which they finish.
 
     Args:
         work: does one job; a function of a module.
-        jobs: what to do.
-        processes: at most so many; one does them in this process.
-        worth: so many jobs a further process has to save, to be worth its start.
+        jobs: the jobs.
+        processes: largest number of processes; with one, the jobs are done in this process.
+        worth: jobs per process at least, so that starting it saves time.
 
     Raises:
-        WorkerLost: a process came to its end before its work did.
+        WorkerLost: a process ended before its work was done.
     """
     processes = min(processes, -(-len(jobs) // worth))
     if processes <= 1:
@@ -65,10 +65,10 @@ def run_jobs_locally(
 
 
 def make_worker_pool(processes: int) -> ProcessPoolExecutor:
-    """Processes that wait for work, and end when this one does."""
+    """A pool of worker processes, which end when this process ends."""
     return ProcessPoolExecutor(
         processes,
-        # Started afresh, not copied: the same on every system, and no threads are copied halfway.
+        # Spawned, not forked: the same on every system, and safe with threads.
         mp_context=multiprocessing.get_context("spawn"),
         initializer=serve_quietly,
     )
@@ -77,7 +77,7 @@ def make_worker_pool(processes: int) -> ProcessPoolExecutor:
 def collect_results(
     executor: "Executor", work: Callable[[Job], Result], jobs: Sequence[Job], *, ahead: int
 ) -> Iterator[Result]:
-    """Results as they come, with only so many jobs handed out at a time."""
+    """Results in the order in which jobs finish, with ``ahead`` jobs submitted at a time."""
     waiting = iter(jobs)
     running: set[Future[Result]] = set()
     try:
@@ -98,9 +98,9 @@ def serve_quietly() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     parent = multiprocessing.parent_process()
     if parent is not None:
-        threading.Thread(target=_end_with, args=(parent.sentinel,), daemon=True).start()
+        threading.Thread(target=_exit_with, args=(parent.sentinel,), daemon=True).start()
 
 
-def _end_with(sentinel: int) -> None:
+def _exit_with(sentinel: int) -> None:
     wait_for_end([sentinel])
     os._exit(1)

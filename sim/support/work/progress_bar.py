@@ -8,15 +8,15 @@ from contextlib import contextmanager
 def progress_bar(
     what: str, total: int, *, done: int = 0
 ) -> Iterator[tuple[Callable[[], None], Callable[[], int]]]:
-    """A progress bar on standard error where there is a terminal, and nothing elsewhere.
+    """A progress bar on standard error, if that is a terminal.
 
     Args:
-        what: is counted.
-        total: of them.
-        done: how many are there already.
+        what: what is counted.
+        total: number of steps.
+        done: steps that are already done.
 
     Yields:
-        What moves it by one, and what says how many are done.
+        A function that advances it by one step, and one that returns the number of steps done.
     """
     from rich.console import Console  # noqa: PLC0415 - --help must not wait for it
     from rich.progress import (  # noqa: PLC0415 - the same
