@@ -1,11 +1,12 @@
 """Simulate FRC mechanisms, read their logs, fit gains, and reconcile model and log.
 
-Names that everybody uses are here: ``sim.read``, ``sim.write``, ``sim.Log``, ``sim.Run``,
-``sim.Routine``, ``sim.MECHANISMS``, ``sim.Refusal``. The verbs live in modules of their own name:
+The most common names are here: ``sim.read``, ``sim.write``, ``sim.Log``, ``sim.Run``,
+``sim.Routine``, ``sim.MECHANISMS``, ``sim.Refusal``. Functions are in modules:
 ``from sim.fit import fit``, ``from sim.bench.simulate import simulate``.
 
-Nothing heavy is imported until it is used, so a command that only prints its help starts at once.
-Importing ``sim`` sets NumPy's linear algebra to one thread, unless the environment says otherwise.
+Large modules are imported only when they are used, so a command that prints its help starts at
+once. Importing ``sim`` sets NumPy's linear algebra to one thread, unless the environment sets the
+number.
 """
 
 from importlib import import_module

@@ -1,9 +1,10 @@
 """Feedback gains: WPILib SysId's suggestions, and the step response of a loop.
 
-    gains = position_loop(kv=2.5, ka=0.19)
-    judged(step_response(plant, loop="position", feedback=gains, target=0.5)).words
+    gains = design_position_loop(kv=2.5, ka=0.19)
+    response = simulate_step_response(plant, loop="position", feedback=gains, target=0.5)
+    judge_step_response(response).description
 
-A suggestion is where tuning starts; simulated, it is known before that whether it settles at all.
+Suggested gains are a start for tuning. A simulation shows beforehand whether the loop settles.
 """
 
 from sim.feedback.regulator import (

@@ -1,7 +1,7 @@
-"""The linear-quadratic regulator of x'' = rate·x' + push·u, in plain numbers.
+"""The linear-quadratic regulator of x'' = rate·x' + push·u, without NumPy and SciPy.
 
-Two states allow closed forms for what SciPy does with matrices of any size, and SciPy takes longer
-to import than all of a fit takes to run.
+With two states, there are closed forms for most matrix functions, and importing SciPy takes longer
+than a fit.
 
 Sources: C. F. Van Loan, "Computing Integrals Involving the Matrix Exponential" (1978), for the
 discrete model; E. K.-W. Chu et al., "A structure-preserving doubling algorithm" (2004), for the
@@ -15,11 +15,11 @@ from typing import TypeAlias
 Matrix: TypeAlias = tuple[float, float, float, float]  # rows one after another
 Pair: TypeAlias = tuple[float, float]
 
-SMALL = 0.5  # a shorter argument of the exponential functions is summed as a series
-TERMS = 20  # of which the last is below 1e-23
-DOUBLINGS = 60  # steps of the Riccati equation; each doubles the horizon, and 10 are common
-SETTLED = 1e-15  # [share] by which a last step may still change the solution
-CLOSE = 1e-3  # [share] nearer eigenvalues have their difference quotient from a series
+SMALL = 0.5  # smaller arguments of exponential functions are summed as a series
+TERMS = 20  # terms of the series; the last is below 1e-23
+DOUBLINGS = 60  # iterations at most; each doubles the horizon, and 10 are common
+SETTLED = 1e-15  # [1] relative change of the solution that ends the iteration
+CLOSE = 1e-3  # [1] relative half difference; nearer eigenvalues need another formula
 
 
 def design_two_state_regulator(
@@ -28,15 +28,18 @@ def design_two_state_regulator(
     """Gains on position and velocity of x'' = rate·x' + push·u.
 
     Args:
-        rate: [1/s].
-        push: [unit/s² per V].
-        period: [s] of the controller's loop.
+        rate: -kV/kA [1/s].
+        push: 1/kA [unit/s² per V].
+        period: period of the controller's loop [s].
         q: weights of position and velocity.
         r: weight of the voltage.
-        loops: by how many periods the measurement is late.
+        loops: delay of the measurement [periods].
+
+    Returns:
+        The gains on position [V/unit] and velocity [V·s/unit].
     """
-    a, b = _discrete(rate, push, period)
-    s = _riccati(a, b, q=q, r=r)
+    a, b = _discretize(rate, push, period)
+    s = _solve_riccati(a, b, q=q, r=r)
     weight = r + b[0] * (s[0] * b[0] + s[1] * b[1]) + b[1] * (s[2] * b[0] + s[3] * b[1])
     sb = (s[0] * b[0] + s[2] * b[1], s[1] * b[0] + s[3] * b[1])
     k = (
@@ -49,8 +52,8 @@ def design_two_state_regulator(
     return _row_times_power(k, closed, loops)
 
 
-def _discrete(rate: float, push: float, period: float) -> tuple[Matrix, Pair]:
-    """The model from one loop to the next, the voltage held between."""
+def _discretize(rate: float, push: float, period: float) -> tuple[Matrix, Pair]:
+    """The discrete-time model A, B with a zero-order hold of the voltage."""
     z = rate * period
     if abs(z) < SMALL:
         first = math.fsum(z**n / math.factorial(n + 1) for n in range(TERMS))
@@ -62,15 +65,15 @@ def _discrete(rate: float, push: float, period: float) -> tuple[Matrix, Pair]:
     return a, (push * period * period * second, push * period * first)
 
 
-def _riccati(a: Matrix, b: Pair, *, q: Pair, r: float) -> Matrix:
+def _solve_riccati(a: Matrix, b: Pair, *, q: Pair, r: float) -> Matrix:
     """The stabilizing solution of S = AᵀSA - AᵀSB(R + BᵀSB)⁻¹BᵀSA + Q, by doubling."""
     g: Matrix = (b[0] * b[0] / r, b[0] * b[1] / r, b[0] * b[1] / r, b[1] * b[1] / r)
     h: Matrix = (q[0], 0.0, 0.0, q[1])
     for _ in range(DOUBLINGS):
-        inverse = _inverse(_sum((1.0, 0.0, 0.0, 1.0), _times(g, h)))
+        inverse = _invert(_sum((1.0, 0.0, 0.0, 1.0), _times(g, h)))
         step = _times(a, inverse)
-        more = _times(_times(_transposed(a), h), _times(inverse, a))
-        g = _sum(g, _times(_times(step, g), _transposed(a)))
+        more = _times(_times(_transpose(a), h), _times(inverse, a))
+        g = _sum(g, _times(_times(step, g), _transpose(a)))
         a = _times(step, a)
         h = _sum(h, more)
         if max(map(abs, more)) <= SETTLED * max(map(abs, h)):
@@ -79,7 +82,7 @@ def _riccati(a: Matrix, b: Pair, *, q: Pair, r: float) -> Matrix:
 
 
 def _row_times_power(k: Pair, m: Matrix, power: float) -> Pair:
-    """k·Mᵖ, of complex powers their real part.
+    """The row vector k·Mᵖ; the real part, if the power is complex.
 
     Mᵖ = λ₁ᵖ I + (λ₁ᵖ - λ₂ᵖ)/(λ₁ - λ₂) · (M - λ₁ I)
     """
@@ -113,10 +116,10 @@ def _sum(a: Matrix, b: Matrix) -> Matrix:
     return (a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3])
 
 
-def _transposed(a: Matrix) -> Matrix:
+def _transpose(a: Matrix) -> Matrix:
     return (a[0], a[2], a[1], a[3])
 
 
-def _inverse(a: Matrix) -> Matrix:
+def _invert(a: Matrix) -> Matrix:
     size = a[0] * a[3] - a[1] * a[2]
     return (a[3] / size, -a[1] / size, -a[2] / size, a[0] / size)

@@ -1,22 +1,22 @@
-"""A motion profile made of legs of constant acceleration."""
+"""Motion profiles of legs with constant acceleration."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 from sim.feedback.response import Plant
 
-STEP = 0.005  # [s] between two points
-BRISK = 0.4  # [share] of the free speed: fast enough to see, with volts to spare
-PUSH = 3.0  # [V] that the acceleration takes
-QUICKEST, STEADY, STILL = 0.3, 1.0, 0.5  # [s] of getting faster at least, at one speed, at rest
+STEP = 0.005  # [s] time step
+BRISK = 0.4  # [share of the free speed] cruise speed, with voltage in reserve
+PUSH = 3.0  # [V] voltage for the acceleration
+QUICKEST, STEADY, STILL = 0.3, 1.0, 0.5  # [s] acceleration at least, cruise, rest
 
 
 @dataclass(frozen=True)
 class Leg:
-    """A part of a profile with one acceleration.
+    """A part of a profile with constant acceleration.
 
     Args:
-        seconds: [s] how long.
+        seconds: duration [s].
         acceleration: [unit/s²].
     """
 
@@ -33,7 +33,7 @@ class Profile:
         position: (n,) [unit].
         velocity: (n,) [unit/s].
         acceleration: (n,) [unit/s²].
-        leg_starts: index at which each leg begins; the last is the end.
+        leg_starts: index at which each leg begins, and the number of points.
     """
 
     time: tuple[float, ...]
@@ -44,7 +44,7 @@ class Profile:
 
     @property
     def cruise_end(self) -> int:
-        """The last point before the first leg that moves steadily ends; 0 if none does."""
+        """Index of the last point of the first leg with constant speed; 0 if there is none."""
         for first, last in zip(self.leg_starts, self.leg_starts[1:], strict=False):
             if self.velocity[first] and not self.acceleration[first]:
                 return last - 1
@@ -52,7 +52,7 @@ class Profile:
 
     @property
     def rest_end(self) -> int:
-        """The last point of standing still before it moves; 0 if it moves at once."""
+        """Index of the last point at rest before the motion; 0 if it moves at once."""
         return 0 if self.acceleration[0] else self.leg_starts[1] - 1
 
 
@@ -60,8 +60,8 @@ def join_legs(legs: Sequence[Leg], *, start: float = 0.0) -> Profile:
     """Join legs into a profile that starts at rest.
 
     Args:
-        legs: one after another.
-        start: [unit] where it begins.
+        legs: the legs in order.
+        start: initial position [unit].
     """
     place, speed, rows, begins = start, 0.0, [], [0]
     for leg in legs:
@@ -78,7 +78,9 @@ def join_legs(legs: Sequence[Leg], *, start: float = 0.0) -> Profile:
         lasts = count * STEP
         place += speed * lasts + leg.acceleration * lasts * lasts / 2.0
         speed += leg.acceleration * lasts
-        speed = 0.0 if abs(speed) < STEP * abs(leg.acceleration) else speed  # rest is rest
+        speed = (
+            0.0 if abs(speed) < STEP * abs(leg.acceleration) else speed
+        )  # remove rounding errors at rest
         begins.append(len(rows))
     time = tuple(STEP * k for k in range(len(rows)))
     position, velocity, acceleration = zip(*rows, strict=True)
@@ -91,11 +93,11 @@ def make_return_profile(
     """A profile that rests, moves forward, rests, moves back and rests.
 
     Args:
-        speed: [unit/s] on the way.
-        rising: [s] until it is that fast, and from it to rest.
-        steady: [s] at that speed.
-        still: [s] of standing before, between and after.
-        start: [unit] where it begins.
+        speed: cruise speed [unit/s].
+        rising: duration of acceleration, and of deceleration [s].
+        steady: duration of the cruise [s].
+        still: duration of rest before, between and after the motions [s].
+        start: initial position [unit].
     """
     push = speed / rising
     way = [Leg(still), Leg(rising, push), Leg(steady), Leg(rising, -push), Leg(still)]
@@ -104,7 +106,7 @@ def make_return_profile(
 
 
 def make_brisk_profile(plant: Plant) -> Profile:
-    """A profile in one direction with round numbers, for a mechanism without gravity."""
+    """A profile in one direction with rounded numbers, for a mechanism without gravity."""
     gains = plant.gains
     speed = float(f"{BRISK * (12.0 - gains['kS']) / gains['kV']:.0e}")
     rising = max(QUICKEST, float(f"{speed * gains['kA'] / PUSH:.0e}"))

@@ -2,7 +2,7 @@
 
     Q = diag(1/q²), R = 1/r²   (Bryson's rule: q the error that is worth r volts)
     K = (BᵀSB + R)⁻¹ BᵀSA      S from the discrete Riccati equation over the controller's period
-    K ← K (A - BK)^(delay/period)   what the measurement's delay costs
+    K ← K (A - BK)^(delay/period)   for a delayed measurement
 
 Source: WPILib SysId 2026.2.2, ``analysis/FeedbackAnalysis.cpp`` and ``FeedbackControllerPreset``.
 The suggestion is a starting point, not a tuned controller.
@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from sim.core.errors import BadRequest
 from sim.feedback.linear_quadratic import design_two_state_regulator
 
-MASSLESS = 1e-7  # [V·s²/unit] below this kA SysId takes the velocity itself for the input
+MASSLESS = 1e-7  # [V·s²/unit] with a smaller kA, the input of SysId's model is the velocity
 
 
 @dataclass(frozen=True)
@@ -22,12 +22,12 @@ class Preset:
     """The units and loop times of one kind of motor controller.
 
     Args:
-        name: as people say it.
+        name: its name.
         output: units of its output per volt.
-        velocity_time: its velocity's time unit per second (60: it counts per minute).
-        period: [s] of its control loop.
+        velocity_time: seconds in the time unit of its velocity; 60 if it is per minute.
+        period: period of its control loop [s].
         normalized: whether its derivative gain is per second, not per loop.
-        delay: [s] of its velocity measurement.
+        delay: delay of its velocity measurement [s].
     """
 
     name: str
@@ -51,9 +51,9 @@ PRESETS: dict[str, Preset] = {
     "venom": Preset("Venom", 4096 / 12, 60.0, 0.001, normalized=False, delay=5e-3),
 }
 
-VOLTS = 7.0  # [V] effort that the allowed error is worth (SysId's default)
+VOLTS = 7.0  # [V] voltage that corresponds to the allowed error (SysId's default)
 POSITION_ERROR = 0.1  # [unit] allowed position error (SysId's default)
-VELOCITY_ERROR = 1.5  # [unit/s] allowed velocity error where none is given (SysId's struct default)
+VELOCITY_ERROR = 1.5  # [unit/s] allowed velocity error if none is given (SysId's struct default)
 SPEED_SHARE = 0.25  # share of the free speed at 12 V that SysId allows as velocity error by default
 
 
@@ -69,7 +69,7 @@ def compute_allowed_velocity_error(*, ks: float, kv: float) -> float:
     """SysId's default allowed velocity error, a quarter of the free speed at 12 V [unit/s].
 
     Args:
-        ks: [V].
+        ks: static friction [V].
         kv: [V·s/unit].
     """
     return SPEED_SHARE * (12.0 - ks) / kv if kv else VELOCITY_ERROR
@@ -89,13 +89,13 @@ def design_velocity_loop(
     Args:
         kv: [V·s/unit].
         ka: [V·s²/unit].
-        preset: the motor controller's.
-        velocity_error: [unit/s] that is worth ``volts``.
-        volts: [V].
-        delay: [s] of the measurement; None takes the preset's.
+        preset: units and timing of the motor controller.
+        velocity_error: allowed velocity error [unit/s], which corresponds to ``volts``.
+        volts: voltage for this error [V].
+        delay: delay of the measurement [s]; None takes the preset's.
 
     Raises:
-        BadRequest: kV is negative, kA negative, or an allowance is not positive.
+        BadRequest: kV or kA is negative or not finite, or an allowed error is not positive.
 
     Examples:
         >>> round(design_velocity_loop(kv=2.5, ka=0.4).kp, 2)
@@ -108,7 +108,7 @@ def design_velocity_loop(
     a = math.exp(rate * preset.period)
     b = math.expm1(rate * preset.period) / -kv if kv else preset.period / ka
     k, closed = _scalar_regulator(a, b, q=velocity_error**-2, r=volts**-2)
-    k *= closed ** (_wait(preset, delay) / preset.period)
+    k *= closed ** (_choose_delay(preset, delay) / preset.period)
     return Feedback(k * preset.output / preset.velocity_time, 0.0)
 
 
@@ -127,17 +127,17 @@ def design_position_loop(
     Args:
         kv: [V·s/unit].
         ka: [V·s²/unit].
-        preset: the motor controller's.
-        position_error: [unit] that is worth ``volts``.
-        velocity_error: [unit/s] that is worth ``volts``.
-        volts: [V].
-        delay: [s] of the measurement; None takes the preset's.
+        preset: units and timing of the motor controller.
+        position_error: allowed position error [unit], which corresponds to ``volts``.
+        velocity_error: allowed velocity error [unit/s], which corresponds to ``volts``.
+        volts: voltage for these errors [V].
+        delay: delay of the measurement [s]; None takes the preset's.
 
     Raises:
         BadRequest: as for ``design_velocity_loop``.
     """
     _check(kv=kv, ka=ka, errors=(position_error, velocity_error, volts))
-    loops = _wait(preset, delay) / preset.period
+    loops = _choose_delay(preset, delay) / preset.period
     if ka < MASSLESS:  # no inertia: the velocity answers at once, so it is the input
         k, closed = _scalar_regulator(1.0, preset.period, q=position_error**-2, r=volts**-2)
         return Feedback(kv * k * closed**loops * preset.output, 0.0)
@@ -164,7 +164,7 @@ def _scalar_regulator(a: float, b: float, *, q: float, r: float) -> tuple[float,
     return k, max(0.0, a - b * k)
 
 
-def _wait(preset: Preset, delay: float | None) -> float:
+def _choose_delay(preset: Preset, delay: float | None) -> float:
     return preset.delay if delay is None else max(0.0, delay)
 
 

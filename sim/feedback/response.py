@@ -1,14 +1,15 @@
-"""Step response of the fitted mechanism under its motor controller, simulated.
+"""Simulated step response of the fitted mechanism under feedback of its motor controller.
 
     volts = feedforward + kP·(target - measured) - kD·(change of measured)/period,  at most ±12 V
 
-The controller looks once each period, at what its sensor says of a moment ago, and holds its
-voltage until it looks again. Between its looks the mechanism moves by the exact solution of
+The controller samples its delayed measurement once each period, and holds its voltage until the
+next sample. In between, the mechanism moves by the exact solution of
 
     V = kS·sgn(v) + kV·v + kA·a + gravity
 
-and where friction is stronger than everything else, it stands. The derivative is taken of the
-measurement, so the jump itself is no kick. Plain numbers: `sysid fit` need not wait for an engine.
+and stands still while friction is larger than the driving voltage. The derivative is that of the
+measurement, so the step of the target causes no derivative kick. The code uses plain Python, so
+that `sysid fit` does not load the simulation engine.
 """
 
 import math
@@ -18,12 +19,13 @@ from dataclasses import dataclass
 from sim.core.errors import BadRequest
 from sim.feedback.regulator import PRESETS, Feedback, Preset
 
-BATTERY = 12.0  # [V] the most a controller can ask for
-FINE = 1e-3  # [s] between two points of the motion, at most
-SIZES = {"velocity": 0.5, "position": 0.1}  # of the free speed; [s] at it: a step worth looking at
-SHORTEST, LONGEST = 1.0, 5.0  # [s] that is watched
-TIMESCALES, WAITS, LOOKS = 6.0, 30.0, 50.0  # and between these, what is slowest that many times
-FARTHEST = 1e6  # [steps] a loop that has run away so far is not watched any longer
+BATTERY = 12.0  # [V] limit of the controller's voltage
+FINE = 1e-3  # [s] largest time step of the simulation
+SIZES = {"velocity": 0.5, "position": 0.1}  # step as share of the free speed, or as time at it [s]
+SHORTEST, LONGEST = 1.0, 5.0  # [s] limits of the simulated time
+# Simulated time: the longest of so many time constants, delays and periods.
+TIMESCALES, DELAYS, PERIODS = 6.0, 30.0, 50.0
+FARTHEST = 1e6  # [steps] at a larger value, the simulation of an unstable loop ends
 
 
 @dataclass(frozen=True)
@@ -32,8 +34,9 @@ class Plant:
 
     Args:
         type: ``simple``, ``elevator`` or ``arm``.
-        gains: kS [V], kV [V·s/unit], kA [V·s²/unit], kG [V] where there is gravity, offset_rad.
-        angle: [rad] in one unit of position, of an arm.
+        gains: kS [V], kV [V·s/unit], kA [V·s²/unit], with gravity kG [V], for an arm offset_rad
+            [rad].
+        angle: angle of one unit of position, for an arm [rad].
     """
 
     type: str
@@ -41,7 +44,7 @@ class Plant:
     angle: float = 1.0
 
     def compute_gravity_voltage(self, position: float) -> float:
-        """[V] gravity voltage at a position."""
+        """The voltage [V] that holds the mechanism against gravity at a position [unit]."""
         held = self.gains.get("kG", 0.0)
         if self.type != "arm":
             return held
@@ -49,14 +52,14 @@ class Plant:
 
     @property
     def level_position(self) -> float:
-        """[unit] where an arm is horizontal, which is where it is heaviest; zero of all others."""
+        """The position [unit] at which an arm is horizontal, with the largest gravity; else 0."""
         return -self.gains.get("offset_rad", 0.0) / self.angle if self.type == "arm" else 0.0
 
     def choose_target_step(self, loop: str) -> float:
-        """[unit/s or unit] a sensible step of the target, rounded to one digit.
+        """A reasonable step of the target [unit/s or unit], rounded to one digit.
 
-        Half of the free speed, or the way it goes in a tenth of a second at all of it: far enough
-        to see, and not so far that the battery decides alone. nan if 12 V cannot move it.
+        Half of the free speed, or the distance in 0.1 s at free speed: large enough to be visible,
+        and small enough that the voltage does not saturate for long. nan if 12 V cannot move it.
 
         Args:
             loop: ``velocity`` or ``position``.
@@ -73,10 +76,10 @@ class StepResponse:
 
     Args:
         loop: ``velocity`` or ``position``.
-        target: [unit/s or unit] by how much the target jumped at time 0.
+        target: step of the target at time 0 [unit/s or unit].
         time: (n,) [s].
-        value: (n,) [unit/s or unit] the velocity, or the way since time 0.
-        voltage: (n,) [V] applied.
+        value: (n,) velocity [unit/s], or position relative to time 0 [unit].
+        voltage: (n,) applied voltage [V].
     """
 
     loop: str
@@ -96,22 +99,23 @@ def simulate_step_response(
     delay: float | None = None,
     seconds: float | None = None,
 ) -> StepResponse:
-    """Simulate a loop whose target jumps while the mechanism is at rest.
+    """Simulate the response of a loop to a step of the target, from rest.
 
-    The feedforward is that of the gains: for a velocity all of it, for a position only what gravity
-    takes, because a target that stands asks for no speed. An arm begins where it is horizontal.
+    A velocity loop has the full feedforward of the gains, a position loop only that of gravity,
+    because the target does not move. An arm begins where it is horizontal.
 
     Args:
-        plant: what is controlled.
+        plant: the controlled mechanism.
         loop: ``velocity`` or ``position``.
         feedback: gains in the output units of the preset.
-        target: [unit/s or unit] by how much it jumps.
+        target: step of the target [unit/s or unit].
         preset: the motor controller that closes the loop.
-        delay: [s] of the measurement; None takes the preset's.
-        seconds: [s] how long to watch; None chooses by what is slowest.
+        delay: delay of the measurement [s]; None takes the preset's.
+        seconds: simulated time [s]; None chooses it by the slowest time constant.
 
     Raises:
-        BadRequest: an unknown loop, or numbers that nothing can be simulated with.
+        BadRequest: the loop is unknown, a number is not finite, kS or kV is negative, or kA is not
+            positive.
 
     Examples:
         >>> plant = Plant("simple", {"kS": 0.1, "kV": 2.5, "kA": 0.4})
@@ -127,8 +131,8 @@ def simulate_step_response(
     controller = _Controller(plant, loop, feedback, preset, target=target)
     seen = moving.path if loop == "position" else moving.speed
     first, behind, voltage = seen[0], wait / moving.step, [0.0]
-    for _ in range(math.ceil((seconds or _watched(plant, wait, preset)) / preset.period)):
-        volts = controller.volts(_past(seen, behind), position=moving.path[-1])
+    for _ in range(math.ceil((seconds or _choose_duration(plant, wait, preset)) / preset.period)):
+        volts = controller.volts(_delayed_value(seen, behind), position=moving.path[-1])
         for _ in range(points):
             moving.apply_voltage(volts)
         voltage += [volts] * points
@@ -142,10 +146,10 @@ class MovingPlant:
     """The state of a simulated mechanism, advanced in equal steps.
 
     Args:
-        plant: what moves.
-        step: [s].
-        start: [unit] where it begins; None where its weight is largest.
-        speed: [unit/s] at which it begins.
+        plant: the mechanism.
+        step: time step [s].
+        start: initial position [unit]; None takes the one with the largest gravity.
+        speed: initial velocity [unit/s].
     """
 
     def __init__(
@@ -158,21 +162,21 @@ class MovingPlant:
         self.path, self.speed = [plant.level_position if start is None else start], [speed]
 
     def apply_voltage(self, volts: float) -> None:
-        """Advance by one step under a voltage."""
+        """Advance by one step under a voltage [V]."""
         x, v = self.path[-1], self.speed[-1]
         free, ks = volts - self.plant.compute_gravity_voltage(x), self.plant.gains["kS"]
         after = 0.0
         if v != 0.0 or abs(free) > ks:
             way = math.copysign(1.0, v or free)
             after = self.keep * v + self.gain * (free - way * ks)
-            if after * way < 0.0:  # friction stops it; whether it stays, the next step decides
+            if after * way < 0.0:  # friction stops it; the next step decides whether it stays
                 after = 0.0
         self.speed.append(after)
         self.path.append(x + 0.5 * self.step * (v + after))
 
 
 class _Controller:
-    """A motor controller's arithmetic, its output turned into volts."""
+    """The control law of a motor controller, with its output in volts."""
 
     def __init__(
         self, plant: Plant, loop: str, feedback: Feedback, preset: Preset, *, target: float
@@ -186,7 +190,7 @@ class _Controller:
         self.last: float | None = None
 
     def volts(self, measured: float, *, position: float) -> float:
-        """What it applies until it looks again."""
+        """The voltage [V] that it applies until its next sample."""
         change = 0.0 if self.last is None else measured - self.last
         self.last = measured
         asked = self._forward(position) + self.kp * (self.target - measured) - self.kd * change
@@ -200,8 +204,8 @@ class _Controller:
         return friction + gains["kV"] * self.target + self.plant.compute_gravity_voltage(position)
 
 
-def _past(values: Sequence[float], behind: float) -> float:
-    """The value so many points ago; the first one stands for all before it."""
+def _delayed_value(values: Sequence[float], behind: float) -> float:
+    """The interpolated value ``behind`` points ago; before the first point, the first value."""
     place = len(values) - 1 - behind
     if place <= 0.0:
         return values[0]
@@ -210,10 +214,10 @@ def _past(values: Sequence[float], behind: float) -> float:
     return values[early] + (share * (values[early + 1] - values[early]) if share else 0.0)
 
 
-def _watched(plant: Plant, wait: float, preset: Preset) -> float:
-    """[s] long enough for what is slowest to show."""
+def _choose_duration(plant: Plant, wait: float, preset: Preset) -> float:
+    """The simulated time [s], by the slowest of time constant, delay and period."""
     kv, ka = plant.gains["kV"], plant.gains["kA"]
-    slow = max(TIMESCALES * ka / kv if kv else LONGEST, WAITS * wait, LOOKS * preset.period)
+    slow = max(TIMESCALES * ka / kv if kv else LONGEST, DELAYS * wait, PERIODS * preset.period)
     return min(max(slow, SHORTEST), LONGEST)
 
 

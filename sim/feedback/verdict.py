@@ -1,17 +1,17 @@
-"""A step response in a few numbers and in plain words."""
+"""The verdict on a step response, in a few numbers and in words."""
 
 from dataclasses import dataclass
 from itertools import pairwise
 
 from sim.feedback.response import StepResponse
 
-NEARLY = 0.9  # [of the step] where the target counts as reached
-BAND = 0.05  # [of the step] around the target, in which it counts as settled
-RINGS = 0.25  # [of the step] past the target, from which a loop is too lively to hand over
-LAST = 0.3  # [of the time watched] in which a loop that settles has settled
-STILL = 0.01  # [of the step] moved in that time: it stands
-AWAY = 1.0  # [steps] from the target, farther than where it began
-SWAPS = 3  # changes of direction in that time make a swing
+NEARLY = 0.9  # [share of the step] at which the target counts as reached
+BAND = 0.05  # [share of the step] around the target that counts as settled
+RINGING = 0.25  # [share of the step] a larger overshoot is not a good start
+LAST = 0.3  # [share of the simulated time] at its end, in which a good loop has settled
+STILL = 0.01  # [share of the step] a smaller motion in that time counts as standing
+START_DISTANCE = 1.0  # [steps] distance from the target at the start; farther away, it moves away
+TURNS = 3  # changes of direction in that time that count as oscillation
 
 
 @dataclass(frozen=True)
@@ -20,12 +20,12 @@ class Verdict:
 
     Args:
         kind: ``settles``, ``rings``, ``oscillates``, ``stays-short``, ``slow`` or ``runs-away``.
-        reached: [s] until nine tenths of the step; None if never.
-        overshoot: [of the step] how far it went past the target.
-        settled: [s] until it stays within a twentieth of the step; None if not while watched.
-        left: [of the step] how far from the target it ended; below zero is past it.
-        swing: [of the step] how far it still went to and fro at the end.
-        duration: [s].
+        reached: rise time to 90 % of the step [s]; None if never.
+        overshoot: largest overshoot [share of the step].
+        settled: settling time to within 5 % of the step [s]; None if it does not settle in time.
+        left: final error [share of the step]; negative past the target.
+        swing: range of the values at the end [share of the step].
+        duration: simulated time [s].
     """
 
     kind: str
@@ -79,10 +79,10 @@ class Verdict:
 
 
 def judge_step_response(response: StepResponse) -> Verdict:
-    """Judge a step response: rise, overshoot, settling and saturation.
+    """Judge a step response by rise time, overshoot, settling time and oscillation.
 
     Args:
-        response: of a target that is not zero.
+        response: the step response to a target that is not zero.
     """
     share = [value / response.target for value in response.value]
     time, watched = response.time, response.time[-1]
@@ -106,16 +106,16 @@ def judge_step_response(response: StepResponse) -> Verdict:
 
 def _kind(end: list[float], *, late: bool, overshoot: float, swing: float) -> str:
     if not late:
-        return "rings" if overshoot > RINGS else "settles"
-    if _swaps(end) >= SWAPS and swing > BAND:
+        return "rings" if overshoot > RINGING else "settles"
+    if _count_turns(end) >= TURNS and swing > BAND:
         return "oscillates"
-    if abs(end[-1] - 1.0) > AWAY + BAND:
+    if abs(end[-1] - 1.0) > START_DISTANCE + BAND:
         return "runs-away"
     return "stays-short" if swing < STILL and end[-1] < 1.0 else "slow"
 
 
-def _swaps(values: list[float]) -> int:
-    """How often it turns round."""
+def _count_turns(values: list[float]) -> int:
+    """The number of changes of direction."""
     ways = [after - before for before, after in pairwise(values) if after != before]
     return sum(1 for before, after in pairwise(ways) if before * after < 0.0)
 
