@@ -1,8 +1,7 @@
-"""The log formats: read any file into a Log, write a Log into a file whose name says the format.
+"""Reading and writing logs: the format is found by the content of a file and by its suffix.
 
-Every module of ``formats`` is a format (the contract is in ``format.py``), found by its place.
-A file is known by its content first and by its suffix second, and only the module that is needed
-gets imported.
+Every module of ``formats`` is a format; ``format.py`` defines its interface. Only the modules that
+are needed are imported.
 """
 
 import os
@@ -68,16 +67,16 @@ def read(
         path: the file.
         units: the unit of its positions; None takes what the file says, else the default.
         type: ``simple``, ``elevator`` or ``arm``; None takes what the file says.
-        motor: which motor's signals, where the file has several; None combines them.
-        entries: signal -> the entry or column that holds it, where the names are not SysId's.
+        motor: name of the motor to read, if the file has several; None combines them.
+        entries: signal -> the entry or column that holds it, if the names are not SysId's.
 
     Returns:
-        The log; its ``source`` is the path as given, its ``doubts`` what was odd about it.
+        The log; its ``source`` is the path as given, its ``doubts`` are warnings about the file.
 
     Raises:
-        UnreadableFile: missing, empty, too large, damaged, or of no format that is read here.
-        MissingSignal: an entry that every fit needs is not in it.
-        BadSample: it holds a number that cannot be a measurement.
+        UnreadableFile: the file is missing, empty, too large, damaged, or of an unknown format.
+        MissingSignal: the file lacks an entry that every fit needs.
+        BadSample: the file holds a number that cannot be a measurement.
         BadRequest: an unknown unit, type or motor.
     """
     options = _make_options(units=units, type=type, motor=motor, entries=entries)
@@ -97,17 +96,17 @@ def read_motors(
     ignore_velocity: bool = False,
     pick: int | None = None,
 ) -> dict[str, Log]:
-    """Read a log of any format, a log for each motor of its mechanism or side of its drivetrain.
+    """Read a file of any format as a log for each motor of a mechanism or side of a drivetrain.
 
     Args:
         path: the file.
         units: the unit of its positions; None takes what the file says, else the default.
         type: ``simple``, ``elevator`` or ``arm``; None takes what the file says.
-        motor: one motor alone, where the file has several.
-        entries: signal -> the entry or column that holds it, where the names are not SysId's.
-        ignore_velocity: take the slope of the position for the velocity, which the file need not
-            have then.
-        pick: which of several mechanisms, counted from 1.
+        motor: name of the only motor to read, if the file has several.
+        entries: signal -> the entry or column that holds it, if the names are not SysId's.
+        ignore_velocity: use the slope of the position as the velocity; the file then needs no
+            velocity.
+        pick: number of the mechanism to read, counted from 1; None if the file has only one.
 
     Returns:
         The name of each motor -> its log; a log with one motor that has no name is under ``""``.
@@ -145,7 +144,11 @@ def _make_options(
     ignore_velocity: bool = False,
     pick: int | None = None,
 ) -> ReadOptions:
-    """The user's options, checked."""
+    """The user's options as one object.
+
+    Raises:
+        BadRequest: an unknown unit or type.
+    """
     if type is not None and type not in TYPES:
         raise BadRequest(f"unknown type {type!r}", advice=f"Choose one of: {', '.join(TYPES)}.")
     return ReadOptions(
@@ -159,14 +162,14 @@ def _make_options(
 
 
 def list_entries(path: str | os.PathLike[str]) -> list[Entry]:
-    """The entries of a log, for a person who looks for a signal.
+    """The entries of a log file, for choosing signals.
 
     Args:
         path: the file.
 
     Raises:
-        UnreadableFile: missing, empty, too large, damaged, or of no format that is read here.
-        BadRequest: a log of its format has no entries with names of their own.
+        UnreadableFile: the file is missing, empty, too large, damaged, or of an unknown format.
+        BadRequest: files of this format have no named entries.
     """
     given = os.fspath(path)
     with _readable(given) as (module, file):
@@ -180,10 +183,10 @@ def list_entries(path: str | os.PathLike[str]) -> list[Entry]:
 
 @contextmanager
 def _readable(given: str) -> Iterator[tuple[Format, Path]]:
-    """The format of a file and where it can be read: itself, or what it was converted to.
+    """A context with the format and the path to read: the file, or the one it was converted to.
 
     Raises:
-        Refusal: it cannot be read; every refusal names the file as it was given.
+        Refusal: the file cannot be read; every refusal names it as it was given.
     """
     path = Path(given)
     with _name_file_in_refusals(given):
@@ -201,7 +204,7 @@ def _readable(given: str) -> Iterator[tuple[Format, Path]]:
 
 
 def _name_source(log: Log, file: Path, given: str) -> Log:
-    """The log, its source and its doubts naming the file as it was given."""
+    """The log with the file's name, as it was given, in its source and doubts."""
     doubts = tuple(
         replace(doubt, message=doubt.message.replace(str(file), given)) for doubt in log.doubts
     )
@@ -210,7 +213,7 @@ def _name_source(log: Log, file: Path, given: str) -> Log:
 
 @contextmanager
 def _name_file_in_refusals(given: str) -> Iterator[None]:
-    """Every refusal names the file as it was given."""
+    """A context in which every refusal names the file as it was given."""
     try:
         yield
     except Refusal as refusal:
@@ -225,15 +228,17 @@ def _name_file_in_refusals(given: str) -> Iterator[None]:
 
 
 def write(log: Log, path: str | os.PathLike[str]) -> None:
-    """Write a log in the format that the suffix of ``path`` names, whole or not at all.
+    """Write a log in the format of the suffix of ``path``.
+
+    If that fails, an existing file stays as it was.
 
     Args:
-        log: what to write.
-        path: the file; one that exists is replaced.
+        log: the log to write.
+        path: the file; an existing one is replaced.
 
     Raises:
-        BadRequest: no format with this suffix can be written, the file cannot be, or the log
-            holds what the format cannot.
+        BadRequest: no format with this suffix can be written, the file cannot be written, or the
+            format cannot hold the log.
 
     Examples:
         >>> import tempfile
@@ -267,7 +272,7 @@ def write(log: Log, path: str | os.PathLike[str]) -> None:
 
 
 def _set_type(log: Log, wanted: str | None) -> Log:
-    """The log with the type that the user chose, and a doubt if its file says another."""
+    """The log with the type that the user chose, and a doubt if the file names another type."""
     if wanted is None or wanted == log.type:
         return log
     if not log.type:
@@ -281,20 +286,24 @@ def _set_type(log: Log, wanted: str | None) -> Log:
 
 
 def _order_formats(path: str) -> Iterator[tuple[str, Format]]:
-    """Every format by name, first those that share the suffix, so that few are imported."""
+    """All formats with their names; those whose name matches the suffix come first."""
     ending = Path(path).suffix.lower().lstrip(".")
     for name in sorted(FORMATS, key=lambda name: not (ending and name.endswith(ending))):
         yield name, cast("Format", import_module(f"{formats.__name__}.{name}"))
 
 
 def _reader(path: Path, head: bytes) -> Format:
-    """The format of a file that starts with ``head``."""
+    """The format of a file that starts with ``head``.
+
+    Raises:
+        UnreadableFile: the format is not supported.
+    """
     modules = _order_formats(path.name)
-    seen = []
+    tried = []
     for _, module in modules:
         if module.recognizes(head):
             return module
-        seen.append(module)
+        tried.append(module)
     suffix = path.suffix.lower()
     opening = head.lstrip().lower()
     for foreign in FOREIGN:
@@ -304,10 +313,10 @@ def _reader(path: Path, head: bytes) -> Format:
             or opening.startswith(foreign.starts)
         ):
             raise UnreadableFile(f"this is {foreign.what}", advice=foreign.advice)
-    for module in seen:
+    for module in tried:
         if suffix in module.SUFFIXES:
-            return module  # it says best what is missing
-    suffixes = ", ".join(suffix for module in seen for suffix in module.SUFFIXES)
+            return module  # its error messages say what is missing
+    suffixes = ", ".join(suffix for module in tried for suffix in module.SUFFIXES)
     looks = "some binary format" if b"\x00" in head else "plain text without a log's first line"
     raise UnreadableFile(
         f"not a log that can be read here; it looks like {looks}",
@@ -316,7 +325,11 @@ def _reader(path: Path, head: bytes) -> Format:
 
 
 def _writer(given: str) -> _Writer:
-    """The format whose suffix ends the path."""
+    """The format with the suffix of a path.
+
+    Raises:
+        BadRequest: no format with this suffix can be written.
+    """
     writable: list[str] = []
     for _, module in _order_formats(given):
         if hasattr(module, "write"):
@@ -331,7 +344,11 @@ def _writer(given: str) -> _Writer:
 
 
 def _head(given: str) -> bytes:
-    """The first bytes of a file that is there, is a file, is not empty and not enormous."""
+    """The first bytes of a file.
+
+    Raises:
+        UnreadableFile: there is no such file, or it is empty, too large or not readable.
+    """
     path = Path(given)
     try:
         state = path.stat()
@@ -354,14 +371,14 @@ def _head(given: str) -> bytes:
         raise UnreadableFile(
             "you may not read this file", advice="Change its permissions, or copy it."
         ) from None
-    except ValueError as error:  # a path no system can hold, with a zero byte in it
+    except ValueError as error:  # an invalid path, with a zero byte
         raise UnreadableFile(
             f"this is not a path ({error})", advice="Give the path of a log file."
         ) from None
 
 
 def _advise_similar_path(path: Path) -> str:
-    """Advice for a path that leads nowhere: the name it is likely to mean, if there is one."""
+    """Advice for a path without a file: a similar name, if there is one."""
     with suppress(OSError):
         names = [entry.name for entry in path.parent.iterdir() if entry.is_file()]
         for name in get_close_matches(path.name, names, n=1):

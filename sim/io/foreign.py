@@ -1,10 +1,10 @@
-"""Files of other formats that people mistake for logs, and the advice for each."""
+"""Files of unsupported formats that are often given as logs, and the advice for each."""
 
 from typing import NamedTuple
 
 
 class ForeignFormat(NamedTuple):
-    """How to recognize a file of an unsupported format, and the advice for its owner."""
+    """How to recognize a file of an unsupported format, and the advice for it."""
 
     starts: tuple[bytes, ...]
     suffixes: tuple[str, ...]
@@ -15,7 +15,7 @@ class ForeignFormat(NamedTuple):
 _ROBOT_LOG = "Give the robot's own log: the .wpilog that DataLogManager writes."
 FOREIGN = (
     ForeignFormat(
-        (b"\x00\x00\x00\x04",),  # both kinds of the Driver Station's files open with their version
+        (b"\x00\x00\x00\x04",),  # both kinds of Driver Station files begin with their version
         (".dslog", ".dsevents"),
         "a log of the Driver Station, which holds no motor's voltage or position",
         _ROBOT_LOG,

@@ -1,6 +1,6 @@
-"""The contract of a log format: a module in ``sim/io/formats`` that reads a file into a Log.
+"""The interface of a log format: a module in ``sim/io/formats`` that reads a file into a Log.
 
-A module offers
+A module defines
 
     SUFFIXES : tuple[str, ...]                 endings of its files, lower case: (".wpilog",)
     def recognizes(head: bytes) -> bool             whether a file that starts like this is its own
@@ -23,8 +23,8 @@ from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, BadSample
 from sim.core.log import LARGEST, Array, Log, Run
 
-HEAD = 4096  # [bytes] how much of a file `recognizes` is shown
-LARGEST_FILE = 2**30  # [bytes] hours of logging; a longer file is hardly the one that was meant
+HEAD = 4096  # [bytes] length of the beginning of a file that `recognizes` gets
+LARGEST_FILE = 2**30  # [bytes] hours of logging
 
 
 @dataclass(frozen=True)
@@ -32,14 +32,13 @@ class ReadOptions:
     """Options for reading a file; None leaves the choice to the file.
 
     Args:
-        units: the unit of the positions in the file.
+        units: unit of the positions in the file.
         type: ``simple``, ``elevator`` or ``arm``.
-        motor: which motor's signals, where the file has several (``left``); None combines them.
+        motor: name of the motor to read (``left``), if the file has several; None combines them.
         entries: signal (``voltage``, ``position``, ``velocity``) -> the entry that holds it,
             for logs that do not use SysId's names.
-        ignore_velocity: the velocity need not be there; the position stands in for it.
-        pick: which of several mechanisms, counted from 1 as in the error message that lists
-            them.
+        ignore_velocity: the file needs no velocity; the position is read in its place.
+        pick: number of the mechanism to read, counted from 1 as in the message that lists them.
     """
 
     units: str | None = None
@@ -51,7 +50,7 @@ class ReadOptions:
 
     @property
     def units_or_default(self) -> str:
-        """The chosen units, else radians for an arm and meters for the rest."""
+        """The chosen unit, else radians for an arm and meters for other types."""
         return self.units or ("radians" if self.type == "arm" else "meters")
 
 
@@ -97,13 +96,13 @@ def warn_of_motor_choice(motor: str | None, *, where: str) -> tuple[Doubt, ...]:
 def make_run(
     test: str, signals: Mapping[str, Array], *, si: float, where: str
 ) -> tuple[Run, tuple[Doubt, ...]]:
-    """Make a Run of raw columns: refuse what is no measurement, drop repeated times, go to SI.
+    """Make a Run from raw columns: check values, drop repeated times, convert to SI.
 
     Args:
         test: one of ``sim.core.log.TESTS``.
         signals: ``time``, ``voltage``, ``position``, ``velocity``, and optionally ``current`` and
             ``bus_voltage``; each (n,), position and velocity in the file's unit.
-        si: meters or radians in one of the file's unit.
+        si: the file's unit of position in meters or radians.
         where: the file and the run, for messages.
 
     Returns:

@@ -1,7 +1,7 @@
 """Logs of CTRE's SignalLogger (``.hoot``), converted to WPILOG by CTRE's own program ``owlet``.
 
-The format is CTRE's secret. AdvantageScope, too, calls ``owlet IN OUT -f wpilog``
-(``owletInterface.ts``); where it is not installed, the log is refused.
+The format is not published. AdvantageScope, too, calls ``owlet IN OUT -f wpilog``
+(``owletInterface.ts``). If it is not installed, the log is refused.
 """
 
 import os
@@ -12,8 +12,8 @@ from pathlib import Path
 from sim.core.errors import UnreadableFile
 
 SUFFIX = ".hoot"
-VARIABLE = "SYSID_OWLET"  # the environment's word for where owlet is
-PATIENCE = 300  # [s] for a log of an hour
+VARIABLE = "SYSID_OWLET"  # environment variable with the path of owlet
+TIMEOUT = 300  # [s] for the conversion of a log
 
 
 def convert_hoot(path: Path, folder: Path) -> Path:
@@ -21,37 +21,37 @@ def convert_hoot(path: Path, folder: Path) -> Path:
 
     Args:
         path: the log.
-        folder: where the WPILOG is written, under the name of the log.
+        folder: folder of the WPILOG file, which has the name of the log.
 
     Returns:
-        The WPILOG.
+        The path of the WPILOG file.
 
     Raises:
-        UnreadableFile: owlet is not installed, or cannot convert it.
+        UnreadableFile: owlet is not installed, or cannot convert the log.
     """
     owlet = _find_owlet()
     target = folder / f"{path.stem}.wpilog"
     command = [owlet, str(path.resolve()), str(target), "-f", "wpilog"]
     try:
-        ended = subprocess.run(  # noqa: S603 - the program that its owner installed
-            command, capture_output=True, check=False, stdin=subprocess.DEVNULL, timeout=PATIENCE
+        ended = subprocess.run(  # noqa: S603 - a program that the user installed
+            command, capture_output=True, check=False, stdin=subprocess.DEVNULL, timeout=TIMEOUT
         )
     except subprocess.TimeoutExpired:
-        raise _failed(f"took longer than {PATIENCE} s") from None
+        raise _failed(f"took longer than {TIMEOUT} s") from None
     except OSError as error:
         raise _failed(f"cannot be started: {error.strerror or error}") from None
     if ended.returncode or not target.is_file():
-        said = (ended.stderr or ended.stdout).decode("utf-8", "replace").split("\n")
-        last = next((line.strip() for line in reversed(said) if line.strip()), "")
+        output = (ended.stderr or ended.stdout).decode("utf-8", "replace").split("\n")
+        last = next((line.strip() for line in reversed(output) if line.strip()), "")
         raise _failed(f"cannot convert it{f': {last}' if last else ''}")
     return target
 
 
 def _find_owlet() -> str:
-    """The program.
+    """The path of owlet.
 
     Raises:
-        UnreadableFile: it is not installed.
+        UnreadableFile: owlet is not installed.
     """
     named = os.environ.get(VARIABLE, "")
     found = shutil.which(named or "owlet")

@@ -1,7 +1,6 @@
-"""Velocities that were logged wrongly: scaled ones, and positions logged as velocity.
+"""Velocities that were logged wrongly: with a wrong factor, or the position as the velocity.
 
-A log that says position and velocity says the speed twice, so that each can be checked against the
-other.
+Position and velocity both contain the speed, so each can be checked against the other.
 """
 
 from dataclasses import replace
@@ -11,12 +10,12 @@ import numpy as np
 from sim.core.doubt import Doubt
 from sim.core.log import Array, Log, Run
 
-SAME = 0.02  # [share of its spread] a velocity nearer to a straight line of the position is it
-UNLIKE = 0.3  # [the same] farther than this from the slope of the position it is no velocity
-SCALE = 0.1  # by so much the velocity's integral may differ from the way that the position went
-SLOWEST = 1.0  # [s] between samples; other clocks do not tell seconds
-FEWEST = 10  # samples of a log of which anything is said
-PAUSED = 2.5  # [frames] a position that stays longer stands still; a shorter time is one frame
+SAME = 0.02  # [share of its spread] a velocity nearer to a line of the position is a position
+UNLIKE = 0.3  # [share of its spread] farther from the slope of the position, it is no velocity
+SCALE = 0.1  # [1] relative difference of the velocity's integral from the change of the position
+SLOWEST = 1.0  # [s] between samples; larger times are probably not in seconds
+FEWEST = 10  # [samples] shorter runs are not checked
+PAUSED = 2.5  # [frames] a position that is constant for longer stands still
 
 
 def scale_velocity(log: Log, factor: float) -> Log:
@@ -29,8 +28,8 @@ def scale_velocity(log: Log, factor: float) -> Log:
 def differentiate_position(log: Log) -> Log:
     """The log with each velocity replaced by the slope of the position.
 
-    A slope over the last frame is the mean velocity of that frame, as a motor controller with a
-    short filter reports it; a fit finds the length of the frame and allows for it.
+    The slope over the last sensor frame is the mean velocity of that frame, as a motor controller
+    with a short filter reports it. A fit estimates this delay and accounts for it.
     """
     return replace(
         log, runs=tuple(replace(run, velocity=compute_position_slope(run)) for run in log.runs)
@@ -38,10 +37,10 @@ def differentiate_position(log: Log) -> Log:
 
 
 def compute_position_slope(run: Run) -> Array:
-    """(n,) [m/s or rad/s] how fast the position changed within the last frame of its sensor.
+    """The slope of the position within the last frame of its sensor, (n,) [m/s or rad/s].
 
-    A loop faster than the sensor logs each reading several times. Only the first of them counts,
-    and the slope is taken from reading to reading.
+    A loop faster than the sensor logs each reading several times. The slope is computed from the
+    first of them.
     """
     if len(run) < 2:  # noqa: PLR2004 - a slope needs two
         return np.zeros(len(run))
@@ -60,11 +59,11 @@ def compute_position_slope(run: Run) -> Array:
 
 
 def check_velocity(log: Log) -> Log:
-    """The log, a velocity that copies the position replaced, a scaled one doubted.
+    """Check the velocities of a log against its positions.
 
     Returns:
-        The same log, or with the slope of the position for a velocity that is the position itself,
-        and a doubt that says what was found.
+        The log, with a doubt if the velocity has a wrong factor. A velocity that is the position
+        itself is replaced by the slope of the position, with a doubt.
     """
     runs = [run for run in log.runs if len(run) > FEWEST]
     if not runs:
@@ -73,7 +72,7 @@ def check_velocity(log: Log) -> Log:
         np.concatenate([getattr(run, name) for run in runs]) for name in ("position", "velocity")
     )
     slope = np.concatenate([compute_position_slope(run) for run in runs])
-    if _off_line(velocity, position) < SAME and _off_line(velocity, slope) > UNLIKE:
+    if _linear_residual(velocity, position) < SAME and _linear_residual(velocity, slope) > UNLIKE:
         doubt = Doubt(
             "velocity-is-position",
             f"{log.source}: the log has the position in place of the velocity, so the slope of the "
@@ -81,8 +80,8 @@ def check_velocity(log: Log) -> Log:
         )
         return differentiate_position(log).add_doubts(doubt)
     if max(float(np.median(np.diff(run.time))) for run in runs) > SLOWEST:
-        return log  # its times are no seconds, and so its velocities look scaled
-    share = _scale(runs)
+        return log  # its times are probably not in seconds
+    share = _estimate_scale(runs)
     if share is None or abs(share - 1.0) <= SCALE:
         return log
     doubt = Doubt(
@@ -94,19 +93,19 @@ def check_velocity(log: Log) -> Log:
     return log.add_doubts(doubt)
 
 
-def _off_line(values: Array, line: Array) -> float:
-    """[share of the spread] how far values are from the straight line of others nearest to them."""
+def _linear_residual(values: Array, line: Array) -> float:
+    """RMS distance of values from the best linear function of ``line``, relative to spread."""
     spread = float(np.linalg.norm(values - values.mean()))
     centered = line - line.mean()
     size = float(centered @ centered)
     if spread == 0.0 or size == 0.0:
         return 1.0
-    rest = values - values.mean() - centered * float(centered @ (values - values.mean())) / size
-    return float(np.linalg.norm(rest)) / spread
+    residual = values - values.mean() - centered * float(centered @ (values - values.mean())) / size
+    return float(np.linalg.norm(residual)) / spread
 
 
-def _scale(runs: list[Run]) -> float | None:
-    """The velocity's integral over the way that the position went; None where nothing moved."""
+def _estimate_scale(runs: list[Run]) -> float | None:
+    """Ratio of the velocity's integral to the change of the position; None without motion."""
     ways = np.array([run.position[-1] - run.position[0] for run in runs])
     sums = np.array(
         [0.5 * np.diff(run.time) @ (run.velocity[1:] + run.velocity[:-1]) for run in runs]

@@ -1,8 +1,8 @@
 """From the entries of a robot's log to the runs of one mechanism.
 
-Of the entries those that SysId's loggers name, or a person does, or that ``discovery`` finds become
-a Log: ``state`` finds the tests, ``motors`` the signals, ``units`` what they are measured in,
-``clock`` one time base, ``runs`` the rest.
+A Log is made of the entries with SysId's names, of those that the user names, or of those that
+``discovery`` finds: ``state`` finds the tests, ``motors`` the signals, ``units`` their units,
+``clock`` a common time base, and ``runs`` cuts the runs.
 """
 
 from collections.abc import Sequence
@@ -39,20 +39,20 @@ from sim.io.format import ReadOptions, refuse_pick
 def assemble_log(
     entries: Sequence[Entry], *, options: ReadOptions, where: str
 ) -> tuple[Log, tuple[RunInterval, ...]]:
-    """The log of one mechanism, several motors as their mean, and the times of its runs.
+    """The log of one mechanism, with the mean of several motors, and the times of its runs.
 
     Args:
-        entries: of the whole log.
+        entries: all entries of the file.
         options: the user's choices: units, type, motor, and the names of entries.
         where: the file, for messages.
 
     Raises:
-        MissingSignal: an entry is missing; the message names it and what there is instead.
-        BadRequest: it lacks the chosen motor or mechanism, or holds several mechanisms.
-        BadSample: it holds a number that cannot be a measurement.
+        MissingSignal: an entry is missing; the message names it and similar ones.
+        BadRequest: the file lacks the chosen motor or mechanism, or holds several mechanisms.
+        BadSample: the file holds a number that cannot be a measurement.
     """
-    found = _found(entries, options=options, where=where)
-    return _log(found, found.motors, where=where), found.intervals
+    found = _find_mechanism(entries, options=options, where=where)
+    return _make_log(found, found.motors, where=where), found.intervals
 
 
 def assemble_motor_logs(
@@ -60,32 +60,32 @@ def assemble_motor_logs(
 ) -> tuple[dict[str, Log], tuple[RunInterval, ...]]:
     """The log of each motor of one mechanism by its name, and the times of the runs.
 
-    A motor that is mounted the other way round is turned, so that all run alike.
+    The signs of a motor that is mounted the other way round are reversed.
 
     Args:
-        entries: of the whole log.
+        entries: all entries of the file.
         options: the user's choices: units, type, motor, and the names of entries.
         where: the file, for messages.
 
     Raises:
         MissingSignal, BadRequest, BadSample: as ``assemble_log``.
     """
-    found = _found(entries, options=options, where=where)
-    logs = {motor.name: _log(found, (motor,), where=where) for motor in found.motors}
+    found = _find_mechanism(entries, options=options, where=where)
+    logs = {motor.name: _make_log(found, (motor,), where=where) for motor in found.motors}
     return turn_mirrored_motors(logs), found.intervals
 
 
 @dataclass(frozen=True, eq=False)
 class _Mechanism:
-    """What was found of one mechanism.
+    """The entries of one mechanism.
 
     Args:
-        state: where its tests are named.
-        intervals: when they ran.
+        state: the entry that names its tests.
+        intervals: the times of its runs.
         motors: its motors.
-        options: the user's choices, the type its name says included.
-        type_by_name: whether only the name says the type.
-        doubts: what was odd.
+        options: the user's choices, with the type from the mechanism's name if none was chosen.
+        type_by_name: whether the type is from the mechanism's name.
+        doubts: warnings about the entries.
     """
 
     state: StateEntry
@@ -96,9 +96,9 @@ class _Mechanism:
     doubts: tuple[Doubt, ...]
 
 
-def _found(entries: Sequence[Entry], *, options: ReadOptions, where: str) -> _Mechanism:
-    """The mechanism that is to be read: its tests and its motors."""
-    state = _state(entries, options=options, where=where)
+def _find_mechanism(entries: Sequence[Entry], *, options: ReadOptions, where: str) -> _Mechanism:
+    """The mechanism to read, with its tests and motors."""
+    state = _find_state(entries, options=options, where=where)
     by_name = options.type is None
     if by_name:
         options = replace(options, type=find_type_in_name(state.mechanism) or None)
@@ -110,10 +110,10 @@ def _found(entries: Sequence[Entry], *, options: ReadOptions, where: str) -> _Me
 
 
 def _has_choice(entries: Sequence[Entry], *, options: ReadOptions, where: str) -> bool:
-    """Whether there are several mechanisms, of which a number chooses one."""
+    """Whether there are several mechanisms to choose from by number."""
     unpicked = replace(options, pick=None)
     try:
-        state = _state(entries, options=unpicked, where=where)
+        state = _find_state(entries, options=unpicked, where=where)
         intervals, _ = find_run_intervals(state, where=where)
         find_motors(state, entries, intervals, options=unpicked, where=where)
     except BadRequest:
@@ -121,8 +121,12 @@ def _has_choice(entries: Sequence[Entry], *, options: ReadOptions, where: str) -
     return False
 
 
-def _log(found: _Mechanism, motors: tuple[MotorEntries, ...], *, where: str) -> Log:
-    """The log of some motors of a mechanism, as the tests that are named for it tell it."""
+def _make_log(found: _Mechanism, motors: tuple[MotorEntries, ...], *, where: str) -> Log:
+    """The log of some motors of a mechanism.
+
+    Raises:
+        MissingSignal: no run has enough samples.
+    """
     result = cut_runs(motors, found.intervals, options=found.options, where=where)
     if not result.runs:
         names = quote_names([entry.name for entry in motors[0].signals.values()])
@@ -131,24 +135,25 @@ def _log(found: _Mechanism, motors: tuple[MotorEntries, ...], *, where: str) -> 
             where=where,
             advice="Log the signals in the routine's own log callback, and run the tests again.",
         )
-    said = found.options.type or ""
-    if found.type_by_name and said == "arm" and not UNITS[result.units].angular:
-        said = ""  # what moves in meters is no arm
+    type_ = found.options.type or ""
+    if found.type_by_name and type_ == "arm" and not UNITS[result.units].angular:
+        type_ = ""  # a mechanism that moves in meters is not an arm
     return Log(
         result.runs,
         units=result.units,
         mechanism=found.state.mechanism,
-        type=said,
+        type=type_,
         source=where,
         doubts=(*found.doubts, *result.doubts),
     )
 
 
-def _state(entries: Sequence[Entry], *, options: ReadOptions, where: str) -> StateEntry:
-    """Where the tests are named of the one mechanism that is to be read.
+def _find_state(entries: Sequence[Entry], *, options: ReadOptions, where: str) -> StateEntry:
+    """The entry that names the tests of the mechanism to read.
 
     Raises:
-        BadRequest: there are several, and the options do not choose one.
+        MissingSignal: no entry names tests.
+        BadRequest: there are several mechanisms, and the options do not choose one.
     """
     try:
         found = find_state_entries(entries, options=options, where=where)
@@ -181,7 +186,7 @@ def _state(entries: Sequence[Entry], *, options: ReadOptions, where: str) -> Sta
 
 
 def _state_of_file_name(path: Path, entries: Sequence[Entry]) -> StateEntry | None:
-    """The one test of a file whose name tells it: the longest time that something is driven."""
+    """The one test of a file with the test in its name: the longest interval with a voltage."""
     test = find_test_name(path.stem)
     devices = find_devices(entries)
     interval = find_driven_interval(test, devices) if test else None
@@ -192,7 +197,7 @@ def _state_of_file_name(path: Path, entries: Sequence[Entry]) -> StateEntry | No
 
 
 def _has_motor(state: StateEntry, entries: Sequence[Entry], options: ReadOptions) -> bool:
-    """Whether a mechanism has the chosen motor."""
+    """Whether the mechanism has the chosen motor."""
     with suppress(Refusal):
         tests, _ = find_run_intervals(state, where="")
         return bool(find_motors(state, entries, tests, options=options, where=""))

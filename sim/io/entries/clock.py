@@ -1,8 +1,8 @@
-"""One time base for signals that were each logged at times of their own.
+"""One time base for signals with different sample times.
 
-SysId takes the times of the voltage and interpolates the rest linearly. That is right as long as
-every signal is logged every loop, and it fails where only changes are logged: a step test then has
-a single voltage sample. Such a log is read by its own rule, a value holds until the next one.
+SysId takes the times of the voltage and interpolates the other signals linearly. That is right if
+every signal is logged every loop. It fails if only changes are logged: a step test then has a
+single voltage sample. In such a log, each value holds until the next one (zero-order hold).
 """
 
 from collections.abc import Sequence
@@ -13,9 +13,9 @@ import numpy as np
 from sim.core.log import Array
 from sim.io.entries.entry import Numbers
 
-FEWER = 2.0  # a signal with so many times fewer samples than another was not logged every loop
-SILENT = 5.0  # [typical gaps] a longer silence is no jitter: the value did not change
-BEYOND = 0.75  # [typical gaps] so far a line through two samples is believed outside of them
+FEWER = 2.0  # [1] a signal with so many times fewer samples than another was not logged every loop
+PAUSE = 5.0  # [typical gaps] in a longer pause, the value did not change
+BEYOND = 0.75  # [typical gaps] a signal is extrapolated at most so far
 SAME_LOOP = 500  # [µs] values logged closer together belong to one loop; the fastest take 1 ms
 
 
@@ -50,25 +50,25 @@ def logs_only_changes(
 ) -> bool:
     """Whether values were logged only when they changed.
 
-    In such a log no signal ever repeats a value, and one that rests falls silent while the others
-    go on. A slow sensor's signal has fewer samples too, but at even distances.
+    In such a log, no signal repeats a value, and a constant signal has a long pause while the
+    others go on. The signal of a slow sensor also has fewer samples, but at a constant rate.
 
     Args:
         signals: voltage, position and velocity of each motor.
-        spans: begin and end [µs] of each run.
-        suspected: they come from where that is usual, so that no silence is needed to show it.
+        spans: begin and end of each run [µs].
+        suspected: whether the source usually logs only changes, so that no pause is required.
     """
     parts = [[signal.between(*span) for span in spans] for signal in signals]
     if any(np.any(part.values[1:] == part.values[:-1]) for row in parts for part in row):
         return False
     return suspected or any(
-        few and _has_silence(row, parts, spans)
+        few and _has_pause(row, parts, spans)
         for row, few in zip(parts, find_sparse_signals(parts), strict=True)
     )
 
 
 def find_sparse_signals(parts: Sequence[Sequence[Series]]) -> list[bool]:
-    """For each signal whether in some run another one has several times as many samples.
+    """For each signal, whether another one has ``FEWER`` times as many samples in some run.
 
     Args:
         parts: for each signal, its samples in each run.
@@ -77,26 +77,26 @@ def find_sparse_signals(parts: Sequence[Sequence[Series]]) -> list[bool]:
     return [bool(few) for few in np.any(counts * FEWER < counts.max(axis=0), axis=1)]
 
 
-def _has_silence(
+def _has_pause(
     row: Sequence[Series], parts: Sequence[Sequence[Series]], spans: Sequence[tuple[int, int]]
 ) -> bool:
-    """Whether a signal pauses in some run for much longer than it usually does."""
+    """Whether a signal has a pause in some run that is much longer than its typical gap."""
     gaps = np.concatenate([np.diff(part.time) for part in row])
     typical = float(np.median(gaps)) if gaps.size else 0.0
     for number, (part, (begin, _)) in enumerate(zip(row, spans, strict=True)):
         last = max(
             (int(other[number].time[-1]) for other in parts if len(other[number])), default=0
         )
-        if np.diff(part.time, prepend=begin, append=max(last, begin)).max() > SILENT * typical:
+        if np.diff(part.time, prepend=begin, append=max(last, begin)).max() > PAUSE * typical:
             return True
     return False
 
 
 def find_loop_times(signals: Sequence[Series], begin: int, end: int) -> Numbers:
-    """Times in a run at which any signal changed, one per loop, once all are known.
+    """Times in a run at which any signal changed, one per loop, after each has its first value.
 
     Returns:
-        (n,) [µs]; the last change of each loop, so that all of that loop have been made.
+        (n,) [µs]; the time of the last change in each loop.
     """
     changes = np.concatenate([signal.between(begin, end).time for signal in signals])
     time: Numbers = np.unique(changes)
@@ -107,15 +107,15 @@ def find_loop_times(signals: Sequence[Series], begin: int, end: int) -> Numbers:
 
 
 def hold_last_value(signal: Series, time: Numbers) -> Array:
-    """(n,) the last value of a signal at each time, none of which comes before its first."""
+    """The last value of a signal at each time (n,); no time may be before its first sample."""
     return signal.values[np.searchsorted(signal.time, time, side="right") - 1]
 
 
 def select_covered_times(parts: Sequence[Series], time: Numbers) -> Numbers:
     """The times of a run that every signal covers, or nearly covers.
 
-    A line may be drawn a little beyond a signal's ends, as its times differ from the voltage's; a
-    whole loop beyond, there is nothing it rests on.
+    A signal may be extrapolated by less than a loop, because its times differ from those of the
+    voltage, but not by a whole loop.
     """
     for part in parts:
         reach = BEYOND * float(np.median(np.diff(part.time)))
@@ -124,7 +124,7 @@ def select_covered_times(parts: Sequence[Series], time: Numbers) -> Numbers:
 
 
 def interpolate_linear(part: Series, time: Numbers) -> Array:
-    """(n,) a signal at other times: linear between its samples, extrapolated outside.
+    """A signal at other times (n,): linear between its samples, extrapolated outside.
 
     Args:
         part: its samples in a run, at two different times or more, or exactly at ``time``.

@@ -1,11 +1,11 @@
-"""Find a motor's signals in a log that SysIdRoutine did not write, by what their entries are.
+"""Find the signals of motors in a log without SysId's names, by the names and units of entries.
 
     Phoenix6/TalonFX-14/MotorVoltage          /Drive/ModuleBackLeft/DrivePositionRad
     NT:/URCL/SparkMax-11/MotorVelocityRPM     …
 
-The words of a name and the unit in its metadata say which signal an entry holds; what is left of
-the name says of which device. Among devices with all signals, those that are driven while the tests
-run are the mechanism's motors.
+The words of a name and the unit in its metadata tell which signal an entry holds; the rest of the
+name tells the device. Of the devices with all signals, those with a voltage during the tests are
+the mechanism's motors.
 """
 
 import re
@@ -21,7 +21,7 @@ from sim.io.entries.names import split_unit, split_words
 from sim.io.entries.state import RunInterval
 from sim.io.entries.units import find_unit_in_metadata, parse_signal_unit
 
-ROLES: Mapping[str, frozenset[str]] = {  # signal -> words of which one is in its name
+ROLES: Mapping[str, frozenset[str]] = {  # signal -> words; an entry's name holds one of them
     "bus_voltage": frozenset({"bus", "battery", "supply", "input"}),
     "velocity": frozenset({"velocity", "vel", "speed", "rpm", "rps"}),
     "position": frozenset({"position", "pos", "distance", "angle"}),
@@ -29,7 +29,7 @@ ROLES: Mapping[str, frozenset[str]] = {  # signal -> words of which one is in it
     "current": frozenset({"current", "amps"}),
 }
 DUTY = frozenset({"output", "duty", "percent"})
-"""Words for a share of the battery's voltage, where no word says volts."""
+"""Words for a duty cycle, if no word in the name means volts."""
 FILLERS = frozenset(
     {
         "motor",
@@ -53,20 +53,20 @@ OTHERS = frozenset(
 )
 """Words of entries that hold no measurement of the motor."""
 SENSORS = frozenset({"analog", "absolute"})
-"""Words of folders of a sensor that is not the motor's own."""
-DRIVEN = 0.5  # [share of the voltage of the motor that is driven most] of a motor of the mechanism
-MOVES = 0.3  # [1] correlation of a velocity with the slope of its position, at least
-ALIKE = 0.9999  # [1] correlation of a velocity with its position, if it is the position
-ZERO = 0.02  # [V] a smaller voltage drives nothing
-PAUSE = 500_000  # [µs] without a voltage that ends a test
+"""Words in the folder names of sensors that are not the motor's own."""
+DRIVEN = 0.5  # [share of the largest RMS voltage of a device] of the mechanism's motors at least
+MOVES = 0.3  # [1] least correlation of a velocity with the slope of its position
+ALIKE = 0.9999  # [1] least correlation of two signals that are the same
+ZERO = 0.02  # [V] smaller voltages count as zero
+PAUSE = 500_000  # [µs] a longer time without voltage ends a test
 
 
 @dataclass(frozen=True, eq=False)
 class Device:
-    """One motor as another logger records it.
+    """One motor in a log without SysId's names.
 
     Args:
-        name: what its entries' names share.
+        name: the common part of its entries' names.
         signals: ``voltage``, ``position``, … -> the entry that holds it.
     """
 
@@ -75,7 +75,7 @@ class Device:
 
     @property
     def is_complete(self) -> bool:
-        """Whether it has all that a fit needs."""
+        """Whether it has all signals that a fit needs."""
         return all(signal in self.signals for signal in NEEDED)
 
     def use_position_as_velocity(self) -> "Device":
@@ -90,19 +90,21 @@ DeviceGroup: TypeAlias = tuple[list[Device], list[RunInterval]]  # motors of a m
 
 
 def find_devices(entries: Sequence[Entry]) -> list[Device]:
-    """The devices of a log, each with the signals that its entries' names and units tell."""
+    """The devices of a log, with the signals found by the names and units of their entries."""
     found: dict[str, dict[str, Entry]] = {}
     for entry in entries:
-        if entry.type in NUMBERS and len(entry) and (told := identify_signal(entry)):
-            device, signal = told
+        if entry.type in NUMBERS and len(entry) and (identified := identify_signal(entry)):
+            device, signal = identified
             own = found.setdefault(device, {})
             if signal not in own or len(entry) > len(own[signal]):
                 own[signal] = entry
-    return _completed([Device(name, _with_voltage(signals)) for name, signals in found.items()])
+    return _add_shared_motion(
+        [Device(name, _compute_voltage(signals)) for name, signals in found.items()]
+    )
 
 
-def _completed(devices: Sequence[Device]) -> list[Device]:
-    """The devices; one that has a voltage only gets the motion that is logged beside it.
+def _add_shared_motion(devices: Sequence[Device]) -> list[Device]:
+    """The devices; one with only a voltage gets the position and velocity logged near it.
 
     Two motors of an elevator have a voltage each, and one position: ``Lift/LeftVolts``,
     ``Lift/RightVolts``, ``Lift/PositionMeters``.
@@ -129,16 +131,16 @@ def _completed(devices: Sequence[Device]) -> list[Device]:
 
 
 def identify_signal(entry: Entry) -> tuple[str, str] | None:
-    """Device and signal of an entry; None if it is none of a motor's."""
+    """Device and signal of an entry; None if it is not a signal of a motor."""
     name, unit = split_unit(entry.name)
     path, last = re.fullmatch(r"(.*[/:])?(.*)", name, re.DOTALL).groups("")  # type: ignore[union-attr]
     words = split_words(last)
     folder = split_words(re.split(r"[/:]", path.rstrip("/:"))[-1])
     if OTHERS.intersection(words) or SENSORS.intersection(folder):
         return None
-    signal = _signal(words, find_unit_in_metadata(entry.metadata) or unit)
+    signal = _find_signal(words, find_unit_in_metadata(entry.metadata) or unit)
     if folder[:1] == ["spark"] and words == ["voltage"]:
-        signal = "bus_voltage"  # REV/Spark-3/VOLTAGE: REV's converter means the battery's
+        signal = "bus_voltage"  # REV/Spark-3/VOLTAGE of REV's converter is the battery voltage
     if not signal:
         return None
     spent = {
@@ -146,14 +148,14 @@ def identify_signal(entry: Entry) -> tuple[str, str] | None:
         *DUTY,
         *ROLES.get(signal, ()),
         *ROLES["voltage"],
-        *_unit_words(words, signal),
+        *_find_unit_words(words, signal),
     }
     rest = [word for word in words if word not in spent]
     return (path + "-".join(rest)).rstrip("/:"), signal
 
 
 def may_be_signal(name: str, metadata: str) -> bool:
-    """Whether an entry of numbers may hold a signal of a motor, or is near one for a message."""
+    """Whether an entry of numbers may be a signal of a motor, or has a similar name."""
     if any(word[:4] in name.lower() for word in NEEDED + OPTIONAL):
         return True
     return (
@@ -162,8 +164,8 @@ def may_be_signal(name: str, metadata: str) -> bool:
 
 
 def select_driven_devices(devices: Sequence[Device], tests: Sequence[RunInterval]) -> list[Device]:
-    """The devices that are driven while tests run, and whose velocity goes with their position."""
-    levels = [(device, _voltage_in(device, tests)) for device in devices if device.is_complete]
+    """The devices with a voltage during the tests whose velocity matches their position."""
+    levels = [(device, _rms_voltage(device, tests)) for device in devices if device.is_complete]
     most = max((level for _, level in levels), default=0.0)
     return [
         device
@@ -173,12 +175,12 @@ def select_driven_devices(devices: Sequence[Device], tests: Sequence[RunInterval
 
 
 def group_by_tests(devices: Sequence[Device], tests: Sequence[RunInterval]) -> list[DeviceGroup]:
-    """Devices that are driven in the same tests, and those tests: each group is a mechanism.
+    """Groups of devices that are driven in the same tests, with these tests: the mechanisms.
 
-    A robot whose program names the tests of all its mechanisms in one entry drives one mechanism
-    after another.
+    Some robot programs name the tests of all mechanisms in one entry and test one mechanism after
+    another.
     """
-    levels = np.array([[_voltage_in(one, [test]) for test in tests] for one in devices])
+    levels = np.array([[_rms_voltage(one, [test]) for test in tests] for one in devices])
     driven = (levels >= DRIVEN * levels.max(axis=0)) & (levels > ZERO)
     groups: list[tuple[list[Device], set[int]]] = []
     for device, own in zip(devices, driven, strict=True):
@@ -191,21 +193,21 @@ def group_by_tests(devices: Sequence[Device], tests: Sequence[RunInterval]) -> l
 
 
 def find_driven_interval(test: str, devices: Sequence[Device]) -> RunInterval | None:
-    """The longest time for which some device is driven, as the time of a test."""
-    stretches = [
-        stretch
+    """The longest interval in which a device is driven, as the interval of a test; None if none."""
+    intervals = [
+        interval
         for device in devices
         if device.is_complete
-        for stretch in _driven_intervals(device.signals["voltage"])
+        for interval in _driven_intervals(device.signals["voltage"])
     ]
-    if not stretches:
+    if not intervals:
         return None
-    begin, end = max(stretches, key=lambda one: one[1] - one[0])
+    begin, end = max(intervals, key=lambda one: one[1] - one[0])
     return RunInterval(test, begin, end)
 
 
-def _signal(words: Sequence[str], unit: str) -> str:
-    """The signal that words tell, or else the unit; empty if neither does."""
+def _find_signal(words: Sequence[str], unit: str) -> str:
+    """The signal by the words of a name, or else by the unit; empty if neither tells it."""
     own = set(words)
     for signal, telling in ROLES.items():
         if signal == "bus_voltage":
@@ -221,16 +223,16 @@ def _signal(words: Sequence[str], unit: str) -> str:
     return ""
 
 
-def _unit_words(words: Sequence[str], signal: str) -> Iterator[str]:
-    """Those words at the end of a name that are its unit."""
+def _find_unit_words(words: Sequence[str], signal: str) -> Iterator[str]:
+    """The words at the end of a name that are its unit."""
     for first in range(len(words)):
         if parse_signal_unit(" ".join(words[first:]), signal):
             yield from words[first:]
             return
 
 
-def _with_voltage(signals: Mapping[str, Entry]) -> dict[str, Entry]:
-    """The signals; a share of the battery's voltage, times that, is a voltage."""
+def _compute_voltage(signals: Mapping[str, Entry]) -> dict[str, Entry]:
+    """The signals; a missing voltage is the duty cycle times the battery voltage."""
     found = dict(signals)
     duty, bus = found.pop("duty_cycle", None), found.get("bus_voltage")
     if duty is not None and bus is not None and "voltage" not in found:
@@ -244,11 +246,10 @@ def _samples_between(entry: Entry, tests: Sequence[RunInterval]) -> list[slice]:
     return [slice(*np.searchsorted(entry.time, (test.begin, test.end))) for test in tests]
 
 
-def _voltage_in(device: Device, tests: Sequence[RunInterval]) -> float:
-    """[V] root mean square of a device's voltage while tests run.
+def _rms_voltage(device: Device, tests: Sequence[RunInterval]) -> float:
+    """The RMS voltage [V] of a device during tests.
 
-    Where only changes were logged, a step has no sample of its own: what the voltage was before it
-    holds.
+    If only changes were logged, a test may have no sample: then the last value before it holds.
     """
     entry = device.signals["voltage"]
     values = entry.numbers()
@@ -261,9 +262,9 @@ def _voltage_in(device: Device, tests: Sequence[RunInterval]) -> float:
 
 
 def _velocity_matches_position(device: Device, tests: Sequence[RunInterval]) -> bool:
-    """Whether its velocity goes with the slope of its position while tests run.
+    """Whether the velocity of a device correlates with the slope of its position during tests.
 
-    A position that was logged as the velocity passes, too: a fit takes its slope.
+    A position that was logged as the velocity passes, too: a fit uses its slope.
     """
     position, velocity = device.signals["position"], device.signals["velocity"]
     x, v = position.numbers(), velocity.numbers()
@@ -286,7 +287,7 @@ def _velocity_matches_position(device: Device, tests: Sequence[RunInterval]) -> 
 
 
 def _same_motion(one: Array, other: Array) -> bool:
-    """Whether two signals are the same but for their unit and zero, and not at rest."""
+    """Whether two signals differ only by a factor and an offset, and are not constant."""
     if not one.size:
         return False
     one, other = one - np.mean(one), other - np.mean(other)
@@ -295,7 +296,7 @@ def _same_motion(one: Array, other: Array) -> bool:
 
 
 def _driven_intervals(voltage: Entry) -> Iterator[tuple[int, int]]:
-    """Begin and end [µs] of each time for which a voltage drives, short pauses included."""
+    """Begin and end [µs] of each interval with a voltage; short pauses do not end it."""
     values = voltage.numbers()
     on = np.flatnonzero(np.abs(values) > ZERO)
     if not on.size:

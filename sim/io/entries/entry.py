@@ -10,9 +10,9 @@ from sim.core.log import Array
 
 Numbers: TypeAlias = NDArray[np.int64]
 
-NUMBERS = ("double", "float", "int64")  # types a signal may have, the likeliest first
+NUMBERS = ("double", "float", "int64")  # types that a signal may have, preferred ones first
 STRING = "string"
-NEEDED = ("voltage", "position", "velocity")  # the signals of a motor
+NEEDED = ("voltage", "position", "velocity")  # signals of a motor that a fit needs
 OPTIONAL = ("current", "bus_voltage")
 
 
@@ -21,10 +21,10 @@ class Entry:
     """A named series of values.
 
     Args:
-        name: as the log says it.
+        name: its name in the log.
         type: ``double``, ``string``, …
-        metadata: what the log says about it; may be empty.
-        time: (n,) [µs], never decreasing.
+        metadata: its metadata in the log; may be empty.
+        time: (n,) time of each value [µs], never decreasing.
     """
 
     name: str
@@ -36,7 +36,7 @@ class Entry:
         return int(self.time.size)
 
     def numbers(self) -> Array:
-        """(n,) the values of an entry of a type in ``NUMBERS``."""
+        """The values (n,) of an entry with a type in ``NUMBERS``."""
         raise NotImplementedError
 
     def texts(self) -> list[str]:
@@ -55,7 +55,7 @@ class ValuesEntry(Entry):
     values: Array | tuple[str, ...]
 
     def numbers(self) -> Array:
-        """(n,) the values of an entry of a type in ``NUMBERS``."""
+        """The values (n,) of an entry with a type in ``NUMBERS``."""
         return np.asarray(self.values, dtype=np.float64)
 
     def texts(self) -> list[str]:

@@ -10,36 +10,38 @@ from sim.core.log import Log, Run
 
 
 def turn_mirrored_motors(logs: Mapping[str, Log]) -> dict[str, Log]:
-    """The logs, all signals reversed of motors that run against their tests and the others.
+    """The logs, with reversed signals for motors that run against their tests and other motors.
 
     Args:
         logs: the name of each motor -> its log.
     """
-    ways = {name: _way(log) for name, log in logs.items()}
+    ways = {name: _sum_voltage(log) for name, log in logs.items()}
     if not any(way > 0.0 for way in ways.values()):
         return dict(logs)
-    return {name: _turned(log, name) if ways[name] < 0.0 else log for name, log in logs.items()}
+    return {
+        name: _reverse_log(log, name) if ways[name] < 0.0 else log for name, log in logs.items()
+    }
 
 
-def _way(log: Log) -> float:
-    """[V] positive if forward tests have a positive voltage, and reverse ones a negative."""
+def _sum_voltage(log: Log) -> float:
+    """Sum of voltages, negated in reverse tests [V]; negative for a mirrored motor."""
     return sum(
         (1.0 if run.direction == "forward" else -1.0) * float(np.sum(run.voltage))
         for run in log.runs
     )
 
 
-def _turned(log: Log, name: str) -> Log:
+def _reverse_log(log: Log, name: str) -> Log:
     doubt = Doubt(
         "mirrored-motor",
         f"{log.source}: motor {name!r} has a negative voltage in forward tests, and others a "
         "positive one; its signals were reversed. If it is not mounted the other way round, look "
         "at which motors are inverted.",
     )
-    return replace(log, runs=tuple(map(_reversed, log.runs))).add_doubts(doubt)
+    return replace(log, runs=tuple(map(_reverse_run, log.runs))).add_doubts(doubt)
 
 
-def _reversed(run: Run) -> Run:
+def _reverse_run(run: Run) -> Run:
     current = None if run.current is None else -run.current
     return replace(
         run,

@@ -1,9 +1,9 @@
-"""The entries of a WPILOG file that hold a mechanism's signals, motor by motor.
+"""Find the entries with the signals of each motor of a mechanism.
 
-    <signal>-<motor>-<mechanism>       voltage, position, velocity; current may join them
+    <signal>-<motor>-<mechanism>       voltage, position, velocity; optionally current
 
-The name of a motor and that of a mechanism may both hold the dash that stands between them: only
-the mechanism's state entry tells where to split.
+Names of motors and mechanisms may contain dashes themselves: only the mechanism's state entry tells
+where to split.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -48,7 +48,7 @@ class MotorEntries:
     """The entries of one motor's signals.
 
     Args:
-        name: as in its entries; empty if they were named one by one.
+        name: its name in its entries; empty if the user named the entries.
         signals: ``voltage``, ``position``, … -> the entry that holds it.
     """
 
@@ -57,13 +57,13 @@ class MotorEntries:
 
     @property
     def is_complete(self) -> bool:
-        """Whether it has all that a fit needs."""
+        """Whether it has all signals that a fit needs."""
         return all(signal in self.signals for signal in NEEDED)
 
 
 @dataclass(frozen=True, eq=False)
 class _Search:
-    """What every search for signals needs to know."""
+    """The arguments of a search for signals."""
 
     entries: Sequence[Entry]
     state: StateEntry
@@ -72,13 +72,13 @@ class _Search:
 
     @cached_property
     def rivals(self) -> tuple[str, ...]:
-        """The mechanisms whose name is longer and ends the same."""
+        """Other mechanisms whose names end with a dash and this mechanism's name."""
         named = {name.rest for one in self.entries if (name := split_name(one.name, WORD))}
         return tuple(name for name in named if name.endswith(f"-{self.state.mechanism}"))
 
     @cached_property
     def given(self) -> dict[str, Entry]:
-        """The signals whose entries a person has named."""
+        """The signals whose entries the user named."""
         given = {
             signal: find_requested_entry(
                 name, role=signal, kinds=NUMBERS, entries=self.entries, where=self.where
@@ -87,7 +87,7 @@ class _Search:
             if signal in NEEDED + OPTIONAL
         }
         if self.options.ignore_velocity and "position" in given:
-            given["velocity"] = given["position"]  # its slope is taken later
+            given["velocity"] = given["position"]  # its slope is computed later
         return given
 
 
@@ -99,17 +99,17 @@ def find_motors(
     options: ReadOptions,
     where: str,
 ) -> tuple[tuple[MotorEntries, ...], tuple[Doubt, ...], tuple[RunInterval, ...]]:
-    """The motors of a mechanism whose signals are used, each of them complete.
+    """The motors of a mechanism that have all signals.
 
     Args:
-        state: where its tests are named.
+        state: the entry that names its tests.
         entries: all entries of the file.
-        tests: when its tests ran.
-        options: which motor, and which entries, where a person has said so.
+        tests: the times of its tests.
+        options: the user's choices of motor and entries.
         where: the file, for messages.
 
     Returns:
-        At least one motor, doubts about those left out, and the tests that drive them.
+        At least one motor, doubts about motors left out, and the tests in which they are driven.
 
     Raises:
         MissingSignal: no motor has all signals; the message names what is missing.
@@ -119,26 +119,26 @@ def find_motors(
     by_hand = MotorEntries(options.motor or "", search.given)
     if by_hand.is_complete:
         return (by_hand,), (), tuple(tests)
-    found = _by_motor(search)
+    found = _find_named_motors(search)
     noted: tuple[Doubt, ...] = ()
     if not search.given and not any(motor.is_complete for motor in found):
-        other, tests = _of_other_loggers(search, tests)
-        found, noted = other or found, (_taken(other, where),) if other else ()
+        other, tests = _discover_motors(search, tests)
+        found, noted = other or found, (_doubt_found_signals(other, where),) if other else ()
     if options.motor is not None:
-        found = [_chosen(found, search)]
+        found = [_choose_motor(found, search)]
     whole = tuple(motor for motor in found if motor.is_complete)
     if not whole:
-        raise _missing(found, search)
-    return whole, (*noted, *_left_out(found, where)), tuple(tests)
+        raise _make_missing_error(found, search)
+    return whole, (*noted, *_doubt_incomplete_motors(found, where)), tuple(tests)
 
 
-def _of_other_loggers(
+def _discover_motors(
     search: _Search, tests: Sequence[RunInterval]
 ) -> tuple[list[MotorEntries], Sequence[RunInterval]]:
-    """The motors that another logger recorded, and the tests that drove them.
+    """The motors without SysId's names, and the tests in which they are driven.
 
     Raises:
-        BadRequest: the tests drove one mechanism after another, and none was chosen.
+        BadRequest: several mechanisms are driven one after another, and none was chosen.
     """
     devices = find_devices(search.entries)
     if search.options.ignore_velocity:
@@ -148,12 +148,16 @@ def _of_other_loggers(
     some = [one for one in driven if words & set(split_words(one.name))] or driven
     if search.options.motor is None and some:
         groups = group_by_tests(some, tests)
-        some, tests = groups[0] if len(groups) == 1 else _picked(groups, search)
+        some, tests = groups[0] if len(groups) == 1 else _choose_group(groups, search)
     return [MotorEntries(one.name, one.signals) for one in some], tests
 
 
-def _picked(groups: Sequence[DeviceGroup], search: _Search) -> DeviceGroup:
-    """The mechanism that a person chose."""
+def _choose_group(groups: Sequence[DeviceGroup], search: _Search) -> DeviceGroup:
+    """The mechanism with the chosen number.
+
+    Raises:
+        BadRequest: there is none with this number.
+    """
     pick = search.options.pick
     if pick is not None and 1 <= pick <= len(groups):
         return groups[pick - 1]
@@ -172,8 +176,8 @@ def _without_velocity(motor: MotorEntries) -> MotorEntries:
     return MotorEntries(motor.name, {**motor.signals, "velocity": motor.signals["position"]})
 
 
-def _taken(motors: Sequence[MotorEntries], where: str) -> Doubt:
-    """What was taken for the signals of which motor."""
+def _doubt_found_signals(motors: Sequence[MotorEntries], where: str) -> Doubt:
+    """The doubt that names the entries found without SysId's names."""
     first = motors[0].signals
     names = ", ".join(f"{signal} from {first[signal].name!r}" for signal in NEEDED)
     more = f", and the like of {len(motors) - 1} more" if len(motors) > 1 else ""
@@ -184,20 +188,24 @@ def _taken(motors: Sequence[MotorEntries], where: str) -> Doubt:
     )
 
 
-def _by_motor(search: _Search) -> list[MotorEntries]:
-    """The motors of the mechanism, with the usable entry of each signal they have."""
+def _find_named_motors(search: _Search) -> list[MotorEntries]:
+    """The motors of the mechanism, with the usable entry of each of their signals.
+
+    Raises:
+        BadRequest: several entries could be the same signal.
+    """
     same: dict[tuple[str, str], dict[str, list[Entry]]] = {}
     for signal in NEEDED + OPTIONAL:
         for entry in search.entries:
-            placed = _placed(entry.name, signal, search)
-            if placed and entry.type in NUMBERS and len(entry):
-                path, motor = placed
+            split = _split_signal_name(entry.name, signal, search)
+            if split and entry.type in NUMBERS and len(entry):
+                path, motor = split
                 same.setdefault((motor, signal), {}).setdefault(path, []).append(entry)
-    beside = {motor for (motor, _), paths in same.items() if search.state.path in paths}
+    same_path = {motor for (motor, _), paths in same.items() if search.state.path in paths}
     motors: dict[str, dict[str, Entry]] = {}
     for (motor, signal), paths in same.items():
-        if beside and motor not in beside:
-            continue  # what lies elsewhere, where motors are logged beside the state, is no motor
+        if same_path and motor not in same_path:
+            continue  # if some motors are logged under the path of the state, others are not motors
         path = search.state.path if search.state.path in paths else next(iter(paths))
         if len(paths) > 1 and path != search.state.path:
             names = [entry.name for several in paths.values() for entry in several]
@@ -212,8 +220,8 @@ def _by_motor(search: _Search) -> list[MotorEntries]:
     return [_without_velocity(one) if search.options.ignore_velocity else one for one in found]
 
 
-def _placed(name: str, signal: str, search: _Search) -> tuple[str, str] | None:
-    """Path and motor of an entry, if its name makes it this signal of the mechanism."""
+def _split_signal_name(name: str, signal: str, search: _Search) -> tuple[str, str] | None:
+    """Path and motor of an entry; None if its name is not that of this signal and mechanism."""
     parts = split_name(name, signal)
     if parts is None or any(parts.rest.endswith(f"-{rival}") for rival in search.rivals):
         return None
@@ -223,8 +231,12 @@ def _placed(name: str, signal: str, search: _Search) -> tuple[str, str] | None:
     return None if motor == parts.rest else (parts.path, motor)
 
 
-def _chosen(found: Sequence[MotorEntries], search: _Search) -> MotorEntries:
-    """The chosen motor, by its name or by an ending that only it has."""
+def _choose_motor(found: Sequence[MotorEntries], search: _Search) -> MotorEntries:
+    """The chosen motor, by its name or by a unique ending of it.
+
+    Raises:
+        BadRequest: no motor matches, or several do.
+    """
     wanted = (search.options.motor or "").lower()
     same = [motor for motor in found if motor.name.lower() == wanted]
     same = same or [motor for motor in found if motor.name.lower().endswith(wanted)]
@@ -241,7 +253,7 @@ def _chosen(found: Sequence[MotorEntries], search: _Search) -> MotorEntries:
     )
 
 
-def _left_out(found: Sequence[MotorEntries], where: str) -> Iterator[Doubt]:
+def _doubt_incomplete_motors(found: Sequence[MotorEntries], where: str) -> Iterator[Doubt]:
     for motor in found:
         lacking = [signal for signal in NEEDED if signal not in motor.signals]
         if lacking:
@@ -252,8 +264,8 @@ def _left_out(found: Sequence[MotorEntries], where: str) -> Iterator[Doubt]:
             )
 
 
-def _missing(found: Sequence[MotorEntries], search: _Search) -> MissingSignal:
-    """The refusal when no motor is whole: what is missing, and what there is instead."""
+def _make_missing_error(found: Sequence[MotorEntries], search: _Search) -> MissingSignal:
+    """The error that no motor has all signals: what is missing, and similar entries."""
     none = MotorEntries("", search.given)
     if not (search.given or found or split_name(search.state.entry.name, WORD)):
         return make_no_motor_error(
@@ -270,15 +282,15 @@ def _missing(found: Sequence[MotorEntries], search: _Search) -> MissingSignal:
     said += [
         f"{entry.name!r} {explain_unfit_entry(entry, kinds=NUMBERS)}"
         for entry in search.entries
-        if _placed(entry.name, signal, search)
+        if _split_signal_name(entry.name, signal, search)
     ]
-    near = _near(signal, search.entries, search.state.mechanism)
+    near = _find_similar_names(signal, search.entries, search.state.mechanism)
     if near:
         said.append(f"entries with similar names: {quote_names(near)}")
     return MissingSignal(
         "; ".join(said),
         where=search.where,
-        advice=f"{_advice(signal)}. Or name another logger's entries: {FLAGS}. {EXPORT}",
+        advice=f"{_advise_logging(signal)}. Or name another logger's entries: {FLAGS}. {EXPORT}",
     )
 
 
@@ -288,9 +300,9 @@ def make_no_motor_error(
     """The error for a log in which no device was recorded completely.
 
     Args:
-        entries: all of the log.
-        where: the file.
-        mechanism: its name, if known: entries that name it are shown first.
+        entries: all entries of the file.
+        where: the file, for messages.
+        mechanism: name of the mechanism, if known; entries with it are listed first.
     """
     devices = find_devices(entries)
     lacking = [s for s in NEEDED if not any(s in device.signals for device in devices)]
@@ -299,7 +311,7 @@ def make_no_motor_error(
         if lacking
         else "no motor has a voltage, a position and a velocity that all change"
     )
-    near = [name for signal in NEEDED for name in _near(signal, entries, mechanism)]
+    near = [name for signal in NEEDED for name in _find_similar_names(signal, entries, mechanism)]
     said = f". Entries with similar names: {quote_names(list(dict.fromkeys(near)))}" if near else ""
     arrays = [one.name for one in entries if one.type.endswith("[]") and identify_signal(one)]
     said += f". Arrays cannot be used: {quote_names(arrays)}" if arrays else ""
@@ -311,22 +323,22 @@ def make_no_motor_error(
     )
 
 
-def _advice(signal: str) -> str:
+def _advise_logging(signal: str) -> str:
     what = "the applied voltage" if signal == "voltage" else f"the {signal}"
     return f"Log {what} in the routine's log callback: call log.motor(NAME).{CALLS[signal]}"
 
 
-def _near(signal: str, entries: Sequence[Entry], mechanism: str) -> list[str]:
-    """Entries whose names speak of a signal, those of this mechanism and this signal first."""
+def _find_similar_names(signal: str, entries: Sequence[Entry], mechanism: str) -> list[str]:
+    """Names of entries like those of signals, first those of this mechanism and this signal."""
 
     def distance(entry: Entry) -> tuple[bool, bool, int]:
         name = entry.name.lower()
         return mechanism.lower() not in name, signal[:4] not in name, -len(entry)
 
-    words = [word[:4] for word in NEEDED]  # "volt" says it too
-    speaking = [
+    words = [word[:4] for word in NEEDED]  # "volt" is enough
+    similar = [
         entry
         for entry in entries
         if entry.type in NUMBERS and any(word in entry.name.lower() for word in words)
     ]
-    return [entry.name for entry in sorted(speaking, key=distance)]
+    return [entry.name for entry in sorted(similar, key=distance)]

@@ -1,7 +1,7 @@
-"""Find entries by name: split as SysId's loggers write them, or named by the user.
+"""Names of entries: split as SysId's loggers write them, or chosen by the user.
 
-Loggers put a path before a name (``NT:/``, ``/Robot/``). Some files hold the same entry twice, with
-a path and without.
+Loggers put a path before a name (``NT:/``, ``/Robot/``). Some files hold the same entry with a path
+and without.
 """
 
 import re
@@ -20,7 +20,7 @@ _SAME = {
     "backwards": "reverse",
     "forwards": "forward",
 }
-SHOWN = 4  # [names] in a message
+MOST_LISTED = 4  # [names] in a message at most
 
 
 class EntryName(NamedTuple):
@@ -31,7 +31,7 @@ class EntryName(NamedTuple):
 
 
 def split_name(name: str, word: str) -> EntryName | None:
-    """The parts of a name around ``word-``; None if that is not how it is made."""
+    """The parts of a name before and after ``word-``; None if the name does not contain it so."""
     found = re.fullmatch(rf"((?:.*?[/:])??){re.escape(word)}-(.*)", name, re.DOTALL)
     return EntryName(*found.groups()) if found else None
 
@@ -45,11 +45,11 @@ def find_test_name(text: str, *, fillers: Collection[str] | None = None) -> str:
     """The test that a text names in any spelling: ``State.kQuasistaticForward``, ``slow backward``.
 
     Args:
-        text: its words in any order.
-        fillers: words that may stand beside the test's own; None allows any.
+        text: the text, with its words in any order.
+        fillers: other words that are allowed; None allows any.
 
     Returns:
-        One of ``TESTS``; empty if it names none, or several.
+        One of ``TESTS``; empty if the text names none, or several.
     """
     words = [_SAME.get(word, word) for word in split_words(text)]
     kinds, ways = set(KINDS).intersection(words), set(DIRECTIONS).intersection(words)
@@ -68,12 +68,12 @@ def split_unit(name: str) -> tuple[str, str]:
 
 
 def find_type_in_name(mechanism: str) -> str:
-    """``elevator`` or ``arm`` where that is a word of a mechanism's name; empty if not, or both.
+    """``elevator`` or ``arm`` if one of them is a word of a mechanism's name; else empty.
 
-    ``left-Elevator``, ``ElevatorSubsystem`` and ``ARM_1`` say it, ``alarm`` does not.
+    ``left-Elevator``, ``ElevatorSubsystem`` and ``ARM_1`` contain one, ``alarm`` does not.
     """
-    said = {"elevator", "arm"}.intersection(split_words(mechanism))
-    return said.pop() if len(said) == 1 else ""
+    types = {"elevator", "arm"}.intersection(split_words(mechanism))
+    return types.pop() if len(types) == 1 else ""
 
 
 def find_requested_entry(
@@ -82,7 +82,7 @@ def find_requested_entry(
     """The entry that the user chose for a signal.
 
     Raises:
-        MissingSignal: there is none of this name, or it is empty, or of a type that does not do.
+        MissingSignal: there is no entry of this name, or it is empty or of an unsuitable type.
     """
     same = [entry for entry in entries if entry.name == name]
     usable = [entry for entry in same if entry.type in kinds and len(entry)]
@@ -94,7 +94,7 @@ def find_requested_entry(
             where=where,
             advice=f"Name an entry of type {' or '.join(kinds)} with --{role}.",
         )
-    near = get_close_matches(name, [entry.name for entry in entries], n=SHOWN, cutoff=0.5)
+    near = get_close_matches(name, [entry.name for entry in entries], n=MOST_LISTED, cutoff=0.5)
     raise MissingSignal(
         f"there is no entry {name!r} to take {role} from",
         where=where,
@@ -113,8 +113,8 @@ def explain_unfit_entry(entry: Entry, *, kinds: Collection[str]) -> str:
 
 def quote_names(names: Sequence[str]) -> str:
     """The first few names, in quotes, for a message."""
-    more = ", …" if len(names) > SHOWN else ""
-    return ", ".join(repr(name) for name in names[:SHOWN]) + more
+    more = ", …" if len(names) > MOST_LISTED else ""
+    return ", ".join(repr(name) for name in names[:MOST_LISTED]) + more
 
 
 def number_names(names: Sequence[str]) -> str:

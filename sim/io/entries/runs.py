@@ -1,4 +1,4 @@
-"""The runs of a mechanism, cut out of its motors' signals by the tests its state entry names."""
+"""Cut the signals of a mechanism's motors into runs, by the intervals of its tests."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -27,11 +27,11 @@ from sim.io.entries.units import EntryScale, choose_scale, is_from_network_table
 from sim.io.format import ReadOptions, make_run
 
 SECOND = 1e6  # [µs]
-ENOUGH = 2  # samples of a run; one alone shows no motion
-ENDS = 2  # samples that a run may lose, one at each end, without a word
-OPPOSED = -0.5  # [cosine] two motors that work against each other are near -1, noise is near 0
+ENOUGH = 2  # samples of a run at least
+ENDS = 2  # samples that a run may lose without a doubt, one at each end
+OPPOSED = -0.5  # [1] cosine similarity; motors that work against each other are near -1
 
-Signals: TypeAlias = Mapping[str, Sequence[Series]]  # signal -> its series, motor by motor
+Signals: TypeAlias = Mapping[str, Sequence[Series]]  # signal -> its series for each motor
 
 
 @dataclass(frozen=True)
@@ -39,9 +39,9 @@ class CutRuns:
     """The runs cut from a mechanism's signals, with doubts about them.
 
     Args:
-        runs: in the order they were recorded.
-        units: the unit its log is kept in.
-        doubts: what is odd about them.
+        runs: the runs in the order they were recorded.
+        units: the unit of position of the log.
+        doubts: warnings about them.
     """
 
     runs: tuple[Run, ...]
@@ -51,13 +51,13 @@ class CutRuns:
 
 @dataclass(frozen=True, eq=False)
 class _Sampled:
-    """One run on one time base.
+    """One run on a common time base.
 
     Args:
-        test: which.
+        test: the test.
         time: (n,) [µs].
         signals: signal -> (motors, n).
-        lost: how many samples of the voltage are not in it, as another signal is not known there.
+        lost: number of voltage samples left out because another signal is missing there.
     """
 
     test: str
@@ -68,7 +68,7 @@ class _Sampled:
 
 def cut_runs(
     motors: Sequence[MotorEntries],
-    stretches: Sequence[RunInterval],
+    intervals: Sequence[RunInterval],
     *,
     options: ReadOptions,
     where: str,
@@ -76,36 +76,41 @@ def cut_runs(
     """Cut the signals of a mechanism's motors into its runs; several motors count as their mean.
 
     Raises:
-        BadRequest: units that cannot be reconciled, or motors that work against each other.
+        BadRequest: motors logged in an angle and in a length, or that work against each other.
         BadSample: a value that cannot be a measurement.
     """
-    scales = _scales(motors, options=options, where=where)
-    signals = _signals(motors, scales)
+    scales = _choose_scales(motors, options=options, where=where)
+    signals = _scale_signals(motors, scales)
     needed = [series for signal in NEEDED for series in signals[signal]]
-    spans = [(stretch.begin, stretch.end) for stretch in stretches]
+    spans = [(interval.begin, interval.end) for interval in intervals]
     entries = [motor.signals[signal] for motor in motors for signal in NEEDED]
     held = logs_only_changes(needed, spans, suspected=all(map(is_from_network_tables, entries)))
     doubts = [doubt for scale in scales for doubt in scale.doubts]
     doubts += _doubt_sparse_signals(signals, spans, held=held, where=where)
     sampled = [
-        (_sample_held if held else _sample_interpolated)(signals, stretch) for stretch in stretches
+        (_sample_held if held else _sample_interpolated)(signals, interval)
+        for interval in intervals
     ]
     whole = [run for run in sampled if run.time.size >= ENOUGH]
-    doubts += _too_short(sampled, where)
+    doubts += _doubt_short_runs(sampled, where)
     doubts += _doubt_combined_motors(motors, whole, where)
     runs = []
     for run in whole:
         si = UNITS[scales[0].units].si
-        found, said = make_run(run.test, _columns(run), si=si, where=where)
+        found, warnings = make_run(run.test, _average_motors(run), si=si, where=where)
         runs.append(found)
-        doubts += said
+        doubts += warnings
     return CutRuns(tuple(runs), scales[0].units, tuple(doubts))
 
 
-def _scales(
+def _choose_scales(
     motors: Sequence[MotorEntries], *, options: ReadOptions, where: str
 ) -> list[EntryScale]:
-    """The scale of each motor, all into the unit of the first."""
+    """The scale of each motor, to the unit of the first.
+
+    Raises:
+        BadRequest: one motor is logged in an angle and another in a length.
+    """
     first = choose_scale(motors[0].signals, options=options, where=where)
     scales = [first]
     for motor in motors[1:]:
@@ -126,10 +131,10 @@ def _scales(
     return scales
 
 
-def _signals(
+def _scale_signals(
     motors: Sequence[MotorEntries], scales: Sequence[EntryScale]
 ) -> dict[str, list[Series]]:
-    """The series of each signal that all motors have, in the unit of the log."""
+    """The series of each signal that all motors have, in the unit of the log, for each motor."""
     shared = [name for name in NEEDED + OPTIONAL if all(name in motor.signals for motor in motors)]
     signals: dict[str, list[Series]] = {name: [] for name in shared}
     for motor, scale in zip(motors, scales, strict=True):
@@ -140,22 +145,22 @@ def _signals(
     return signals
 
 
-def _sample_held(signals: Signals, stretch: RunInterval) -> _Sampled:
-    """One run of a log that only holds changes."""
+def _sample_held(signals: Signals, interval: RunInterval) -> _Sampled:
+    """One run of a log in which only changes were logged: each value holds until the next."""
     needed = [series for name in NEEDED for series in signals[name]]
-    time = find_loop_times(needed, stretch.begin, stretch.end)
+    time = find_loop_times(needed, interval.begin, interval.end)
     known = {
         name: np.array([hold_last_value(one, time) for one in several])
         for name, several in signals.items()
         if time.size and all(one.time[0] <= time[0] for one in several)
     }
-    return _Sampled(stretch.test, time, known)
+    return _Sampled(interval.test, time, known)
 
 
-def _sample_interpolated(signals: Signals, stretch: RunInterval) -> _Sampled:
-    """One run at the times of the (first motor's) voltage, as SysId takes them."""
+def _sample_interpolated(signals: Signals, interval: RunInterval) -> _Sampled:
+    """One run at the times of the first motor's voltage, with the other signals interpolated."""
     parts = {
-        name: [one.between(stretch.begin, stretch.end) for one in several]
+        name: [one.between(interval.begin, interval.end) for one in several]
         for name, several in signals.items()
     }
     usable = {
@@ -165,24 +170,24 @@ def _sample_interpolated(signals: Signals, stretch: RunInterval) -> _Sampled:
     }
     every = parts["voltage"][0].time
     if not usable.keys() >= set(NEEDED):
-        return _Sampled(stretch.test, every[:0], {})
+        return _Sampled(interval.test, every[:0], {})
     time = select_covered_times([part for name in NEEDED for part in usable[name]], every)
     columns = {
         name: np.array([interpolate_linear(part, time) for part in several])
         for name, several in usable.items()
     }
-    return _Sampled(stretch.test, time, columns, every.size - time.size)
+    return _Sampled(interval.test, time, columns, every.size - time.size)
 
 
-def _columns(run: _Sampled) -> dict[str, Array]:
-    """The columns of a run as ``make_run`` takes them: seconds, and the mean of the motors."""
+def _average_motors(run: _Sampled) -> dict[str, Array]:
+    """The columns of a run for ``make_run``: time in seconds, and the mean of the motors."""
     columns = {"time": run.time / SECOND}
     for name, rows in run.signals.items():
         columns[name] = rows[0] if len(rows) == 1 else rows.mean(axis=0)
     return columns
 
 
-def _too_short(runs: Sequence[_Sampled], where: str) -> Iterator[Doubt]:
+def _doubt_short_runs(runs: Sequence[_Sampled], where: str) -> Iterator[Doubt]:
     for run in runs:
         if run.time.size < ENOUGH:
             yield Doubt(
@@ -201,7 +206,7 @@ def _too_short(runs: Sequence[_Sampled], where: str) -> Iterator[Doubt]:
 def _doubt_sparse_signals(
     signals: Signals, spans: Sequence[tuple[int, int]], *, held: bool, where: str
 ) -> Iterator[Doubt]:
-    """Doubts about signals that were not all logged every loop."""
+    """Doubts about signals that were not logged in every loop."""
     needed = [(name, series) for name in NEEDED for series in signals[name]]
     parts = [[series.between(*span) for span in spans] for _, series in needed]
     counts = {name: sum(map(len, row)) for (name, _), row in zip(needed, parts, strict=True)}
@@ -226,7 +231,7 @@ def _doubt_sparse_signals(
 def _doubt_combined_motors(
     motors: Sequence[MotorEntries], runs: Sequence[_Sampled], where: str
 ) -> Iterator[Doubt]:
-    """A doubt that several motors count as their mean.
+    """A doubt that says that the signals are the mean of several motors.
 
     Raises:
         BadRequest: two of them have voltages or velocities of opposite sign.

@@ -1,4 +1,4 @@
-"""The entry of a WPILOG file that says which test runs, and the stretches of time it names.
+"""The entry that names the running test, and the intervals of its tests.
 
 sysid-test-state-<mechanism> = quasistatic-forward | … | none
 """
@@ -15,9 +15,17 @@ from sim.io.entries.names import find_requested_entry, find_test_name, quote_nam
 from sim.io.format import ReadOptions
 
 WORD = "sysid-test-state"
-IDLE = ("none", "")  # what stands there while no test runs
-FILLERS = ("state", "k", "sysid", "sys", "id", "test", "routine")  # words beside a test's own
-FOREVER = 2**62  # [µs] the end of a run that the file does not see end
+IDLE = ("none", "")  # its values while no test runs
+FILLERS = (
+    "state",
+    "k",
+    "sysid",
+    "sys",
+    "id",
+    "test",
+    "routine",
+)  # words allowed in addition to a test's name
+FOREVER = 2**62  # [µs] end of a run whose end is not in the file
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,10 +33,10 @@ class StateEntry:
     """The entry that names the tests of one mechanism.
 
     Args:
-        mechanism: its name; empty if the entry is not named as SysId's are.
-        path: what its logger puts before a name; empty, ``NT:/``, …
+        mechanism: name of the mechanism; empty if the entry does not have SysId's name.
+        path: path that the logger puts before a name; empty, ``NT:/``, …
         entry: the entry itself.
-        intervals: when tests ran, where no entry says it but the name of the file.
+        intervals: intervals of tests, if only the name of the file names the test.
     """
 
     mechanism: str
@@ -39,11 +47,12 @@ class StateEntry:
 
 @dataclass(frozen=True)
 class RunInterval:
-    """The time of one run: begin <= t < end.
+    """The interval of one run: begin <= t < end.
 
     Args:
         test: one of ``sim.core.log.TESTS``.
-        begin, end: [µs].
+        begin: first time [µs].
+        end: time after the last [µs].
     """
 
     test: str
@@ -57,32 +66,32 @@ def find_state_entries(
     """The entries that name tests, one for each mechanism.
 
     Raises:
-        MissingSignal: there is none; the advice names an entry that might be meant.
-        BadRequest: one mechanism has several.
+        MissingSignal: there is no such entry, or it names no test.
+        BadRequest: one mechanism has several such entries.
     """
     if "state" in options.entries:
         entry = find_requested_entry(
             options.entries["state"], role="state", kinds=(STRING,), entries=entries, where=where
         )
         if not names_tests(entry):
-            raise _no_test([entry], where=where)
-        return (_of_sysid(entry) or StateEntry("", "", entry),)
+            raise _make_no_test_error([entry], where=where)
+        return (_as_sysid_entry(entry) or StateEntry("", "", entry),)
     texts = [entry for entry in entries if entry.type == STRING]
-    named = [state for state in map(_of_sysid, texts) if state is not None]
-    telling = [state for state in named if names_tests(state.entry)]
-    if named and not telling:
-        raise _no_test([state.entry for state in named], where=where)
+    named = [state for state in map(_as_sysid_entry, texts) if state is not None]
+    naming = [state for state in named if names_tests(state.entry)]
+    if named and not naming:
+        raise _make_no_test_error([state.entry for state in named], where=where)
     if not named:
         others = filter(names_tests, texts)
-        telling = [StateEntry(_mechanism_in(entry.name), "", entry) for entry in others]
-    if not telling:
-        raise _no_state(where=where)
-    mechanisms = dict.fromkeys(state.mechanism for state in telling)
-    return tuple(_only(telling, mechanism, where=where) for mechanism in mechanisms)
+        naming = [StateEntry(_guess_mechanism(entry.name), "", entry) for entry in others]
+    if not naming:
+        raise _make_no_state_error(where=where)
+    mechanisms = dict.fromkeys(state.mechanism for state in naming)
+    return tuple(_choose_entry(naming, mechanism, where=where) for mechanism in mechanisms)
 
 
-def _of_sysid(entry: Entry) -> StateEntry | None:
-    """An entry that is named as SysId names its own; None if it is not."""
+def _as_sysid_entry(entry: Entry) -> StateEntry | None:
+    """The state entry, if the entry has SysId's name; else None."""
     name = split_name(entry.name, WORD)
     return None if name is None else StateEntry(name.rest, name.path, entry)
 
@@ -90,14 +99,14 @@ def _of_sysid(entry: Entry) -> StateEntry | None:
 def find_run_intervals(
     state: StateEntry, *, where: str
 ) -> tuple[tuple[RunInterval, ...], tuple[Doubt, ...]]:
-    """The time of each run: from the first record of a test to the first that names another.
+    """The interval of each run: from the first value that names a test to the next other value.
 
     Returns:
-        The stretches in order, and a doubt if some states are not the name of a test.
+        The intervals in order, and a doubt if some values do not name a test.
     """
     if state.intervals:
         return state.intervals, ()
-    words = _states(state.entry)
+    words = _read_states(state.entry)
     times = state.entry.time.tolist()
     fresh = [i for i, word in enumerate(words) if i == 0 or word != words[i - 1]]
     ends = [times[i] for i in fresh[1:]] + [FOREVER]
@@ -118,24 +127,28 @@ def find_run_intervals(
 
 
 def names_tests(entry: Entry) -> bool:
-    """Whether an entry names a test at all."""
-    return any(state in TESTS for state in set(_states(entry)))
+    """Whether any value of an entry names a test."""
+    return any(state in TESTS for state in set(_read_states(entry)))
 
 
-def _states(entry: Entry) -> list[str]:
-    """The values of an entry, those that name a test in any spelling as the name of the test."""
+def _read_states(entry: Entry) -> list[str]:
+    """The values of an entry; a test in another spelling gets its own name."""
     texts = entry.texts()
     plain = {text: text.strip().lower() for text in set(texts)}
     names = {
-        text: said if said in TESTS else find_test_name(text, fillers=FILLERS) or said
-        for text, said in plain.items()
+        text: text_ if text_ in TESTS else find_test_name(text, fillers=FILLERS) or text_
+        for text, text_ in plain.items()
     }
     return [names[text] for text in texts]
 
 
-def _only(telling: Sequence[StateEntry], mechanism: str, *, where: str) -> StateEntry:
-    """The one state entry of a mechanism: a copy with a path before its name stands back."""
-    own = [state for state in telling if state.mechanism == mechanism]
+def _choose_entry(naming: Sequence[StateEntry], mechanism: str, *, where: str) -> StateEntry:
+    """The state entry of a mechanism; one without a path has priority.
+
+    Raises:
+        BadRequest: there are several.
+    """
+    own = [state for state in naming if state.mechanism == mechanism]
     plain = [state for state in own if not state.path]
     if len(own) == 1 or plain:
         return (plain or own)[0]
@@ -147,9 +160,9 @@ def _only(telling: Sequence[StateEntry], mechanism: str, *, where: str) -> State
     )
 
 
-def _no_test(entries: Sequence[Entry], *, where: str) -> MissingSignal:
-    said = list(dict.fromkeys(text for entry in entries for text in entry.texts()))
-    words = f"says only {quote_names(said)}" if said else "holds no values"
+def _make_no_test_error(entries: Sequence[Entry], *, where: str) -> MissingSignal:
+    text_ = list(dict.fromkeys(text for entry in entries for text in entry.texts()))
+    words = f"says only {quote_names(text_)}" if text_ else "holds no values"
     return MissingSignal(
         f"no test was recorded: {quote_names([entry.name for entry in entries])} {words}",
         where=where,
@@ -157,14 +170,14 @@ def _no_test(entries: Sequence[Entry], *, where: str) -> MissingSignal:
     )
 
 
-def _mechanism_in(name: str) -> str:
-    """What is left of the name of another logger's state entry: ``Elevator-SysID-State``."""
+def _guess_mechanism(name: str) -> str:
+    """The mechanism in the name of a state entry: ``Elevator`` in ``Elevator-SysID-State``."""
     last = re.split(r"[/:]", name)[-1]
     parts = re.split(r"[-_ ]+", re.sub(r"(?i)sys[-_ ]?id|routine|state|test", " ", last))
     return "-".join(filter(None, parts))
 
 
-def _no_state(*, where: str) -> MissingSignal:
+def _make_no_state_error(*, where: str) -> MissingSignal:
     return MissingSignal(
         f"no entry says which test runs: expected '{WORD}-<mechanism>' (string)",
         where=where,

@@ -1,4 +1,4 @@
-"""The unit of an entry, read from its metadata in the words of either language, or from its name.
+"""The unit of an entry, from its metadata as Java or Python writes it, or from its name.
 
     Java     Volt   Rotation   Rotation per Second   Meter   Meter per Second
     Python   volt   turn       turns_per_second      meter   meters_per_second
@@ -19,7 +19,7 @@ from sim.io.entries.entry import NEEDED, Entry
 from sim.io.entries.names import split_unit, split_words
 from sim.io.format import ReadOptions
 
-_WORDS = {  # unit of ours -> what others call it
+_WORDS = {  # our unit -> other names of it
     "meters": "meter meters metre metres m",
     "feet": "foot feet ft",
     "inches": "inch inches in",
@@ -35,7 +35,7 @@ LENGTHS = {word: (unit, 1.0) for unit, words in _WORDS.items() for word in words
     "millimeters": ("meters", 0.001),
     "mm": ("meters", 0.001),
 }
-RATES = {  # per what -> how many of it in a second
+RATES = {  # unit of time -> factor to convert "per unit of time" to "per second"
     **dict.fromkeys(("second", "seconds", "sec", "s"), 1.0),
     **dict.fromkeys(("minute", "minutes", "min"), 1.0 / 60.0),
     **dict.fromkeys(("millisecond", "milliseconds", "ms"), 1000.0),
@@ -46,10 +46,10 @@ VOLTAGES = {
     **dict.fromkeys(("millivolt", "millivolts", "mv"), 1e-3),
 }
 PHOENIX = {"position": "rotations", "velocity": "rotations per second"}
-"""Units of CTRE's Phoenix 6, which an export as CSV does not keep."""
+"""Units of CTRE's Phoenix 6, which are missing in an export as CSV."""
 _PHOENIX = re.compile(r"phoenix ?6|talonfxs?\b|cancoder", re.IGNORECASE)
 PIGEON = {"position": "degrees", "velocity": "degrees per second"}
-"""Units of CTRE's gyro, alone among the devices of Phoenix 6."""
+"""Units of CTRE's gyro, which differ from those of other Phoenix 6 devices."""
 _PIGEON = re.compile(r"pigeon", re.IGNORECASE)
 _RATE = re.compile(r"rotational[ _]?rate", re.IGNORECASE)
 SHORT = {"rpm": "rotation per minute", "rps": "rotation per second"}
@@ -57,11 +57,11 @@ SHORT = {"rpm": "rotation per minute", "rps": "rotation per second"}
 
 @dataclass(frozen=True)
 class StatedUnit:
-    """A unit as metadata states it.
+    """A unit stated in metadata, in our units.
 
     Args:
-        units: the one of ours it comes down to; for a velocity, that per second.
-        factor: how many of ours one of it is.
+        units: our unit; for a velocity, this unit per second.
+        factor: the stated unit in our unit.
     """
 
     units: str
@@ -73,9 +73,9 @@ class EntryScale:
     """Factors from the numbers of a motor's entries to the unit of its log.
 
     Args:
-        units: that unit, a name in ``sim.core.units.UNITS``.
-        factors: signal -> what its numbers are multiplied by.
-        doubts: what had to be assumed.
+        units: unit of the log, a name in ``sim.core.units.UNITS``.
+        factors: signal -> factor of its numbers.
+        doubts: warnings about assumed or converted units.
     """
 
     units: str
@@ -84,28 +84,28 @@ class EntryScale:
 
 
 def find_unit_in_metadata(metadata: str) -> str:
-    """The unit a piece of metadata names, as written; empty if it names none."""
+    """The unit in metadata, as written there; empty if there is none."""
     text = metadata.strip()
     if not text.startswith("{"):
         stated = re.search(r"\bunits?:\s*(.+?)\.?\s*$", text, re.IGNORECASE)
         return stated[1] if stated else text
     keyed = _parse_metadata(text)
-    properties = keyed.get("properties")  # of a topic of NetworkTables
+    properties = keyed.get("properties")  # properties of a NetworkTables topic
     keyed = {**properties, **keyed} if isinstance(properties, dict) else keyed
     found = next((keyed[key] for key in ("unit", "units") if key in keyed), "")
     return found.strip() if isinstance(found, str) else ""
 
 
 def is_from_network_tables(entry: Entry) -> bool:
-    """Whether an entry holds a topic of NetworkTables, as DataLogManager says in its metadata.
+    """Whether an entry is a topic of NetworkTables, by the metadata that DataLogManager writes.
 
-    A publisher sends a value again only if it was told to keep duplicates.
+    NetworkTables does not send a repeated value by default.
     """
     return _parse_metadata(entry.metadata.strip()).get("source") == "NT"
 
 
 def _parse_metadata(text: str) -> dict[str, object]:
-    """What metadata in JSON says; empty if it is none."""
+    """The content of metadata in JSON; empty if it is not a JSON object."""
     try:
         content = json.loads(text)
     except (ValueError, RecursionError):
@@ -114,7 +114,7 @@ def _parse_metadata(text: str) -> dict[str, object]:
 
 
 def parse_signal_unit(text: str, signal: str) -> StatedUnit | None:
-    """What the unit of a signal is; None if it is not understood."""
+    """Parse the unit of a signal; None if it is not known."""
     read = {
         "voltage": parse_voltage_unit,
         "position": parse_position_unit,
@@ -124,7 +124,7 @@ def parse_signal_unit(text: str, signal: str) -> StatedUnit | None:
 
 
 def find_unit_text(entry: Entry, signal: str) -> str:
-    """The unit that metadata states, or else the end of a name; empty if neither."""
+    """The unit in an entry's metadata, or else at the end of its name; empty if in neither."""
     text = find_unit_in_metadata(entry.metadata)
     if text:
         return text
@@ -140,19 +140,19 @@ def find_unit_text(entry: Entry, signal: str) -> str:
 
 
 def parse_voltage_unit(text: str) -> StatedUnit | None:
-    """What a voltage's unit is; None if it is not understood."""
+    """Parse the unit of a voltage; None if it is not known."""
     factor = VOLTAGES.get(text.lower())
     return StatedUnit(VOLTS, factor) if factor else None
 
 
 def parse_position_unit(text: str) -> StatedUnit | None:
-    """What a position's unit is; None if it is not understood."""
+    """Parse the unit of a position; None if it is not known."""
     found = LENGTHS.get(text.lower())
     return StatedUnit(*found) if found else None
 
 
 def parse_velocity_unit(text: str) -> StatedUnit | None:
-    """What a velocity's unit is; None if it is not understood."""
+    """Parse the unit of a velocity; None if it is not known."""
     plain = re.sub(r"[_\s]+", " ", text.lower().replace("/", " per "))
     length, _, per = SHORT.get(plain, plain).partition(" per ")
     found, rate = LENGTHS.get(length.strip()), RATES.get(per.strip())
@@ -160,12 +160,12 @@ def parse_velocity_unit(text: str) -> StatedUnit | None:
 
 
 def choose_scale(signals: Mapping[str, Entry], *, options: ReadOptions, where: str) -> EntryScale:
-    """In which unit a motor was logged: what a person says, else its metadata, else the default.
+    """The scale of a motor's entries: by the user's unit, else by their units, else the default.
 
     Raises:
-        BadRequest: its position is an angle and its velocity a length, or the other way round.
+        BadRequest: the position is an angle and the velocity a length, or the reverse.
     """
-    stands_in = signals["velocity"] is signals["position"]  # only its slope will be used
+    stands_in = signals["velocity"] is signals["position"]  # only its slope is used
     needed = [signal for signal in NEEDED if not (stands_in and signal == "velocity")]
     texts = {signal: find_unit_text(signals[signal], signal) for signal in needed}
     said = {signal: parse_signal_unit(text, signal) for signal, text in texts.items()}
@@ -210,7 +210,7 @@ def choose_scale(signals: Mapping[str, Entry], *, options: ReadOptions, where: s
 
 
 def _rate_doubt(name: str, where: str) -> Doubt:
-    """The doubt about a rate that stands where a voltage is expected, as CTRE's program logs it."""
+    """The doubt about a rate in place of the voltage, as CTRE's example program logs it."""
     return Doubt(
         "rate-as-voltage",
         f"{where}: {name!r} is not a voltage but the rate, in rad/s, that CTRE's rotation "
@@ -221,7 +221,7 @@ def _rate_doubt(name: str, where: str) -> Doubt:
 
 
 def _factor(said: StatedUnit | None, units: str, *, ordered: bool) -> float:
-    """What numbers are multiplied by to be in ``units``; a person's word outweighs the file's."""
+    """The factor to ``units``; a unit that the user chose (``ordered``) replaces the file's."""
     if said is None or said.units == units:
         return said.factor if said else 1.0
     return 1.0 if ordered else said.factor * (UNITS[said.units].si / UNITS[units].si)
@@ -230,7 +230,7 @@ def _factor(said: StatedUnit | None, units: str, *, ordered: bool) -> float:
 def _problem(
     text: str, said: StatedUnit | None, units: str, *, ordered: bool
 ) -> tuple[str, str] | None:
-    """What is odd about a unit, with its code; None if nothing is."""
+    """Code and text of the doubt about a unit; None if there is none."""
     if said is None and text:
         return "unknown-unit", f"is {text!r}, which is not understood; it was taken as {units}."
     if said is None and units != VOLTS and not ordered:
@@ -240,7 +240,7 @@ def _problem(
     if said is None or (said.units == units and said.factor == 1.0):
         return None
     if said.units != units and ordered and units != VOLTS:
-        return None  # said once, of all signals
+        return None  # there is one doubt for all signals
     return "converted-units", (
         f"is {text!r} and was converted to {units}. SysId itself does not convert: there, log all "
         "signals in one unit, and velocities per second."

@@ -1,11 +1,11 @@
-"""REVLOG: what REV's StatusLogger writes, the periodic CAN frames of SPARK motor controllers.
+"""REVLOG: the format of REV's StatusLogger, with periodic CAN frames of SPARK motor controllers.
 
-A file is a row of records: a byte with the lengths of the next two numbers, the record's kind, the
-length of its payload, the payload. A payload of periodic frames has 16 bytes for each: time [ms],
-CAN id, data. Sources: github.com/REVrobotics/node-revlog-converter (records) and
+A file is a sequence of records: a byte with the lengths of the next two numbers, the kind of the
+record, the length of its payload, the payload. A periodic frame has 16 bytes: time [ms], CAN id,
+data. Sources: github.com/REVrobotics/node-revlog-converter (records) and
 github.com/REVrobotics/can-specs (frames ``STATUS_0`` and ``STATUS_2``, version 2.0.2).
 
-The format names no tests, so a file is one test, and its name says which.
+The format does not name tests, so a file is one test, named by the file name.
 """
 
 from collections.abc import Iterator
@@ -35,14 +35,14 @@ LOW_12 = np.uint64(0xFFF)
 
 
 class _Frames(NamedTuple):
-    """The periodic frames of a file, and what is left behind the last whole record [bytes]."""
+    """The periodic frames of a file, and the number of bytes after the last whole record."""
 
     frames: NDArray[np.void]
     unread: int
 
 
 def recognizes(head: bytes) -> bool:
-    """Whether a file starts with a record whose first frame is of a device of REV's."""
+    """Whether a file starts with a record of a REV device."""
     try:
         kind, payload, _ = next(_follow_records(head, whole=False))
     except StopIteration:
@@ -58,20 +58,21 @@ def entries(path: Path) -> list[ValuesEntry]:
     """The signals of all SPARKs of a file.
 
     Raises:
-        UnreadableFile: it holds no periodic frame.
+        UnreadableFile: the file holds no periodic frame.
     """
     return _make_entries(_load(path).frames, default_units=True)
 
 
 def read(path: Path, options: ReadOptions) -> Log:
-    """Read the one test that a file holds; its name says which.
+    """Read the test of a file; the file name names the test.
 
     Args:
         path: the file.
         options: the user's choices: units, motor, and the names of entries.
 
     Raises:
-        Refusal: it holds no periodic frame, or its name no test; as ``assemble_log`` otherwise.
+        Refusal: the file holds no periodic frame, or its name names no test; or as
+            ``assemble_log``.
     """
     found = _load(path)
     made = _make_entries(found.frames, default_units=options.units is None)
@@ -80,7 +81,7 @@ def read(path: Path, options: ReadOptions) -> Log:
 
 
 def read_motors(path: Path, options: ReadOptions) -> dict[str, Log]:
-    """Read the one test that a file holds, a log for each motor.
+    """Read the test of a file as a log for each motor.
 
     Args:
         path: the file.
@@ -98,7 +99,7 @@ def read_motors(path: Path, options: ReadOptions) -> dict[str, Log]:
 def _follow_records(content: bytes, *, whole: bool = True) -> Iterator[tuple[int, bytes, int]]:
     """Kind, payload and end of each record; without ``whole`` the last payload may be cut off."""
     at = 0
-    while at < len(content) and content[at] < 16:  # the upper four bits have no meaning yet  # noqa: PLR2004 - 2**4
+    while at < len(content) and content[at] < 16:  # the upper four bits are unused  # noqa: PLR2004 - 2**4
         lengths = (content[at] & 3) + 1, (content[at] >> 2 & 3) + 1
         begin = at + 1 + sum(lengths)
         if begin > len(content):
@@ -115,7 +116,7 @@ def _load(path: Path) -> _Frames:
     """The periodic frames of a file.
 
     Raises:
-        UnreadableFile: there are none.
+        UnreadableFile: there are no periodic frames.
     """
     content = path.read_bytes()
     pieces, end = [], 0
@@ -138,8 +139,8 @@ def _make_entries(frames: NDArray[np.void], *, default_units: bool) -> list[Valu
     """Voltage, current, position and velocity of each SPARK.
 
     Args:
-        frames: of all devices.
-        default_units: whether they are in rotations and RPM, as without conversion factors.
+        frames: the frames of all devices.
+        default_units: whether they are in rotations and RPM, without conversion factors.
     """
     number = frames["id"]
     ours = (number >> 16 & 0xFF == REV) & (number >> 24 & 0x1F == SPARK)
@@ -177,7 +178,7 @@ def _decode(
 
 
 def _doubts(found: _Frames, options: ReadOptions, path: Path) -> Iterator[Doubt]:
-    """What the format leaves open, and what was not read."""
+    """Doubts about assumed units, and about bytes that were not read."""
     if options.units is None:
         yield Doubt(
             "conversion-factor",

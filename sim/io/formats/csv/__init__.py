@@ -1,10 +1,9 @@
-"""CSV: one row a sample, under the header ``test,time_s,voltage,position,velocity``.
+"""CSV: one row per sample, with the header ``test,time_s,voltage,position,velocity``.
 
-The columns may stand in any order; ``run``, ``current`` and ``bus_voltage`` may join them. Without
-``run``, a new run begins where the test changes or time goes back. Positions and velocities are in
-the unit of whoever owns the file, which the file does not say. What a European spreadsheet makes
-of such a file (``;`` between the cells, decimal commas) reads the same. What DataLogTool and
-AdvantageScope export as CSV is read too (``entries``).
+The columns may be in any order; ``run``, ``current`` and ``bus_voltage`` are optional. Without
+``run``, a new run begins where the test changes or time goes back. The file does not state the unit
+of its positions and velocities. Files from European spreadsheets (``;`` between the cells, decimal
+commas) are read, too, and so are exports of DataLogTool and AdvantageScope (``entries``).
 """
 
 from collections.abc import Iterator
@@ -23,11 +22,11 @@ from sim.io.formats.csv.entries import is_export, read_entries
 from sim.io.formats.csv.table import EXTRA, KNOWN, NEEDED, CsvTable, open_table, read_header
 
 SUFFIXES = (".csv",)
-ENOUGH = 3  # [columns of ours in the first line] more than chance puts there
+ENOUGH = 3  # [columns] of ours in the header that identify the format
 
 
 def recognizes(head: bytes) -> bool:
-    """Whether the first line names enough of our columns, or is that of a log viewer's export."""
+    """Whether the first line has enough of our columns, or is that of a log viewer's export."""
     text = head.decode("utf-8-sig", errors="replace")
     names = read_header(text)
     return is_export(names) or len(set(names) & set(KNOWN)) >= ENOUGH
@@ -37,10 +36,11 @@ def entries(path: Path) -> list[Entry]:
     """All entries of a log viewer's export.
 
     Raises:
-        UnreadableFile: not UTF-8, a row of another length, or no rows.
-        BadRequest: it is the course's own table of signals.
+        UnreadableFile: not UTF-8, rows of unequal length, or no rows.
+        BadSample: a time is not a number.
+        BadRequest: the file is a table of signals, not an export.
     """
-    if not _exported(path):
+    if not _is_export_file(path):
         raise BadRequest(
             f"its columns are signals: {', '.join(NEEDED)}",
             advice="Read it with `sysid fit` or `sysid inspect`.",
@@ -48,8 +48,8 @@ def entries(path: Path) -> list[Entry]:
     return read_entries(path)
 
 
-def _exported(path: Path) -> bool:
-    """Whether a log viewer exported it."""
+def _is_export_file(path: Path) -> bool:
+    """Whether a log viewer exported the file."""
     with path.open(encoding="utf-8-sig", errors="replace") as stream:
         return is_export(read_header(stream.read(HEAD)))
 
@@ -65,8 +65,9 @@ def read(path: Path, options: ReadOptions) -> Log:
         UnreadableFile: not UTF-8, no rows, rows of unequal length, or an unknown test.
         MissingSignal: a column is missing.
         BadSample: a cell is not a finite number; the message names line and column.
+        BadRequest: a signal is unknown, or a mechanism was picked that the file does not have.
     """
-    if _exported(path):
+    if _is_export_file(path):
         log, _ = assemble_log(read_entries(path), options=options, where=str(path))
         return log
     refuse_pick(options.pick, where=str(path))
@@ -82,12 +83,12 @@ def read(path: Path, options: ReadOptions) -> Log:
         mine = {
             name: values[rows]
             for name, values in signals.items()
-            if name not in EXTRA or _present(table, name, values[rows], rows)
+            if name not in EXTRA or _has_signal(table, name, values[rows], rows)
         }
         where = f"{table.where}, run {number}"
-        run, said = make_run(tests[codes[rows[0]]], mine, si=si, where=where)
+        run, warnings = make_run(tests[codes[rows[0]]], mine, si=si, where=where)
         runs.append(run)
-        doubts.extend(said)
+        doubts.extend(warnings)
     return Log(
         tuple(runs),
         units=options.units_or_default,
@@ -98,27 +99,27 @@ def read(path: Path, options: ReadOptions) -> Log:
 
 
 def read_motors(path: Path, options: ReadOptions) -> dict[str, Log]:
-    """Read a CSV log, a log for each motor that a log viewer's export holds.
+    """Read a CSV log as a log for each motor; only a log viewer's export can have several.
 
     Raises:
         Refusal: as ``read``.
     """
-    if not _exported(path):
+    if not _is_export_file(path):
         return {"": read(path, options)}
     return assemble_motor_logs(read_entries(path), options=options, where=str(path))[0]
 
 
 def write(log: Log, path: Path) -> None:
-    """Write a log, every number in the shortest form that reads back as the same bits.
+    """Write a log, with every number in the shortest form that reads back the same.
 
-    The column ``run`` is there when a test occurs twice; else the tests tell the runs apart.
+    The column ``run`` is written only if a test occurs twice.
 
     Args:
-        log: what to write; positions go out in its ``units``.
+        log: the log to write; positions are written in its ``units``.
         path: the file.
 
     Raises:
-        BadRequest: a run without samples, or no runs: a row of CSV is a sample.
+        BadRequest: the log has no runs, or a run without samples.
     """
     if not log.runs or not all(len(run) for run in log.runs):
         raise BadRequest(
@@ -137,15 +138,19 @@ def write(log: Log, path: Path) -> None:
 
 
 def _rows(run: Run, *, extra: list[str], si: float) -> Iterator[str]:
-    """The numbers of a run, a row at a time."""
+    """The numbers of a run as text, row by row."""
     signals: list[Array | None] = [run.time, run.voltage, run.position / si, run.velocity / si]
     signals += [getattr(run, name) for name in extra]
     cells = [[""] * len(run) if one is None else map(repr, one.tolist()) for one in signals]
     return map(",".join, zip(*cells, strict=True))
 
 
-def _present(table: CsvTable, name: str, values: Array, rows: NDArray[np.intp]) -> bool:
-    """Whether a run has a signal at all; one that comes and goes within a run is refused."""
+def _has_signal(table: CsvTable, name: str, values: Array, rows: NDArray[np.intp]) -> bool:
+    """Whether a run has a signal.
+
+    Raises:
+        BadSample: only a part of the run has it.
+    """
     empty = np.isnan(values)
     if empty.any() and not empty.all():
         raise BadSample(
@@ -157,7 +162,11 @@ def _present(table: CsvTable, name: str, values: Array, rows: NDArray[np.intp]) 
 
 
 def _split(table: CsvTable, codes: NDArray[np.intp], time: Array) -> Iterator[NDArray[np.intp]]:
-    """The rows of each run, in the order the runs begin."""
+    """The row indices of each run, in the order in which the runs begin.
+
+    Raises:
+        UnreadableFile: within a run, the test changes or time goes back.
+    """
     if "run" not in table.cells:
         fresh = (np.diff(codes) != 0) | (np.diff(time) < 0)
         yield from np.split(np.arange(time.size), np.flatnonzero(fresh) + 1)

@@ -1,7 +1,7 @@
-"""Entries of a CSV that a log viewer exported: DataLogTool or AdvantageScope, in either layout.
+"""Entries of a CSV export of DataLogTool or AdvantageScope, in either layout.
 
 Timestamp,Name,Value        a list: a row for each value (AdvantageScope calls it Key)
-Timestamp,<entry>,…         a table: a column for each entry, its cell empty where nothing came
+Timestamp,<entry>,…         a table: a column for each entry, with empty cells without a value
 """
 
 from collections.abc import Iterable, Iterator, Sequence
@@ -15,7 +15,7 @@ from sim.io.formats.csv.table import split_rows
 
 TIME = "timestamp"
 LISTED = ({"name", "value"}, {"key", "value"})  # the other columns of a list
-EMPTY = ("", "null")  # cells in which nothing came
+EMPTY = ("", "null")  # cells without a value
 SECOND = 1e6  # [µs]
 
 _Sample = tuple[float, str]  # time [µs] and cell
@@ -33,8 +33,8 @@ def read_entries(path: Path) -> list[Entry]:
         path: the file.
 
     Raises:
-        UnreadableFile: not UTF-8, a row of another length, or no rows.
-        BadSample: a time that is no number.
+        UnreadableFile: not UTF-8, rows of unequal length, or no rows.
+        BadSample: a time is not a number.
     """
     where = str(path)
     _, rows = split_rows(path)
@@ -49,7 +49,7 @@ def read_entries(path: Path) -> list[Entry]:
                 where=f"{where}, line {line}",
                 advice="Complete the line, or export the log again.",
             )
-        time = _seconds(row[0], where=f"{where}, line {line}") * SECOND
+        time = _parse_time(row[0], where=f"{where}, line {line}") * SECOND
         for name, cell in [(row[1], row[2])] if listed else zip(titles[1:], row[1:], strict=True):
             if cell.strip() not in EMPTY:
                 found.setdefault(name, []).append((time, cell.strip()))
@@ -57,10 +57,10 @@ def read_entries(path: Path) -> list[Entry]:
         raise UnreadableFile(
             "there are no rows below the header", where=where, advice="Record a test first."
         )
-    return list(_entries(found.items()))
+    return list(_make_entries(found.items()))
 
 
-def _seconds(cell: str, *, where: str) -> float:
+def _parse_time(cell: str, *, where: str) -> float:
     try:
         time = float(cell)
     except ValueError:
@@ -74,8 +74,8 @@ def _seconds(cell: str, *, where: str) -> float:
     return time
 
 
-def _entries(found: Iterable[tuple[str, list[_Sample]]]) -> Iterator[Entry]:
-    """Entries of numbers where every cell is one, of texts where none is; others are left out."""
+def _make_entries(found: Iterable[tuple[str, list[_Sample]]]) -> Iterator[Entry]:
+    """Entries of numbers if every cell is a number, else of texts."""
     for name, samples in found:
         samples.sort(key=lambda sample: sample[0])
         time = np.array([sample[0] for sample in samples]).round().astype(np.int64)

@@ -1,4 +1,4 @@
-"""A CSV file taken apart: cells by column, each with its line, so that an error can name it."""
+"""The cells of a CSV file by column, with their line numbers for error messages."""
 
 import csv
 import io
@@ -16,13 +16,13 @@ from sim.core.log import LARGEST, Array
 from sim.core.vocabulary import DIRECTIONS, KINDS, TESTS
 
 NEEDED = ("test", "time_s", "voltage", "position", "velocity")
-EXTRA = ("current", "bus_voltage")  # written where a run has them; empty cells where it has not
+EXTRA = ("current", "bus_voltage")  # optional; empty in runs without them
 KNOWN = ("run", *NEEDED, *EXTRA)
-WORDS = ("run", "test")  # the columns that hold words; the others hold numbers
+WORDS = ("run", "test")  # columns of texts; the others hold numbers
 
-_ENTRY = {"state": "test"}  # a signal's name where it differs from our column's
+_ENTRY = {"state": "test"}  # name of a signal -> its column, if they differ
 
-# What the tools before 2024, and people, call the kinds and directions of tests.
+# Other names of the kinds and directions of tests, as in tools before 2024.
 _SAME = {
     "slow": "quasistatic",
     "fast": "dynamic",
@@ -38,10 +38,10 @@ class CsvTable:
 
     Args:
         where: the file.
-        cells: our name of a column -> its cells, one for every row.
-        lines: the line on which each row ends, from 1.
+        cells: name of a column -> its cells, one for every row.
+        lines: number of the line on which each row ends, from 1.
         decimal_comma: whether the decimal sign is a comma.
-        doubts: what was odd about the header.
+        doubts: warnings about the header.
     """
 
     where: str
@@ -55,10 +55,10 @@ class CsvTable:
         return f"{self.where}, line {self.lines[row]}"
 
     def group_by_test(self) -> tuple[list[str], NDArray[np.intp]]:
-        """The tests that occur, and (rows,) which of them each row belongs to.
+        """The tests in the file, and for each row the index of its test (rows,).
 
         Raises:
-            UnreadableFile: a cell names no test; the message lists those there are.
+            UnreadableFile: a cell does not name a test; the message lists the tests.
         """
         found: list[str] = []
         code_of: dict[str, int] = {}
@@ -78,34 +78,35 @@ class CsvTable:
         return found, np.array([code_of[cell] for cell in self.cells["test"]], dtype=np.intp)
 
     def parse_column(self, name: str, *, gaps: bool = False) -> Array:
-        """One column as (rows,) numbers, all finite; with ``gaps``, an empty cell becomes nan.
+        """The finite numbers of a column (rows,); with ``gaps``, an empty cell becomes nan.
 
         Raises:
-            BadSample: a cell that is not a finite number; the message names its line.
+            BadSample: a cell is not a finite number; the message names its line.
         """
         cells = self._plain(name, gaps=gaps)
         try:
             values = np.array([float(cell) for cell in cells])
         except ValueError:
             values = np.full(len(cells), np.nan)
-            odd = np.array([not _numeric(cell) for cell in cells])
+            odd = np.array([not _is_number(cell) for cell in cells])
         else:
             odd = ~(np.abs(values) < LARGEST)
-            if "_" in "".join(cells):  # 1_000 is a number to Python only
+            if "_" in "".join(cells):  # only Python accepts 1_000 as a number
                 odd |= ["_" in cell for cell in cells]
         if gaps:
             odd &= [cell != "" and not cell.isspace() for cell in self.cells[name]]
         if odd.any():
             row = int(np.argmax(odd))
+            cell, numeric = self.cells[name][row].strip(), _is_number(cells[row])
             raise BadSample(
-                f"{name} {_trouble(self.cells[name][row].strip(), numeric=_numeric(cells[row]))}",
+                f"{name} {_describe_cell(cell, numeric=numeric)}",
                 where=self.describe_row(row),
                 advice="Write a number there, or remove the line.",
             )
         return values
 
     def _plain(self, name: str, *, gaps: bool) -> Sequence[str]:
-        """The cells of a column as Python writes numbers, where they hold any."""
+        """The cells of a column with decimal points; with ``gaps``, ``nan`` for empty cells."""
         cells: Sequence[str] = self.cells[name]
         if self.decimal_comma:
             cells = [cell.replace(",", ".") for cell in cells]
@@ -116,30 +117,31 @@ def split_rows(path: Path) -> tuple[str, Iterator[tuple[int, list[str]]]]:
     """The separator, and the line number and cells of each row that is not blank.
 
     Raises:
-        UnreadableFile: not UTF-8, or a quotation mark without its partner.
+        UnreadableFile: not UTF-8, or an unmatched quotation mark.
     """
-    text = _text(path)
-    delimiter = _delimiter(text)
+    text = _read_text(path)
+    delimiter = _detect_delimiter(text)
     return delimiter, _rows(text, delimiter=delimiter, where=str(path))
 
 
 def read_header(text: str) -> list[str]:
-    """The names in the first line that is not blank."""
+    """The lower-case names in the first line that is not blank."""
     first = re.split(r"[\r\n]", text.lstrip(), maxsplit=1)[0]
     return [cell.strip(' "').lower() for cell in re.split(r"[,;\t]", first)]
 
 
 def open_table(path: Path, *, entries: Mapping[str, str]) -> CsvTable:
-    """Read a CSV file into cells.
+    """Read the cells of a CSV file.
 
     Args:
         path: the file.
-        entries: signal -> the name of its column in this file, where it is not ours.
+        entries: signal -> name of its column in this file, if it is not ours.
 
     Raises:
-        UnreadableFile: not UTF-8, no rows, or rows of unequal length.
+        UnreadableFile: not UTF-8, no rows, rows of unequal length, two columns of one name, or
+            decimal commas and points.
         MissingSignal: a column is missing.
-        BadRequest: ``entries`` names a signal that is none.
+        BadRequest: ``entries`` names an unknown signal.
     """
     where = str(path)
     header: list[str] = []
@@ -156,7 +158,7 @@ def open_table(path: Path, *, entries: Mapping[str, str]) -> CsvTable:
                 where=f"{where}, line {line}",
                 advice="Complete the line, or remove it.",
             )
-    place, doubts = _columns(header, entries=entries, where=where)
+    place, doubts = _find_columns(header, entries=entries, where=where)
     if not rows:
         raise UnreadableFile(
             "there are no rows below the header", where=where, advice="Record a test first."
@@ -164,12 +166,16 @@ def open_table(path: Path, *, entries: Mapping[str, str]) -> CsvTable:
     columns = list(zip(*(row for _, row in rows), strict=True))
     cells = {name: columns[index] for name, index in place.items()}
     lines = [line for line, _ in rows]
-    comma = delimiter != "," and _comma(cells, where=where)
+    comma = delimiter != "," and _uses_decimal_comma(cells, where=where)
     return CsvTable(where, cells, lines, comma, doubts)
 
 
-def _text(path: Path) -> str:
-    """The file's text, its line ends made equal."""
+def _read_text(path: Path) -> str:
+    """The text of a file, with LF as line endings.
+
+    Raises:
+        UnreadableFile: it is not UTF-8.
+    """
     try:
         text = path.read_bytes().decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -181,13 +187,13 @@ def _text(path: Path) -> str:
     return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
-def _delimiter(text: str) -> str:
-    """What stands between the cells: no name holds one of these signs, so the header tells."""
+def _detect_delimiter(text: str) -> str:
+    """The separator of the cells: the most frequent candidate in the header."""
     return max(",;\t", key=text.lstrip().partition("\n")[0].count)
 
 
 def _rows(text: str, *, delimiter: str, where: str) -> Iterator[tuple[int, list[str]]]:
-    """The line and the cells of each row that is not blank."""
+    """The line number and the cells of each row that is not blank."""
     reader = csv.reader(io.StringIO(text), delimiter=delimiter, strict=True)
     try:
         for row in reader:
@@ -201,10 +207,10 @@ def _rows(text: str, *, delimiter: str, where: str) -> Iterator[tuple[int, list[
         ) from None
 
 
-def _columns(
+def _find_columns(
     header: list[str], *, entries: Mapping[str, str], where: str
 ) -> tuple[dict[str, int], tuple[Doubt, ...]]:
-    """Our name of each column -> its place, and a doubt about columns nobody knows."""
+    """Our name of each column -> its index, and a doubt about unknown columns."""
     named = {_ENTRY.get(name, name): title.strip().lower() for name, title in entries.items()}
     for name in named:
         if name not in KNOWN:
@@ -235,8 +241,12 @@ def _columns(
     return place, (doubt,) if ignored else ()
 
 
-def _comma(cells: Mapping[str, tuple[str, ...]], *, where: str) -> bool:
-    """Whether the decimal sign is a comma; a file that has points as well is refused."""
+def _uses_decimal_comma(cells: Mapping[str, tuple[str, ...]], *, where: str) -> bool:
+    """Whether the decimal sign is a comma.
+
+    Raises:
+        UnreadableFile: there are both commas and points.
+    """
     signs = {
         sign
         for name, column in cells.items()
@@ -253,8 +263,8 @@ def _comma(cells: Mapping[str, tuple[str, ...]], *, where: str) -> bool:
     return "," in signs
 
 
-def _numeric(cell: str) -> bool:
-    """Whether the cell is written as a number, finite or not."""
+def _is_number(cell: str) -> bool:
+    """Whether the cell is a number, finite or not."""
     try:
         float(cell)
     except ValueError:
@@ -262,8 +272,8 @@ def _numeric(cell: str) -> bool:
     return "_" not in cell
 
 
-def _trouble(cell: str, *, numeric: bool) -> str:
-    """What is wrong with a cell that should hold a number."""
+def _describe_cell(cell: str, *, numeric: bool) -> str:
+    """The error of a cell that should hold a number, for a message."""
     if not cell:
         return "is empty"
     return f"is {cell[:40]}" if numeric else f"is {cell[:40]!r}, not a number"

@@ -1,10 +1,9 @@
 """JSON of the tools of 2019 to 2023 (robotpy-characterization, frc-characterization, SysId).
 
 An object with a list of rows under each of ``slow-forward slow-backward fast-forward
-fast-backward``, and beside them ``test`` (the kind of mechanism), ``units`` and
-``unitsPerRotation``, by which positions and velocities are multiplied. Files of 2019 and 2020 have
-none of the three. A drivetrain logs two sides; unless one is asked for, they are made one. The
-format is only read: its tools are gone.
+fast-backward``, and with ``test`` (the kind of mechanism), ``units`` and ``unitsPerRotation``, the
+factor of positions and velocities. Files of 2019 and 2020 have none of these three. A drivetrain
+logs two sides, which are averaged unless one is chosen. The format is only read, not written.
 """
 
 import re
@@ -32,7 +31,7 @@ _KEY = re.compile(rb'"(slow-forward|slow-backward|fast-forward|fast-backward|tra
 
 
 def recognizes(head: bytes) -> bool:
-    """Whether it starts as a JSON object and soon names one of the tools' keys."""
+    """Whether a file starts as a JSON object with one of the tools' keys near its beginning."""
     return head.removeprefix(b"\xef\xbb\xbf").lstrip().startswith(b"{") and bool(_KEY.search(head))
 
 
@@ -44,19 +43,19 @@ def read(path: Path, options: ReadOptions) -> Log:
         options: the user's choices: units, type, and which side of a drivetrain (``motor``).
 
     Raises:
-        UnreadableFile: damaged JSON, rows of a width no tool wrote, or no run at all.
+        UnreadableFile: damaged JSON, rows of an unknown width, or no run.
         MissingSignal: one side of a drivetrain does not move while the other does.
         BadSample: a number that cannot be a measurement.
-        BadRequest: a side that is none, or names of entries, which rows do not have.
+        BadRequest: an unknown side, or names of entries, which this format does not have.
     """
     return _Document.load(path, options).log(options.motor)
 
 
 def read_motors(path: Path, options: ReadOptions) -> dict[str, Log]:
-    """Read a log, a log for each side of a drivetrain.
+    """Read a file as a log for each side of a drivetrain.
 
     Raises:
-        Refusal: as ``read``, but for a side that does not move: its log says so when it is fitted.
+        Refusal: as ``read``, except that a side may stand still; it is refused when it is fitted.
     """
     document = _Document.load(path, options)
     if len(document.form.sides) == 1 or options.motor:
@@ -66,25 +65,29 @@ def read_motors(path: Path, options: ReadOptions) -> dict[str, Log]:
 
 @dataclass(frozen=True, eq=False)
 class _Document:
-    """A file taken apart.
+    """The parsed content of a file.
 
     Args:
         where: the file.
-        said: what it says about itself.
-        tables: test -> its rows.
-        form: what the columns hold.
-        doubts: what was odd.
+        header: its header.
+        tables: test -> (n, columns) its rows.
+        form: the meaning of the columns.
+        doubts: warnings about the file.
     """
 
     where: str
-    said: FileHeader
+    header: FileHeader
     tables: dict[str, Array]
     form: RowForm
     doubts: tuple[Doubt, ...]
 
     @classmethod
     def load(cls, path: Path, options: ReadOptions) -> "_Document":
-        """Read a file."""
+        """Read a file.
+
+        Raises:
+            Refusal: as ``read``.
+        """
         where = str(path)
         if options.entries:
             raise BadRequest(
@@ -94,38 +97,39 @@ class _Document:
             )
         refuse_pick(options.pick, where=where)
         document = load_json(path)
-        said = read_header(document, options, where=where)
+        header = read_header(document, options, where=where)
         tables, doubts = parse_tables(document, where=where)
-        form = detect_form(tables, said, where=where)
+        form = detect_form(tables, header, where=where)
         check_columns(tables, form, where=where)
-        return cls(where, said, tables, form, (*said.doubts, *doubts))
+        return cls(where, header, tables, form, (*header.doubts, *doubts))
 
     def log(self, motor: str | None) -> Log:
-        """The log of one side, or of both made one."""
-        said, form = self.said, self.form
-        sides, odd = _sides(self.tables, form, said, motor, where=self.where)
+        """The log of one side, or of the mean of both."""
+        header, form = self.header, self.form
+        sides, odd = _read_sides(self.tables, form, header, motor, where=self.where)
         runs = []
         doubts = [*self.doubts, *odd]
         for test in sorted(self.tables, key=lambda test: float(self.tables[test][0, 0])):
             table = self.tables[test]
-            signals = sides[test].signals(time=table[:, 0], scale=said.per_rotation)
+            signals = sides[test].signals(time=table[:, 0], scale=header.per_rotation)
             if form.battery is not None:
                 signals["bus_voltage"] = table[:, form.battery]
-            run, repeated = make_run(test, signals, si=find_unit(said.units).si, where=self.where)
+            run, repeated = make_run(test, signals, si=find_unit(header.units).si, where=self.where)
             runs.append(run)
             doubts.extend(repeated)
         return Log(
             tuple(runs),
-            units=said.units,
-            mechanism=said.mechanism,
-            type=said.type or ("simple" if len(form.sides) > 1 else ""),  # two sides: a drivetrain
+            units=header.units,
+            mechanism=header.mechanism,
+            type=header.type
+            or ("simple" if len(form.sides) > 1 else ""),  # two sides: a drivetrain
             source=self.where,
             doubts=tuple(doubts),
         )
 
 
-def _sides(
-    tables: dict[str, Array], form: RowForm, said: FileHeader, motor: str | None, *, where: str
+def _read_sides(
+    tables: dict[str, Array], form: RowForm, header: FileHeader, motor: str | None, *, where: str
 ) -> tuple[dict[str, Side], list[Doubt]]:
     """One side for every test: the only one, the chosen one, or the mean of both."""
     found = [
@@ -135,4 +139,4 @@ def _sides(
     if len(found) == 1:
         sides, doubts = read_one_side(found[0], where=where)
         return sides, [*doubts, *warn_of_motor_choice(motor, where=where)]
-    return read_drivetrain(found, motor=motor or "combined", angular=said.angular, where=where)
+    return read_drivetrain(found, motor=motor or "combined", angular=header.angular, where=where)

@@ -1,10 +1,10 @@
-"""A drivetrain before 2024: its two sides made one, or one of them chosen.
+"""A drivetrain in a file before 2024: the mean of its two sides, or one of them.
 
 For "combined" gains SysId stacked the rows of both sides in one regression. Here the sides are
 averaged into one run, because they are not two experiments: the chassis couples them, so a push
 on the right speeds up the left, and only the mean of the voltages and the mean of the velocities
-obey one equation. It halves the noise as well, and leaves one run per test, so that nothing later
-takes two views of the same seconds for two recordings. Each side alone can still be asked for.
+obey one equation. It also reduces the noise, and gives one run per test, so that one test does
+not count as two recordings. Each side alone can still be chosen.
 
 A drivetrain that turned on the spot (``Drivetrain (Angular)``) is the same with the left side's
 signs reversed: what remains is half of right minus left, the speed of the wheels while turning,
@@ -19,8 +19,10 @@ from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, MissingSignal
 from sim.io.formats.sysid_json.side import Side, align_signs, find_test_sign, make_doubt
 
-STILL = 0.02  # [share of the other side's largest velocity] an encoder that counts nothing
-APART = 0.2  # [share of the mean velocity, RMS] two sides of one chassis do not differ so much
+STILL = 0.02  # [share of the other side's largest velocity] below it, an encoder stands still
+APART = (
+    0.2  # [share of the RMS of the mean velocity] a larger RMS difference of the sides is doubted
+)
 SIDES = ("left", "right")
 MOTORS = (*SIDES, "combined")
 
@@ -28,17 +30,17 @@ MOTORS = (*SIDES, "combined")
 def read_drivetrain(
     sides: Sequence[Mapping[str, Side]], *, motor: str, angular: bool, where: str
 ) -> tuple[dict[str, Side], list[Doubt]]:
-    """The runs of a drivetrain as those of one side, or of both made one.
+    """The runs of one side of a drivetrain, or of the mean of both, with doubts.
 
     Args:
-        sides: left and right, each test -> what it logged.
+        sides: left and right; each test -> columns of the side.
         motor: ``left``, ``right`` or ``combined``.
         angular: whether it turned on the spot: left runs backward while right runs forward.
         where: the file, for messages.
 
     Raises:
         BadRequest: there is no such motor.
-        MissingSignal: both are wanted, and one does not move.
+        MissingSignal: the mean was chosen, and one side does not move.
     """
     if motor not in MOTORS:
         raise BadRequest(
@@ -64,7 +66,11 @@ def read_drivetrain(
 
 
 def _align_sides(halves: list[dict[str, Side]]) -> dict[int, list[str]]:
-    """Turn the side that runs against the other and the test's name; which side, in which tests."""
+    """Reverse a side that runs against the other and the test, in place.
+
+    Returns:
+        Index of the reversed side -> its tests.
+    """
     changed: dict[int, list[str]] = {}
     for test in halves[0]:
         ways = [half[test].signs[1] for half in halves]
@@ -76,10 +82,10 @@ def _align_sides(halves: list[dict[str, Side]]) -> dict[int, list[str]]:
 
 
 def _doubt_sides_differ(halves: list[dict[str, Side]], *, where: str) -> list[Doubt]:
-    """A doubt where the sides move differently.
+    """A doubt if the sides move differently.
 
     Raises:
-        MissingSignal: one side does not move at all, so that a mean would be half of the truth.
+        MissingSignal: one side does not move, so the mean would be half of the true motion.
     """
     left, right = halves
     fastest = [max(np.abs(side.velocity).max() for side in half.values()) for half in halves]
@@ -99,12 +105,12 @@ def _doubt_sides_differ(halves: list[dict[str, Side]], *, where: str) -> list[Do
 
 
 def _mean(left: Side, right: Side) -> Side:
-    """The drivetrain as one: the mean of its sides."""
+    """The mean of both sides."""
     return Side(*(0.5 * (a + b) for a, b in zip(left.columns, right.columns, strict=True)))
 
 
 def _doubt_turning(where: str) -> Doubt:
-    """What the gains of a drivetrain that turned on the spot mean."""
+    """The doubt that explains the gains of a drivetrain that turned on the spot."""
     return Doubt(
         "turning-drivetrain",
         f"{where} is of a drivetrain turning on the spot: its velocity is the wheels' while "

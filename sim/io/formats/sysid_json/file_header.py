@@ -25,12 +25,12 @@ class FileHeader:
     """The settings that the file states besides its rows.
 
     Args:
-        mechanism: as the file names it; empty if it does not.
+        mechanism: the file's name of it; may be empty.
         type: ``simple``, ``elevator``, ``arm``, or empty.
-        units: the unit of position, after the multiplication.
-        per_rotation: that many units in one rotation of what the file counts.
-        sysid: whether SysId wrote it, and not the tool before.
-        doubts: what a person should know about units and mechanism.
+        units: the unit of position, after multiplication by ``per_rotation``.
+        per_rotation: units per rotation of the position in the rows.
+        sysid: whether SysId wrote the file, not an older tool.
+        doubts: warnings about units and mechanism.
     """
 
     mechanism: str
@@ -42,7 +42,7 @@ class FileHeader:
 
     @property
     def drivetrain(self) -> bool:
-        """Whether the file says it logged two sides."""
+        """Whether the file says that it is of a drivetrain."""
         return self.mechanism.lower().startswith("drivetrain")
 
     @property
@@ -52,10 +52,10 @@ class FileHeader:
 
 
 def read_header(document: Mapping[str, object], options: ReadOptions, *, where: str) -> FileHeader:
-    """Collect what the file says; what a person says about units goes before it.
+    """Read the header of a file; the user's choice of units has priority.
 
     Raises:
-        UnreadableFile: a word where a number belongs or the reverse, or units nobody knows.
+        UnreadableFile: a value has the wrong type or range, or the units are unknown.
     """
     mechanism = document.get("test", "")
     if not isinstance(mechanism, str):
@@ -88,7 +88,11 @@ def read_header(document: Mapping[str, object], options: ReadOptions, *, where: 
 def _units(
     document: Mapping[str, object], options: ReadOptions, *, type_: str, where: str
 ) -> tuple[str, tuple[Doubt, ...]]:
-    """The unit of position, and a doubt where it had to be guessed or was contradicted."""
+    """The unit of position, and a doubt if it was assumed or contradicts the user's.
+
+    Raises:
+        UnreadableFile: the file's units are unknown.
+    """
     found = document.get("units")
     known = found.strip().lower() if isinstance(found, str) else ""
     if options.units:

@@ -1,4 +1,4 @@
-"""The rows of the tools before 2024: JSON taken apart into one table of numbers per test."""
+"""The rows of the tools before 2024: one table of numbers for each test."""
 
 import json
 from collections import Counter
@@ -20,9 +20,9 @@ RUNS = {
     "fast-forward": "dynamic-forward",
     "fast-backward": "dynamic-reverse",
 }
-TRACK_WIDTH = "track-width"  # a turn on the spot that measured the wheels' distance: no test here
+TRACK_WIDTH = "track-width"  # a turn that measured the track width; not one of the tests
 _SIGNALS = ("voltage", "position", "velocity")
-EMPTIEST = 4.0  # [V] a robot whose battery is lower does not run
+EMPTIEST = 4.0  # [V] lowest battery voltage of a running robot
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class RowForm:
 
     Args:
         sides: for each side, its columns of voltage, position and velocity.
-        battery: the column of the battery's voltage, where there is one.
+        battery: the column of the battery voltage; None if there is none.
     """
 
     sides: tuple[tuple[int, int, int], ...]
@@ -39,7 +39,7 @@ class RowForm:
 
     @property
     def names(self) -> dict[int, str]:
-        """Column that is read -> its signal; a gyro's columns are not read."""
+        """Column -> its signal; the columns of a gyro are not read."""
         names = {0: "time"} | ({} if self.battery is None else {self.battery: "battery voltage"})
         for side, columns in zip(("left ", "right "), self.sides, strict=False):
             prefix = side if len(self.sides) > 1 else ""
@@ -49,22 +49,22 @@ class RowForm:
 
 _FORMS = {
     4: RowForm(((1, 2, 3),)),  # SysId 2021 to 2023, one mechanism
-    6: RowForm(((3, 4, 5),), battery=1),  # 2019 and 2020, one mechanism; [2] is the speed asked for
+    6: RowForm(((3, 4, 5),), battery=1),  # 2019 and 2020, one mechanism; [2] is the commanded speed
     9: RowForm(((1, 3, 5), (2, 4, 6))),  # SysId 2021 to 2023, drivetrain; [7], [8] are the gyro's
     10: RowForm(((3, 5, 7), (4, 6, 8)), battery=1),  # 2020, drivetrain; [9] is the gyro's angle
 }
-_NINE_OF_2019 = RowForm(((3, 5, 7), (4, 6, 8)), battery=1)  # as the ten of 2020, without a gyro
+_NINE_OF_2019 = RowForm(((3, 5, 7), (4, 6, 8)), battery=1)  # as with ten columns, without the gyro
 
 
 def load_json(path: Path) -> dict[str, object]:
-    """Decode the file; every number in it becomes a float.
+    """Decode a file; every number becomes a float.
 
     Raises:
-        UnreadableFile: not an object of JSON; the message says where the damage is.
+        UnreadableFile: it is not a JSON object; the message says where the damage is.
     """
     try:
-        # Whole numbers as floats too: then no number is too long, and a row has one type.
-        document = json.loads(path.read_bytes(), parse_int=float, object_pairs_hook=_object)
+        # Integers as floats, too: then no number is too long, and a row has one type.
+        document = json.loads(path.read_bytes(), parse_int=float, object_pairs_hook=_make_object)
     except json.JSONDecodeError as error:
         ends = error.pos >= len(error.doc.rstrip())
         raise UnreadableFile(
@@ -95,7 +95,7 @@ def parse_tables(
     """Test -> its (n, columns) table, and doubts about what was left out.
 
     Raises:
-        UnreadableFile: no run, or rows that are not lists of equally many numbers.
+        UnreadableFile: there is no run, or rows are not lists of equally many numbers.
     """
     present = [key for key in RUNS if key in document]
     tables = {
@@ -129,12 +129,11 @@ def parse_tables(
     return tables, doubts
 
 
-def detect_form(tables: Mapping[str, Array], said: FileHeader, *, where: str) -> RowForm:
-    """Which form the rows have: by their width, by what they hold, by what the file says.
+def detect_form(tables: Mapping[str, Array], header: FileHeader, *, where: str) -> RowForm:
+    """The form of the rows, by their width, their values and the header.
 
     Raises:
-        UnreadableFile: no tool wrote rows of this width, or not for such a mechanism, or the runs
-            differ in width.
+        UnreadableFile: the width is unknown, does not match the mechanism, or differs between runs.
     """
     widths = {test: table.shape[1] for test, table in tables.items()}
     if len(set(widths.values())) > 1:
@@ -155,25 +154,25 @@ def detect_form(tables: Mapping[str, Array], said: FileHeader, *, where: str) ->
     if (
         form.battery is None
         and len(form.sides) > 1
-        and not said.sysid
+        and not header.sysid
         and _has_battery_column(tables)
     ):
         form = _NINE_OF_2019
-    if len(form.sides) == 1 or said.drivetrain:
+    if len(form.sides) == 1 or header.drivetrain:
         return form
-    if said.type and form.battery is None:
+    if header.type and form.battery is None:
         raise UnreadableFile(
-            f"its rows are those of a drivetrain, but its test is {said.mechanism!r}",
+            f"its rows are those of a drivetrain, but its test is {header.mechanism!r}",
             where=where,
             advice='Write "Drivetrain" there if it is one.',
         )
     # The tools of 2020 wrote a drivetrain's row for every mechanism, the right side all zero.
     unused = not any(np.any(table[:, list(form.sides[1])]) for table in tables.values())
-    return replace(form, sides=form.sides[:1]) if said.type or unused else form
+    return replace(form, sides=form.sides[:1]) if header.type or unused else form
 
 
 def _has_battery_column(tables: Mapping[str, Array]) -> bool:
-    """Whether the second column can be a battery and the third a speed from -1 to 1."""
+    """Whether the second column can be a battery voltage and the third a speed from -1 to 1."""
     return all(
         bool(np.all(table[:, 1] > EMPTIEST) and np.all(np.abs(table[:, 2]) <= 1.0))
         for table in tables.values()
@@ -184,7 +183,7 @@ def check_columns(tables: Mapping[str, Array], form: RowForm, *, where: str) -> 
     """Refuse columns with values that cannot be measurements.
 
     Raises:
-        BadSample: a number that is missing, not finite or absurdly large.
+        BadSample: a number is missing, not finite or absurdly large.
     """
     for test, table in tables.items():
         for column, name in form.names.items():
@@ -197,8 +196,12 @@ def check_columns(tables: Mapping[str, Array], form: RowForm, *, where: str) -> 
                 )
 
 
-def _object(pairs: list[tuple[str, object]]) -> dict[str, object]:
-    """An object of JSON, none of whose names stands in it twice."""
+def _make_object(pairs: list[tuple[str, object]]) -> dict[str, object]:
+    """A JSON object from its pairs.
+
+    Raises:
+        UnreadableFile: a name appears twice.
+    """
     (name, times) = Counter(name for name, _ in pairs).most_common(1)[0] if pairs else ("", 0)
     if times > 1:
         raise UnreadableFile(
@@ -208,13 +211,17 @@ def _object(pairs: list[tuple[str, object]]) -> dict[str, object]:
 
 
 def _table(rows: object, *, where: str) -> Array:
-    """The rows of a run as (n, columns) numbers, nan where one is missing."""
+    """The rows of a run as numbers (n, columns), nan for null.
+
+    Raises:
+        UnreadableFile: the rows are not lists of equally many numbers.
+    """
     if not isinstance(rows, list) or not all(type(row) is list for row in rows):
         raise UnreadableFile(
             "not a list of rows", where=where, advice="Give the JSON that SysId saved, unchanged."
         )
     width = Counter(map(len, rows)).most_common(1)[0][0]
-    kinds = {float, type(None)}  # SysId wrote null where a sensor it had not gave no number
+    kinds = {float, type(None)}  # SysId wrote null for a missing sensor
     if set(map(len, rows)) != {width} or not set(map(type, chain.from_iterable(rows))) <= kinds:
         for number, row in enumerate(rows):
             if len(row) != width or not all(type(value) in kinds for value in row):

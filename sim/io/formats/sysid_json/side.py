@@ -1,8 +1,8 @@
-"""One side of a mechanism before 2024, and the sign of its voltage set right.
+"""One side of a mechanism in a file before 2024, with corrected signs.
 
-The old tools gave every voltage the sign of its velocity, sample by sample, so teams never saw
-that theirs were recorded without a sign or the other way round. Here a sign is changed only for a
-whole run, only where the data leave no choice, and every change is a doubt.
+The old tools gave every voltage sample the sign of its velocity, so teams did not notice voltages
+that were recorded without a sign or with the wrong one. Here, a sign is changed only for a whole
+run, only if the data leave no choice, and every change is reported as a doubt.
 """
 
 from collections.abc import Mapping
@@ -13,12 +13,12 @@ import numpy as np
 from sim.core.doubt import Doubt
 from sim.core.log import Array
 
-MOVING = 0.2  # [share of the largest] below it, friction and noise decide the sign
-CLEAR = 0.6  # [mean of the signs] where 4 of 5 samples agree, the run has that sign
-NOISE = 0.05  # [share of the largest voltage] what a reading may stray over zero
+MOVING = 0.2  # [share of the largest value] smaller values can have the sign of noise
+CLEAR = 0.6  # [mean of the signs] reached if 4 of 5 samples have the same sign
+NOISE = 0.05  # [share of the largest voltage] noise of an unsigned voltage
 
-# Of each doubt: what was found and done, and what to do about it.
-_SAID = {
+# Code of a doubt -> what was found and done, and what to do.
+_DOUBTS = {
     "unsigned-voltage": (
         "the voltage was recorded without a sign; it got that of the velocity",
         "Log the signed voltage next time.",
@@ -52,8 +52,8 @@ class Side:
 
     Args:
         voltage: (n,) [V].
-        position: (n,) [as the file counts].
-        velocity: (n,) [the same per second].
+        position: (n,) [unit of the file].
+        velocity: (n,) [unit of the file per second].
     """
 
     voltage: Array
@@ -67,7 +67,7 @@ class Side:
 
     @property
     def signs(self) -> tuple[int, int]:
-        """The signs of voltage and velocity while it moves: 1, -1, or 0 where it is unclear."""
+        """The signs of voltage and velocity while it moves: 1, -1, or 0 if unclear."""
         voltage, velocity = np.abs(self.voltage), np.abs(self.velocity)
         moving = (voltage > MOVING * voltage.max()) & (velocity > MOVING * velocity.max())
         if not moving.any():
@@ -77,7 +77,7 @@ class Side:
         return signs[0], signs[1]
 
     def reverse(self, *, voltage: bool = False, motion: bool = False) -> "Side":
-        """The same side with the sign of voltage, or of position and velocity, reversed."""
+        """The side with reversed voltage, or reversed position and velocity (``motion``)."""
         side = replace(self, voltage=-self.voltage) if voltage else self
         return replace(side, position=-side.position, velocity=-side.velocity) if motion else side
 
@@ -97,24 +97,33 @@ def find_test_sign(test: str) -> int:
 
 
 def make_doubt(code: str, name: str, tests: list[str], *, where: str) -> Doubt:
-    """One doubt about one side in all the tests it concerns."""
-    what, cure = _SAID[code]
-    return Doubt(code, f"{where}, {name}, {', '.join(tests)}: {what}. {cure}")
+    """The doubt about a side in several tests.
+
+    Args:
+        code: a key of ``_DOUBTS``.
+        name: name of the side.
+        tests: the tests.
+        where: the file, for messages.
+    """
+    what, advice = _DOUBTS[code]
+    return Doubt(code, f"{where}, {name}, {', '.join(tests)}: {what}. {advice}")
 
 
 def read_one_side(runs: Mapping[str, Side], *, where: str) -> tuple[dict[str, Side], list[Doubt]]:
     """The runs of a mechanism with one side; an unsigned voltage gets the sign of its test.
 
-    Any other disagreement of voltage and velocity stays as it is: gravity makes it too.
+    Other differences between the signs of voltage and velocity remain: gravity can cause them.
     """
     low, high = _voltage_range(runs)
-    bare = [
+    unsigned = [
         test
         for test, side in runs.items()
         if low >= -NOISE * high and find_test_sign(test) < 0 and side.signs == (1, -1)
     ]
-    signed = {test: side.reverse(voltage=test in bare) for test, side in runs.items()}
-    return signed, [make_doubt("unsigned-voltage", "voltage", bare, where=where)] if bare else []
+    signed = {test: side.reverse(voltage=test in unsigned) for test, side in runs.items()}
+    return signed, [
+        make_doubt("unsigned-voltage", "voltage", unsigned, where=where)
+    ] if unsigned else []
 
 
 def align_signs(
@@ -123,27 +132,27 @@ def align_signs(
     """The runs of one drivetrain side, with signs reversed where voltage and velocity disagree.
 
     Args:
-        runs: test -> what the side logged in it.
+        runs: test -> columns of the side.
         name: ``left`` or ``right``, for messages.
-        mirrored: whether the side is driven against the sign of the test's name.
+        mirrored: whether the side runs backward in forward tests.
         where: the file, for messages.
     """
-    signless = _is_unsigned(runs)
+    unsigned = _is_unsigned(runs)
     changed: dict[str, list[str]] = {}
-    settled = {}
+    aligned = {}
     for test, given in runs.items():
         side = given.reverse(voltage=mirrored, motion=mirrored)
         voltage, velocity = side.signs
         if voltage * velocity < 0:
             code = "inverted-voltage" if velocity == find_test_sign(test) else "inverted-encoder"
-            code = "unsigned-voltage" if signless else code
+            code = "unsigned-voltage" if unsigned else code
             changed.setdefault(code, []).append(test)
             encoder = code == "inverted-encoder"
             side = side.reverse(voltage=not encoder, motion=encoder)
         elif voltage * velocity == 0 and np.any(side.velocity) and np.any(side.voltage):
             changed.setdefault("unclear-sign", []).append(test)
-        settled[test] = side
-    return settled, [make_doubt(code, name, tests, where=where) for code, tests in changed.items()]
+        aligned[test] = side
+    return aligned, [make_doubt(code, name, tests, where=where) for code, tests in changed.items()]
 
 
 def _voltage_range(runs: Mapping[str, Side]) -> tuple[float, float]:
@@ -155,7 +164,7 @@ def _voltage_range(runs: Mapping[str, Side]) -> tuple[float, float]:
 
 
 def _is_unsigned(runs: Mapping[str, Side]) -> bool:
-    """Whether tests of both directions have voltages of one sign, which then says nothing."""
+    """Whether tests of both directions have voltages of the same sign."""
     low, high = _voltage_range(runs)
     return len({find_test_sign(test) for test in runs}) > 1 and (
         low >= -NOISE * high or high <= -NOISE * low

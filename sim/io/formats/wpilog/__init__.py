@@ -1,7 +1,7 @@
-"""WPILOG: the log a robot writes itself, with the entries SysIdRoutine adds to it.
+"""WPILOG: WPILib's log format, with the entries that SysIdRoutine adds.
 
-Bytes become records (``records``, ``windows``), records entries (``contents``), and these a Log
-(``sim/io/entries``).
+Bytes are parsed into records (``records``, ``windows``), records into entries (``contents``), and
+entries into a Log (``sim/io/entries``).
 """
 
 from collections.abc import Collection, Iterator, Sequence
@@ -33,16 +33,16 @@ Made_co = TypeVar("Made_co", covariant=True)
 
 
 class _Maker(Protocol[Made_co]):
-    """Makes logs of entries."""
+    """A function that makes logs from entries."""
 
     def __call__(
         self, entries: Sequence[Entry], *, options: ReadOptions, where: str
     ) -> tuple[Made_co, tuple[RunInterval, ...]]:
-        """What is made, and the times of its runs."""
+        """The log or logs, and the intervals of the runs."""
 
 
 def recognizes(head: bytes) -> bool:
-    """Whether a file that starts like this is a WPILOG file, packed with xz or not."""
+    """Whether a file that starts with ``head`` is a WPILOG file, or compressed with xz."""
     return head.startswith((MAGIC, XZ_MAGIC))
 
 
@@ -50,7 +50,7 @@ def entries(path: Path) -> list[FileEntry]:
     """All entries of a file.
 
     Raises:
-        UnreadableFile: it is foreign or empty.
+        UnreadableFile: the file is empty, or not a WPILOG file.
     """
     return list(read_contents(load_records(path)).entries)
 
@@ -63,17 +63,18 @@ def read(path: Path, options: ReadOptions) -> Log:
         options: the user's choices: units, motor, and the names of entries.
 
     Raises:
-        UnreadableFile: it is foreign, empty, or damaged before the end of the first run.
-        MissingSignal: an entry is missing; the message names it and what there is instead.
-        BadRequest: it lacks the chosen motor or mechanism, or holds several mechanisms.
-        BadSample: it holds a number that cannot be a measurement.
+        UnreadableFile: the file is empty, not a WPILOG file, or damaged before the end of the first
+            run.
+        MissingSignal: an entry is missing; the message names it and similar ones.
+        BadRequest: the file lacks the chosen motor or mechanism, or holds several mechanisms.
+        BadSample: the file holds a number that cannot be a measurement.
     """
     log, doubts = _read(path, options, assemble_log)
     return log.add_doubts(*doubts)
 
 
 def read_motors(path: Path, options: ReadOptions) -> dict[str, Log]:
-    """Read the runs of one mechanism, a log for each of its motors.
+    """Read the runs of one mechanism as a log for each of its motors.
 
     Args:
         path: the file.
@@ -89,38 +90,44 @@ def read_motors(path: Path, options: ReadOptions) -> dict[str, Log]:
 def _read(
     path: Path, options: ReadOptions, make: _Maker[Made_co]
 ) -> tuple[Made_co, tuple[Doubt, ...]]:
-    """What is made of a file's entries, and what is odd about the file."""
+    """The log or logs of a file, and doubts about the file.
+
+    Raises:
+        Refusal: as ``read``.
+    """
     where = str(path)
     named = set(options.entries.values())
     records = load_wanted_records(path, partial(_is_wanted, named=named))
     found = read_contents(records)
     damage = found.damage
-    lost = tuple(_orphaned(found.orphans, where))
+    lost = tuple(_doubt_orphans(found.orphans, where))
     if not found.entries:
-        raise _unreadable(damage, records.end, where, "there is no record before it")
+        raise _make_unreadable_error(damage, records.end, where, "there is no record before it")
     try:
-        with np.errstate(all="ignore"):  # what is not finite is refused where a run is made of it
+        with np.errstate(all="ignore"):  # values that are not finite are refused later
             made, spans = make(found.entries, options=options, where=where)
     except MissingSignal as missing:
         if damage is None:
             raise
-        raise _unreadable(damage, records.end, where, missing.what) from None
+        raise _make_unreadable_error(damage, records.end, where, missing.what) from None
     if damage is None:
-        return made, (*lost, *_unfinished(spans[-1], where))
+        return made, (*lost, *_doubt_unfinished_run(spans[-1], where))
     if not damage.torn and spans[0].end == FOREVER:
-        raise _unreadable(damage, records.end, where, "no run is whole before it")
-    return made, (*lost, _partly(damage, where))
+        raise _make_unreadable_error(damage, records.end, where, "no run is whole before it")
+    return made, (*lost, _doubt_damage(damage, where))
 
 
 def _is_wanted(entry: Start, *, named: Collection[str]) -> bool:
-    """Whether the values of an entry may be needed: any text may name tests."""
+    """Whether the values of an entry may be needed; any text may name tests."""
     if entry.name in named or entry.type == STRING:
         return True
     return entry.type in NUMBERS and may_be_signal(entry.name, entry.metadata)
 
 
-def _unreadable(damage: FileDamage | None, end: int, where: str, what: str) -> UnreadableFile:
-    """The refusal of a file in which too little precedes the place where it stops."""
+def _make_unreadable_error(
+    damage: FileDamage | None, end: int, where: str, what: str
+) -> UnreadableFile:
+    """The error that a file is damaged or cut off too early, or empty."""
     if damage is None:
         return UnreadableFile(
             "there are no records in it",
@@ -135,8 +142,8 @@ def _unreadable(damage: FileDamage | None, end: int, where: str, what: str) -> U
     )
 
 
-def _orphaned(count: int, where: str) -> Iterator[Doubt]:
-    """A doubt about records that nothing introduces."""
+def _doubt_orphans(count: int, where: str) -> Iterator[Doubt]:
+    """A doubt about records before the start of their entry."""
     if count:
         yield Doubt(
             "orphan-records",
@@ -145,8 +152,8 @@ def _orphaned(count: int, where: str) -> Iterator[Doubt]:
         )
 
 
-def _partly(damage: FileDamage, where: str) -> Doubt:
-    """The doubt about a file that could only be read up to some place."""
+def _doubt_damage(damage: FileDamage, where: str) -> Doubt:
+    """The doubt about a file that could only be read up to some offset."""
     what = "the file ends too soon" if damage.torn else "THE FILE IS DAMAGED"
     return Doubt(
         "truncated" if damage.torn else "damaged",
@@ -156,7 +163,7 @@ def _partly(damage: FileDamage, where: str) -> Doubt:
     )
 
 
-def _unfinished(last: RunInterval, where: str) -> Iterator[Doubt]:
+def _doubt_unfinished_run(last: RunInterval, where: str) -> Iterator[Doubt]:
     """A doubt if the last run has no end."""
     if last.end == FOREVER:
         yield Doubt(

@@ -1,7 +1,7 @@
-"""What the records of a WPILOG file belong to: entries, up to the first record that cannot be.
+"""Group the records of a WPILOG file into entries, up to the first invalid record.
 
-An id is free for another entry once the first is finished, and an entry may come back under
-another id: its samples are joined, in the order of their times.
+After an entry is finished, its id can be used for another entry, and an entry can be started again
+with another id. Samples of entries with the same name and type are joined in the order of time.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -15,8 +15,8 @@ from sim.io.formats.wpilog.control import Metadata, Start, parse_control_record
 from sim.io.formats.wpilog.entry import SIZES, FileEntry
 from sim.io.formats.wpilog.records import File, Numbers, RecordHeaders, Records
 
-SMALL_IDS = 1 << 16  # ids below fit 16 bits, which NumPy sorts by radix
-LIKELY_SIZE = 1 << 16  # [bytes] a text or an array that was being written is hardly larger
+SMALL_IDS = 1 << 16  # smaller ids fit 16 bits, which NumPy sorts by radix sort
+LIKELY_SIZE = 1 << 16  # [bytes] of a text or array; a larger size is taken for damage
 
 
 @dataclass(frozen=True)
@@ -25,9 +25,9 @@ class FileDamage:
 
     Args:
         offset: the first byte that was not used.
-        unread_bytes: how many bytes there are from it to the end of the file.
-        what: what is wrong with the record there, a clause.
-        torn: whether the file merely ends too soon, as when a robot loses power.
+        unread_bytes: number of bytes from there to the end of the file.
+        what: the problem of the record there, as a clause.
+        torn: whether the file only ends too soon, as after a power loss.
     """
 
     offset: int
@@ -41,10 +41,10 @@ class Contents:
     """The entries of a file.
 
     Args:
-        entries: in the order they first appear.
-        damage: what kept the rest of the file from being read, if anything did.
-        orphans: how many records precede the start of their entry, as in a file that goes on where
-            another one ended.
+        entries: the entries in the order in which they first appear.
+        damage: why the rest of the file was not read; None if all was read.
+        orphans: number of records before the start of their entry, as in the continuation of
+            another file.
     """
 
     entries: tuple[FileEntry, ...]
@@ -54,7 +54,7 @@ class Contents:
 
 @dataclass(frozen=True, order=True)
 class _Stop:
-    """The first record that cannot be, and why."""
+    """The index of an invalid record, and the reason."""
 
     index: int
     what: str
@@ -62,7 +62,7 @@ class _Stop:
 
 @dataclass
 class _EntryLife:
-    """An entry from the record that starts it to the one that ends it, by index."""
+    """An entry from its start record to its finish record, by index."""
 
     start: Start
     metadata: str
@@ -72,7 +72,7 @@ class _EntryLife:
 
 @dataclass(frozen=True, eq=False)
 class _Group:
-    """The records that carry one id, in order: their indices, and what their headers say."""
+    """The records with one id, in order: their indices and header fields."""
 
     index: Numbers
     size: Numbers
@@ -80,14 +80,14 @@ class _Group:
     payload: Numbers
 
     def select_life(self, life: _EntryLife) -> "_Group":
-        """Those of them that fall into one life."""
+        """The records within one life of an entry."""
         if life.first < self.index[0] and self.index[-1] < life.last:
             return self
         first, last = self.index.searchsorted((life.first, life.last))
         return self.select(slice(first, last))
 
     def select(self, which: slice | Numbers) -> "_Group":
-        """Some of them."""
+        """The records at some positions."""
         return _Group(self.index[which], self.size[which], self.time[which], self.payload[which])
 
 
@@ -95,7 +95,7 @@ _Lives: TypeAlias = dict[int, list[_EntryLife]]
 
 
 def read_contents(records: Records) -> Contents:
-    """Sort the records of a file into entries, up to the first record that cannot be."""
+    """Group the records of a file into entries, up to the first invalid record."""
     head = records.head
     groups = _groups(head)
     lives, stop = _find_lives(records, head, before=head.id.size)
@@ -130,31 +130,31 @@ def _groups(head: RecordHeaders) -> dict[int, _Group]:
 def _find_lives(
     records: Records, head: RecordHeaders, *, before: int
 ) -> tuple[_Lives, _Stop | None]:
-    """When each entry began and ended, by the control records up to the first senseless one."""
+    """The lives of the entries, by the control records up to the first malformed one."""
     lives: _Lives = {}
     for index in np.flatnonzero(head.id[:before] == 0).tolist():
         begin = int(head.payload[index])
-        said = parse_control_record(
+        control = parse_control_record(
             bytes(records.file.content[begin : begin + int(head.size[index])])
         )
-        if said is None:
+        if control is None:
             return lives, _Stop(index, "a control record that makes no sense")
-        known = lives.setdefault(said.id, [])
+        known = lives.setdefault(control.id, [])
         current = known[-1] if known and known[-1].last == before else None
-        if current and isinstance(said, Metadata):
-            current.metadata = said.metadata
+        if current and isinstance(control, Metadata):
+            current.metadata = control.metadata
         elif current:
             current.last = index
-        if isinstance(said, Start):
-            known.append(_EntryLife(said, said.metadata, index, before))
+        if isinstance(control, Start):
+            known.append(_EntryLife(control, control.metadata, index, before))
     return lives, None
 
 
 def _find_misfits(number: int, group: _Group, lives: Sequence[_EntryLife]) -> Iterator[_Stop]:
-    """The first record of an id that belongs to no entry, and any of a size its type cannot have.
+    """The first record of an id without an entry, and the first with a wrong size for its type.
 
-    Records before a start, or between a finish and the next start, are passed over, as WPILib's own
-    tools do.
+    Records before a start, or between a finish and the next start, are ignored, as in WPILib's
+    tools.
     """
     if not lives:
         yield _Stop(int(group.index[0]), f"a record of the unknown entry {number}")
@@ -169,7 +169,7 @@ def _find_misfits(number: int, group: _Group, lives: Sequence[_EntryLife]) -> It
 
 
 def _join_lives(lives: _Lives, groups: Mapping[int, _Group], file: File) -> Iterator[FileEntry]:
-    """One entry for all lives of the same name and type, in the order they first appear."""
+    """One entry for all lives with the same name and type, in the order of appearance."""
     named: dict[tuple[str, str], list[_EntryLife]] = {}
     for life in sorted(chain.from_iterable(lives.values()), key=lambda life: life.first):
         named.setdefault((life.start.name, life.start.type), []).append(life)
@@ -192,25 +192,25 @@ def _concatenate_groups(parts: Sequence[_Group]) -> _Group:
 
 
 def _damage(records: Records, lives: _Lives, stop: _Stop | None) -> FileDamage | None:
-    """What kept the rest of the file from being read, if anything did."""
+    """Why the rest of the file was not read; None if all was read."""
     offset = int(records.start[stop.index]) if stop else records.end
-    left = records.size - offset
-    if not left:
+    unread_bytes = records.size - offset
+    if not unread_bytes:
         return None
     if records.has_only_zeros_from(offset):
-        return FileDamage(offset, left, "nothing but zero bytes", torn=True)
+        return FileDamage(offset, unread_bytes, "nothing but zero bytes", torn=True)
     if stop:
-        return FileDamage(offset, left, stop.what, torn=False)
-    return _overrun(records, lives, offset, left)
+        return FileDamage(offset, unread_bytes, stop.what, torn=False)
+    return _overrun(records, lives, offset, unread_bytes)
 
 
-def _overrun(records: Records, lives: _Lives, offset: int, left: int) -> FileDamage:
-    """The record at ``offset`` says it is longer than the file: cut off, or nonsense."""
+def _overrun(records: Records, lives: _Lives, offset: int, unread_bytes: int) -> FileDamage:
+    """The damage by a record that is longer than the rest of the file: cut off, or invalid."""
     head = records.read_header_at(offset)
     number, size = int(head.id[0]), int(head.size[0])
     if int(head.payload[0]) > records.size:
-        return FileDamage(offset, left, "a record that stops within its header", torn=True)
+        return FileDamage(offset, unread_bytes, "a record that stops within its header", torn=True)
     open_now = [life for life in lives.get(number, ()) if life.last == records.start.size]
     sizes = [SIZES.get(life.start.type) for life in open_now] or [None] * (number == 0)
     torn = any(size == fixed if fixed else size <= LIKELY_SIZE for fixed in sizes)
-    return FileDamage(offset, left, f"a record that claims {size} bytes", torn=torn)
+    return FileDamage(offset, unread_bytes, f"a record that claims {size} bytes", torn=torn)

@@ -1,6 +1,6 @@
 """Control records of a WPILOG file: they start an entry, finish it, or change its metadata.
 
-start    = 0, entry id (4), name, type, metadata      each text led by its length (4)
+start    = 0, entry id (4), name, type, metadata      each text after its length (4)
 finish   = 1, entry id (4)
 metadata = 2, entry id (4), metadata
 """
@@ -10,14 +10,14 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 START, FINISH, METADATA = 0, 1, 2
-_HEAD = struct.Struct("<BI")  # which control record, entry id
+_HEAD = struct.Struct("<BI")  # type of control record, entry id
 _LENGTH = struct.Struct("<I")
 _TEXTS = {START: 3, FINISH: 0, METADATA: 1}
 
 
 @dataclass(frozen=True)
 class Start:
-    """Control record: from here on, this id stands for this entry."""
+    """Control record that starts an entry with an id."""
 
     id: int
     name: str
@@ -27,14 +27,14 @@ class Start:
 
 @dataclass(frozen=True)
 class Finish:
-    """Control record: the entry has ended, and its id is free."""
+    """Control record that finishes an entry, so that its id can be used again."""
 
     id: int
 
 
 @dataclass(frozen=True)
 class Metadata:
-    """Control record: the entry has new metadata."""
+    """Control record that changes the metadata of an entry."""
 
     id: int
     metadata: str
@@ -59,8 +59,8 @@ def parse_control_record(payload: bytes) -> Control | None:
 def make_start_payload(entry: Start) -> bytes:
     """The payload of the control record that starts an entry."""
     texts = (text.encode("utf-8", "replace") for text in (entry.name, entry.type, entry.metadata))
-    said = b"".join(_LENGTH.pack(len(text)) + text for text in texts)
-    return _HEAD.pack(START, entry.id) + said
+    packed = b"".join(_LENGTH.pack(len(text)) + text for text in texts)
+    return _HEAD.pack(START, entry.id) + packed
 
 
 def _texts(rest: bytes) -> list[str] | None:

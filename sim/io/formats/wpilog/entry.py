@@ -1,4 +1,4 @@
-"""An entry of a WPILOG file, decoded when its values are asked for."""
+"""An entry of a WPILOG file, whose values are decoded on demand."""
 
 from dataclasses import dataclass
 
@@ -16,7 +16,7 @@ KINDS: dict[str, type[np.generic]] = {
     "boolean": np.bool_,
 }
 SIZES = {kind: np.dtype(dtype).itemsize for kind, dtype in KINDS.items()}  # [bytes] of one value
-SCATTERED = 4096  # [bytes of the file for each string] where strings are rarer, each is cut out
+SCATTERED = 4096  # [bytes of the file per string] strings that are rarer are decoded one by one
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,7 +26,7 @@ class FileEntry(Entry):
     Args:
         payload: (n,) offset of each value in the file.
         size: (n,) length of each value [bytes].
-        file: where they are.
+        file: the file that holds them.
     """
 
     payload: Numbers
@@ -34,14 +34,14 @@ class FileEntry(Entry):
     file: File
 
     def values(self) -> NDArray[np.generic]:
-        """(n,) the values of an entry of a type in ``KINDS``."""
+        """The values (n,) of an entry with a type in ``KINDS``."""
         buffer = self.file.buffer
         if self.type == "boolean":
             return np.not_equal(buffer[self.payload], 0)
         return view_numbers(buffer, KINDS[self.type])[self.payload]
 
     def numbers(self) -> Array:
-        """(n,) the values of an entry of a type in ``KINDS``, in double precision."""
+        """The values (n,) of an entry with a type in ``KINDS``, in double precision."""
         return self.values().astype(np.float64)
 
     def texts(self) -> list[str]:

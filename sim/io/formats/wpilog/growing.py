@@ -1,4 +1,4 @@
-"""A WPILOG file that a robot is still writing: which tests it holds so far."""
+"""The tests so far of a WPILOG file that is still being written."""
 
 from contextlib import suppress
 from pathlib import Path
@@ -15,21 +15,21 @@ from sim.io.formats.wpilog.windows import GrowingFile
 class GrowingLog:
     """The tests of a file that grows.
 
-    Only texts are read, as they name the tests, and only what is new since the last look.
+    Only texts are read, because they name the tests, and only those appended since the last call.
 
     Args:
         path: the file; it may be empty.
-        state: the entry that names the tests; None looks for it.
+        state: the entry that names the tests; None finds it by name.
     """
 
     def __init__(self, path: Path, *, state: str | None = None) -> None:
         self._options = ReadOptions(entries={"state": state} if state else {})
-        self._size = 0  # [bytes] at the last look
+        self._size = 0  # [bytes] at the last call
         self._file = GrowingFile(path, lambda entry: entry.type == STRING)
 
     @property
     def path(self) -> Path:
-        """Where the file is; it may be renamed while it grows."""
+        """The path of the file, which may be renamed while it grows."""
         return self._file.path
 
     @path.setter
@@ -37,10 +37,11 @@ class GrowingLog:
         self._file.path = path
 
     def list_tests(self) -> tuple[RunInterval, ...]:
-        """The tests so far, by their beginning; one that has not ended yet ends at ``FOREVER``.
+        """The tests so far, sorted by start; one that is still running ends at ``FOREVER``.
 
         Raises:
-            UnreadableFile: the file is foreign.
+            FileNotFoundError: the file does not exist.
+            UnreadableFile: the file is not a WPILOG file.
             BadRequest: several entries name the tests of one mechanism.
         """
         self._size = self.path.stat().st_size

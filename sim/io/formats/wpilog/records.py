@@ -1,14 +1,14 @@
-"""Where the records of a WPILOG file begin: a chain in which only each record tells the next.
+"""Find the records of a WPILOG file, a chain in which each record tells where the next begins.
 
     record = bits, entry id, payload size, timestamp [µs], payload
     bits   = 0b0TTTSSII: lengths in bytes, less one, of timestamp, size and id
 
-A record's end is known only from its own header, so following the chain is serial, and in plain
-Python slow. Here a whole window is looked at in one go. Every byte that could open a record is a
-candidate, its would-be successor is computed, and candidates that do not lead to, or are not led
-to by, another one are dropped. What is left is almost only true records, each followed directly
-by its successor; the walk touches no more than the places where that is not so. Nothing is
-guessed: a record is taken only because the one before it ends where it begins.
+A record's end is known only from its own header, so following the chain is serial, and slow in
+plain Python. Here, a whole window is processed with NumPy. Every byte that could begin a record is
+a candidate, and its successor is computed. Candidates without a successor or a predecessor among
+the candidates are dropped. The rest are almost only true records, each followed directly by its
+successor, and the serial walk visits only the exceptions. The result is exact: a record is accepted
+only if the one before it ends where it begins.
 """
 
 import lzma
@@ -34,17 +34,17 @@ Flags: TypeAlias = NDArray[np.bool_]
 Number = TypeVar("Number", bound=np.generic)
 
 MAGIC = b"WPILOG"
-XZ_MAGIC = b"\xfd7zXZ\x00"  # of a file that is packed with xz: .wpilogxz
-PIECE = 1 << 20  # [bytes] that are unpacked at a time
-IN_MEMORY = 1 << 26  # [bytes] an unpacked log that is larger goes to the disk
+XZ_MAGIC = b"\xfd7zXZ\x00"  # magic of a file compressed with xz: .wpilogxz
+PIECE = 1 << 20  # [bytes] decompressed at a time
+IN_MEMORY = 1 << 26  # [bytes] a larger decompressed log is stored on the disk
 PREFACE = 12  # [bytes] magic, version (2), length of the extra header (4)
-MAJOR = 1  # the one version there is: 1.0
-PAD = 32  # [bytes] of zero behind the file, so that a header cut short can be looked at
-FIRST_WINDOW = 1 << 14  # [bytes] small while record headers of a new shape still turn up
-MEMORY = 1 << 16  # [bytes] a header's shape is looked for this far behind where it was last seen
-LARGEST_WINDOW = 1 << 19  # [bytes] larger ones leave the processor's cache
+MAJOR = 1  # the only version is 1.0
+PAD = 32  # [bytes] zeros after the file, so that an incomplete header can be read
+FIRST_WINDOW = 1 << 14  # [bytes] small while first header bytes that are new still appear
+MEMORY = 1 << 16  # [bytes] a first header byte is expected so far after its last occurrence
+LARGEST_WINDOW = 1 << 19  # [bytes] larger windows exceed the processor's cache
 BLOCK = 1 << 15  # [records] read at a time, for the same reason
-FEW = 8  # so many comparisons cost less than one look-up by table
+FEW = 8  # up to so many comparisons are faster than a lookup table
 
 _BITS = np.arange(256, dtype=np.int64)
 ID_LENGTH = (_BITS & 3) + 1
@@ -62,24 +62,24 @@ class File:
     """A file in memory.
 
     Args:
-        content: its bytes, and PAD zeros behind them.
+        content: its bytes, followed by PAD zeros.
     """
 
     content: bytearray
 
     @property
     def size(self) -> int:
-        """Its length [bytes]."""
+        """The length of the file [bytes]."""
         return len(self.content) - PAD
 
     @property
     def buffer(self) -> Bytes:
-        """(size + PAD,) its content as an array."""
+        """The content as an array (size + PAD,)."""
         return np.frombuffer(self.content, dtype=np.uint8)
 
     @cached_property
     def latin1_text(self) -> str:
-        """Its content as text, one letter a byte."""
+        """The content as text, one character per byte."""
         return self.content.decode("latin-1")
 
 
@@ -102,15 +102,15 @@ class RecordHeaders:
 
 @dataclass(frozen=True, eq=False)
 class Records:
-    """A file and where its records begin.
+    """A file and the offsets of its records.
 
     Args:
-        path: where the file is.
-        size: its length [bytes].
-        file: what of it is in memory: all of it, or the payloads of some records.
+        path: path of the file.
+        size: length of the file [bytes].
+        file: the part of it in memory: all of it, or the payloads of some records.
         start: (n,) offset in the file of each whole record in memory, in order.
-        end: offset behind the last whole record; the file's size if the chain reaches its end.
-        head: what the headers of these records say; payloads are offsets in ``file``.
+        end: offset after the last whole record; the file's size if the chain reaches its end.
+        head: the headers of these records; their payloads are offsets in ``file``.
     """
 
     path: Path
@@ -121,7 +121,7 @@ class Records:
     head: RecordHeaders
 
     def read_header_at(self, offset: int) -> RecordHeaders:
-        """The header at an offset of the file, complete or not."""
+        """The header at an offset of the file, which may be incomplete."""
         with open_log(self.path) as stream:
             stream.seek(offset)
             found = bytearray(stream.read(PAD)) + bytearray(PAD)
@@ -129,7 +129,7 @@ class Records:
         return RecordHeaders(header.id, header.size, header.time, header.payload + offset)
 
     def has_only_zeros_from(self, offset: int) -> bool:
-        """Whether the rest of the file is nothing but zero bytes."""
+        """Whether the rest of the file from an offset has only zero bytes."""
         with open_log(self.path) as stream:
             stream.seek(offset)
             while block := stream.read(LARGEST_WINDOW):
@@ -139,12 +139,12 @@ class Records:
 
 
 def open_log(path: Path) -> IO[bytes]:
-    """Open a file to read its bytes, unpacked if it is packed with xz.
+    """Open a file to read its bytes, decompressed if it is compressed with xz.
 
-    What was packed before the file was cut off is there: a robot may lose power while it writes.
+    A compressed file that was cut off, as after a power loss, is read up to there.
 
     Raises:
-        UnreadableFile: it is damaged, or too large once it is unpacked.
+        UnreadableFile: the file is damaged, or too large when decompressed.
     """
     stream = path.open("rb")
     if stream.read(len(XZ_MAGIC)) != XZ_MAGIC:
@@ -155,15 +155,15 @@ def open_log(path: Path) -> IO[bytes]:
         unpacked = ends.enter_context(SpooledTemporaryFile(max_size=IN_MEMORY))
         _unpack(stream, unpacked, where=str(path))
         unpacked.seek(0)
-        ends.pop_all()  # whoever asked closes it
+        ends.pop_all()  # the caller closes it
         return unpacked
 
 
 def _unpack(stream: IO[bytes], unpacked: IO[bytes], *, where: str) -> None:
-    """Unpack a file that is packed with xz.
+    """Decompress a file that is compressed with xz.
 
     Raises:
-        UnreadableFile: it is damaged, or too large once it is unpacked.
+        UnreadableFile: the file is damaged, or too large when decompressed.
     """
     try:
         with lzma.open(stream) as packed:
@@ -178,7 +178,7 @@ def _unpack(stream: IO[bytes], unpacked: IO[bytes], *, where: str) -> None:
                         "example.",
                     )
     except EOFError:
-        pass  # it was cut off, and so is its last record
+        pass  # the file was cut off
     except lzma.LZMAError as error:
         raise UnreadableFile(
             f"it is packed with xz, and damaged ({error})",
@@ -191,7 +191,8 @@ def load_records(path: Path) -> Records:
     """Read a whole file and find its records.
 
     Raises:
-        UnreadableFile: it is empty, foreign, of a later version, or ends before its first record.
+        UnreadableFile: the file is not a WPILOG file, of a later version, damaged, too large, or
+            ends before its first record.
     """
     with open_log(path) as file:
         content = bytearray(file.seek(0, SEEK_END) + PAD)
@@ -199,28 +200,28 @@ def load_records(path: Path) -> Records:
         found = file.read(len(content) - PAD)
         size = len(found)
         content[:size] = found
-    del content[size + PAD :]  # of a file that became shorter while it was read
+    del content[size + PAD :]  # if the file became shorter while it was read
     whole = File(content)
     start, end = follow_records(whole, first=find_first_record(whole, size=size, where=str(path)))
     return Records(path, size, whole, start, end, read_headers(whole.buffer, start))
 
 
 def follow_records(file: File, *, first: int) -> tuple[Numbers, int]:
-    """Follow the records from ``first`` for as long as they are whole.
+    """Follow the records from ``first`` on as long as they are complete.
 
     Args:
         file: the file.
         first: offset of the first record.
 
     Returns:
-        The offset of each record, and the offset behind the last.
+        The offset of each record, and the offset after the last.
     """
-    shapes: dict[int, int] = {}  # header bytes met lately, and where the last of them was seen
+    shapes: dict[int, int] = {}  # first header byte -> offset of its last occurrence
     buffer, size = file.buffer, file.size
     pieces = [np.zeros(0, dtype=np.int64)]
     at, window = first, FIRST_WINDOW
     while at < size:
-        shapes = {shape: seen for shape, seen in shapes.items() if at - seen < MEMORY}
+        shapes = {shape: last for shape, last in shapes.items() if at - last < MEMORY}
         shapes[int(buffer[at])] = at
         stop = min(at + window, size)
         found, after = _follow(buffer, tuple(shapes), at=at, stop=stop, size=size)
@@ -265,7 +266,8 @@ def find_first_record(file: File, *, size: int, where: str) -> int:
         where: its path, for messages.
 
     Raises:
-        UnreadableFile: it is foreign, of a later version, or ends before its first record.
+        UnreadableFile: the file is not a WPILOG file, of a later version, or ends before its first
+            record.
     """
     opening = file.content[: min(PREFACE, file.size)]
     if not opening.startswith(MAGIC[: len(opening)]):
@@ -300,13 +302,15 @@ def _cut_short(where: str, size: int) -> UnreadableFile:
 def _follow(
     buffer: Bytes, shapes: Sequence[int], *, at: int, stop: int, size: int
 ) -> tuple[Numbers, int]:
-    """The records of one window that follow one another from ``at``, and where the last one ends.
+    """The consecutive records of one window from ``at`` on, and the end of the last one.
 
-    There are none if the record at ``at`` itself is not whole. The walk may end before the window
-    does, where a record has a header of a shape not met yet.
+    There are none if the record at ``at`` is incomplete. They may end before the window, at a
+    record whose first header byte is new.
     """
     width = stop - at
-    open_here = np.ones(width + 1, dtype=bool)  # the last stands for all that lies behind
+    open_here = np.ones(
+        width + 1, dtype=bool
+    )  # the last element stands for all bytes after the window
     open_here[:width] = _any_of(buffer[at:stop], shapes)
     begin = np.flatnonzero(open_here[:width])
     after = begin + _lengths(buffer, begin + at, shapes)
@@ -324,7 +328,7 @@ def _follow(
 
 
 def _any_of(window: Bytes, shapes: Sequence[int]) -> Flags:
-    """Which bytes are one of the header bytes met so far."""
+    """Whether each byte is one of the known first header bytes."""
     if len(shapes) > FEW:
         known = np.zeros(256, dtype=bool)
         known[list(shapes)] = True
@@ -336,7 +340,7 @@ def _any_of(window: Bytes, shapes: Sequence[int]) -> Flags:
 
 
 def _lengths(buffer: Bytes, start: Numbers, shapes: Sequence[int]) -> Numbers:
-    """Length of the records that would begin at ``start``, header and payload."""
+    """Length of the records, header and payload, if they began at ``start`` [bytes]."""
     bits = shapes[0] if len(shapes) == 1 else buffer[start].astype(np.intp)
     size = view_numbers(buffer, np.uint32)[start + (1 + ID_LENGTH)[bits]] & SIZE_MASK[bits]
     lengths: Numbers = HEADER_LENGTH[bits] + size
@@ -344,16 +348,16 @@ def _lengths(buffer: Bytes, start: Numbers, shapes: Sequence[int]) -> Numbers:
 
 
 def _shape(bits: Bytes) -> int | NDArray[np.intp]:
-    """The first bytes of some records as an index: one for all of them if they are the same."""
+    """The first header bytes as an index: one for all if they are the same, else an array."""
     if bits.size and bool((bits == bits[0]).all()):
         return int(bits[0])
-    return bits.astype(np.intp)  # of any other type it would be converted at every use
+    return bits.astype(np.intp)  # other types would be converted at every use
 
 
 def _walk(begin: Numbers, after: Numbers) -> tuple[Flags | slice, int]:
-    """Which candidates the chain from the first one visits, and which is its last.
+    """The candidates in the chain from the first one, and the index of its last.
 
-    A stretch of candidates that follow one another directly is crossed in one step.
+    A sequence of candidates that follow one another directly is passed in one step.
     """
     broken = np.flatnonzero(after[:-1] != begin[1:])
     broken = np.append(broken, begin.size - 1)

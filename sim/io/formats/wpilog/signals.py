@@ -1,7 +1,7 @@
-"""Writing any signals as a WPILOG file: all at once, or value by value as they come.
+"""Write any signals as a WPILOG file: all at once, or value by value.
 
-Written at once, to be looked at side by side in another tool, every signal is an entry of doubles.
-A text, such as the name of a test, is an entry of strings that is written when it changes.
+When written at once, to be shown in another tool, every signal is an entry of doubles. A text, such
+as the name of a test, is an entry of strings that is written when it changes.
 """
 
 import struct
@@ -16,9 +16,14 @@ from sim.io.formats.wpilog.records import MAGIC, MAJOR
 from sim.support.atomic_file import write_atomically
 
 SECOND = 1e6  # [µs]
-MOST = 255  # [entries] whose number takes one byte
+MOST = 255  # [entries] at most, so that an id takes one byte
 PREFACE = MAGIC + struct.pack("<HI", MAJOR << 8, 0)
-PACKING = {"double": "<d", "float": "<f", "int64": "<q", "boolean": "<?"}  # type of an entry
+PACKING = {
+    "double": "<d",
+    "float": "<f",
+    "int64": "<q",
+    "boolean": "<?",
+}  # type of an entry -> format of a value
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,9 +31,9 @@ class SignalGroup:
     """Signals that share their times.
 
     Args:
-        time: (n,) [s], from 0 up.
+        time: (n,) [s]; negative times are written as 0.
         signals: name of the entry -> (n,) values.
-        texts: name of the entry -> when [s] and what, in the order of time.
+        texts: name of the entry -> (time [s], text) in the order of time.
     """
 
     time: Array
@@ -37,10 +42,12 @@ class SignalGroup:
 
 
 def write_signals(groups: Sequence[SignalGroup], path: Path, *, units: Mapping[str, str]) -> None:
-    """Write groups of signals as one file, in the order of time, whole or not at all.
+    """Write groups of signals as one file, in the order of time.
+
+    If that fails, an existing file stays as it was.
 
     Args:
-        groups: entries of the same name go on in the next group.
+        groups: the groups; entries of the same name are continued.
         path: the file, ending in .wpilog.
         units: name of an entry -> its unit, for the entry's metadata.
 
@@ -83,7 +90,7 @@ def write_signals(groups: Sequence[SignalGroup], path: Path, *, units: Mapping[s
 
 
 def _list_records(group: SignalGroup, ids: Mapping[str, int]) -> Iterator[tuple[int, int, bytes]]:
-    """Time [µs], number of the entry, and payload of each record."""
+    """Time [µs], entry id, and payload of each record."""
     times = [round(SECOND * time) for time in group.time.tolist()]
     for name, values in group.signals.items():
         for time, value in zip(times, values.tolist(), strict=True):
@@ -94,18 +101,18 @@ def _list_records(group: SignalGroup, ids: Mapping[str, int]) -> Iterator[tuple[
 
 
 def _pack(time: int, number: int, payload: bytes) -> bytes:
-    """One record: four bytes for its size, eight for its time, one for the entry's number."""
+    """One record with four bytes for its size, eight for its time, and one for the entry id."""
     return struct.pack("<BBIQ", 0b01111100, number, len(payload), time) + payload
 
 
 class SignalRecorder:
-    """A WPILOG file to which values are added as they come.
+    """A WPILOG file to which values are appended.
 
     Args:
         path: the file, which must not exist.
 
     Raises:
-        BadRequest: it cannot be written.
+        BadRequest: the file exists, or cannot be written.
     """
 
     def __init__(self, path: Path) -> None:
@@ -127,16 +134,16 @@ class SignalRecorder:
         """Add one value of a signal.
 
         Args:
-            name: of the entry; the first value of a name and a type starts one.
+            name: name of the entry, which starts with its first value.
             kind: type of the entry: ``string``, or one of ``PACKING``.
-            time: [µs].
-            value: what it is.
-            metadata: of the entry.
+            time: time of the value [µs].
+            value: the value.
+            metadata: metadata of the entry.
         """
         if (name, kind) not in self._numbers:
             self._numbers[name, kind] = number = len(self._numbers) + 1
-            said = make_start_payload(Start(number, name, kind, metadata))
-            self._stream.write(_pack_long(time, 0, said))
+            start = make_start_payload(Start(number, name, kind, metadata))
+            self._stream.write(_pack_long(time, 0, start))
         if isinstance(value, str):
             payload = value.encode("utf-8", "replace")
         else:
@@ -148,10 +155,10 @@ class SignalRecorder:
         self._stream.flush()
 
     def close(self) -> None:
-        """Write what is left and close the file."""
+        """Write buffered values and close the file."""
         self._stream.close()
 
 
 def _pack_long(time: int, number: int, payload: bytes) -> bytes:
-    """One record; four bytes for its size and for the entry's number, eight for its time."""
+    """One record with four bytes for its size and for the entry id, and eight for its time."""
     return struct.pack("<BIIQ", 0b01111111, number, len(payload), time) + payload

@@ -1,8 +1,8 @@
-"""Read a WPILOG file window by window, and keep only the records of entries that are wanted.
+"""Read a WPILOG file window by window, and keep only the records of wanted entries.
 
-A match's log has hundreds of entries, of which a fit needs four. Of the others no value is kept,
-so that memory does not grow with the file. Whatever makes a file damaged is kept: records of no
-entry, and records of a size that their type cannot have.
+A match's log has hundreds of entries, of which a fit needs four. Values of the others are dropped
+to save memory. Records that show damage are kept: those without an entry, and those with a wrong
+size for their type.
 """
 
 from collections.abc import Callable
@@ -30,9 +30,9 @@ from sim.io.formats.wpilog.records import (
 
 Wanted: TypeAlias = Callable[[Start], bool]
 
-FIRST = 1 << 17  # [bytes] of the first window: no record of it is dropped
-LARGEST = 1 << 21  # [bytes] of a window; a longer record gets a window of its own
-IDS = 1 << 16  # records with an id above are all kept
+FIRST = 1 << 17  # [bytes] of the first window
+LARGEST = 1 << 21  # [bytes] of a window at most; a longer record gets a window of its own
+IDS = 1 << 16  # records with larger ids are all kept
 
 
 def load_wanted_records(path: Path, wanted: Wanted) -> Records:
@@ -40,12 +40,13 @@ def load_wanted_records(path: Path, wanted: Wanted) -> Records:
 
     Args:
         path: the file.
-        wanted: whether the values of an entry are.
+        wanted: tells whether the values of an entry are wanted.
 
     Raises:
-        UnreadableFile: it is empty, foreign, of a later version, or ends before its first record.
+        UnreadableFile: the file is not a WPILOG file, of a later version, damaged, too large, or
+            ends before its first record.
     """
-    kept = _Kept(wanted)
+    kept = _KeptRecords(wanted)
     end, size = _read_windows(path, kept, at=0)
     found = kept.records(path, size=size, end=end)
     kept.clear()
@@ -53,34 +54,33 @@ def load_wanted_records(path: Path, wanted: Wanted) -> Records:
 
 
 class GrowingFile:
-    """The wanted records of a file that is still being written, read on from where it stopped.
+    """The wanted records of a file that is still being written.
 
     Args:
         path: the file.
-        wanted: whether the values of an entry are.
+        wanted: tells whether the values of an entry are wanted.
     """
 
     def __init__(self, path: Path, wanted: Wanted) -> None:
         self.path = path
-        self._kept = _Kept(wanted)
+        self._kept = _KeptRecords(wanted)
         self._end = 0
 
     def read_appended_records(self) -> Records:
-        """All records so far; a last one that is not whole yet is read the next time.
+        """Read the appended records; returns all so far. An incomplete last one is read later.
 
         Raises:
-            UnreadableFile: it is empty, foreign, of a later version, or ends before its first
-                record.
+            UnreadableFile: as ``load_wanted_records``.
         """
         self._end, size = _read_windows(self.path, self._kept, at=self._end)
         return self._kept.records(self.path, size=size, end=self._end)
 
 
-def _read_windows(path: Path, kept: "_Kept", *, at: int) -> tuple[int, int]:
-    """Keep the wanted records from an offset on; 0 begins behind the preface.
+def _read_windows(path: Path, kept: "_KeptRecords", *, at: int) -> tuple[int, int]:
+    """Keep the wanted records from an offset on; 0 begins after the file header.
 
     Returns:
-        The offset behind the last whole record, and the length of the file.
+        The offset after the last whole record, and the length of the file [bytes].
     """
     with open_log(path) as stream:
         size = stream.seek(0, 2)
@@ -90,13 +90,13 @@ def _read_windows(path: Path, kept: "_Kept", *, at: int) -> tuple[int, int]:
             at = find_first_record(opening, size=size, where=str(path))
         window = FIRST
         while at < size:
-            file = _window(stream, at, window)
+            file = _read_window(stream, at, window)
             start, end = follow_records(file, first=0)
             if not start.size:
                 head = read_headers(file.buffer, np.zeros(1, dtype=np.int64))
                 length = int(head.payload[0] + head.size[0])
                 if length > size - at or length <= file.size:
-                    break  # it is longer than the file, or has no header
+                    break  # the record is longer than the file, or its header is incomplete
                 window = length
                 continue
             kept.add(file, start, base=at)
@@ -105,22 +105,22 @@ def _read_windows(path: Path, kept: "_Kept", *, at: int) -> tuple[int, int]:
     return at, size
 
 
-def _window(stream: IO[bytes], at: int, length: int) -> File:
+def _read_window(stream: IO[bytes], at: int, length: int) -> File:
     stream.seek(at)
     return File(bytearray(stream.read(length)) + bytearray(PAD))
 
 
 @dataclass
-class _Kept:
+class _KeptRecords:
     """The records kept so far.
 
     Args:
-        wanted: which entries are.
+        wanted: tells whether the values of an entry are wanted.
         drop: (IDS,) whether records of an id are dropped.
-        size: (IDS,) the length that their payloads must have; -1 if any will do.
-        pieces: of each window: offset, id, size, time and place of the payload.
-        payloads: of each window, one behind the other.
-        length: of all payloads [bytes].
+        size: (IDS,) length of their payloads [bytes]; -1 if it can vary.
+        pieces: for each window, (5, n) offset, id, size, time and payload offset of each record.
+        payloads: for each window, the payloads joined.
+        length: length of all payloads [bytes].
     """
 
     wanted: Wanted
@@ -131,12 +131,12 @@ class _Kept:
     length: int = 0
 
     def add(self, file: File, start: Numbers, *, base: int) -> None:
-        """Keep what is wanted of a window's records.
+        """Keep the wanted records of a window.
 
         Args:
             file: the window.
-            start: (n,) where its records begin.
-            base: where the window begins in the file.
+            start: (n,) offsets of its records.
+            base: offset of the window in the file.
         """
         head = read_headers(file.buffer, start)
         small = np.minimum(head.id, IDS - 1)
@@ -145,7 +145,9 @@ class _Kept:
             sizes = self.size[small]
             dropped &= (sizes < 0) | (sizes == head.size)
         for number in self._follow_controls(file, head):
-            dropped &= head.id != number  # which of them come before, and which after, says order
+            dropped &= (
+                head.id != number
+            )  # keep all of them: whether they are before or after the control record matters
         keep = np.flatnonzero(~dropped)
         payload, sizes = head.payload[keep], head.size[keep]
         place = self.length + np.cumsum(sizes) - sizes
@@ -157,27 +159,31 @@ class _Kept:
         self.length += int(sizes.sum())
 
     def _follow_controls(self, file: File, head: RecordHeaders) -> set[int]:
-        """Learn from a window's control records; the ids that they speak of."""
-        spoken = set()
+        """Update ``drop`` and ``size`` by a window's control records; the ids in these records."""
+        ids = set()
         for index in np.flatnonzero(head.id == 0).tolist():
             begin = int(head.payload[index])
-            said = parse_control_record(bytes(file.content[begin : begin + int(head.size[index])]))
-            if said is None:
+            control = parse_control_record(
+                bytes(file.content[begin : begin + int(head.size[index])])
+            )
+            if control is None:
                 continue
-            spoken.add(said.id)
-            if said.id < IDS:
-                self.drop[said.id] = isinstance(said, Start) and not self.wanted(said)
-                self.size[said.id] = SIZES.get(said.type, -1) if isinstance(said, Start) else -1
-        return spoken
+            ids.add(control.id)
+            if control.id < IDS:
+                self.drop[control.id] = isinstance(control, Start) and not self.wanted(control)
+                self.size[control.id] = (
+                    SIZES.get(control.type, -1) if isinstance(control, Start) else -1
+                )
+        return ids
 
     def records(self, path: Path, *, size: int, end: int) -> Records:
-        """All that was kept."""
+        """All records kept so far."""
         table = np.concatenate([np.zeros((5, 0), dtype=np.int64), *self.pieces], axis=1)
         self.pieces[:] = [table]
         file = File(bytearray().join([*self.payloads, bytes(PAD)]))
         return Records(path, size, file, table[0], end, RecordHeaders(*table[1:]))
 
     def clear(self) -> None:
-        """Let go of what was kept."""
+        """Release the memory of the kept records."""
         self.pieces.clear()
         self.payloads.clear()

@@ -1,8 +1,7 @@
-"""Writing a WPILOG file as SysIdRoutine does: each loop the data, then the name of the test.
+"""Write a WPILOG file as SysIdRoutine does: in each loop the data, then the name of the test.
 
-One thing differs. SysIdRoutine stamps the test's name later than the data of the same loop, so that
-the first loop of every test falls outside of it; here both carry the same time, and nothing is
-lost.
+There is one difference: SysIdRoutine gives the test's name a later time than the data of the same
+loop, so the first loop of every test is lost. Here, both have the same time.
 """
 
 import lzma
@@ -21,10 +20,10 @@ from sim.io.formats.wpilog.control import Start, make_start_payload
 from sim.io.formats.wpilog.records import MAGIC, MAJOR, Bytes, Numbers
 
 SECOND = 1e6  # [µs]
-PACKED = ".wpilogxz"  # suffix of a log that is packed with xz
-REST = 1_000_000  # [µs] before a run that has to be moved behind the one before it
-LOOP = 20_000  # [µs] how long the only sample of a run lasts
-MECHANISM, MOTOR = "Mechanism", "motor"  # names where the log has none
+PACKED = ".wpilogxz"  # suffix of a log compressed with xz
+REST = 1_000_000  # [µs] pause before a run that is moved after the run before it
+LOOP = 20_000  # [µs] duration of a run with only one sample
+MECHANISM, MOTOR = "Mechanism", "motor"  # names if the log has none
 JAVA = {  # unit of ours -> WPILib's name for it
     "meters": "Meter",
     "feet": "Foot",
@@ -39,11 +38,11 @@ def write(log: Log, path: Path) -> None:
     """Write the runs of a log one after another.
 
     Times are rounded to microseconds. A run that begins before the last one has ended is moved
-    behind it, with its own spacing kept.
+    after it as a whole.
 
     Args:
-        log: what to write; positions go out in its ``units``.
-        path: the file; one that ends in .wpilogxz is packed.
+        log: the log to write; positions are written in its ``units``.
+        path: the file; one that ends in .wpilogxz is compressed.
 
     Raises:
         BadRequest: the log has no runs, or a run without samples.
@@ -53,35 +52,35 @@ def write(log: Log, path: Path) -> None:
             "a run of the log has no samples" if log.runs else "the log has no runs",
             advice="Write a log whose runs all have samples.",
         )
-    times = _in_line([_microseconds(run.time) for run in log.runs])
+    times = _order_runs([_to_microseconds(run.time) for run in log.runs])
     ends = [_end(time, after) for time, after in zip(times, [*times[1:], None], strict=True)]
-    names = [*NEEDED, *(one for one in OPTIONAL if _recorded(log, one))]
+    names = [*NEEDED, *(one for one in OPTIONAL if _has_signal(log, one))]
     ids = {name: number for number, name in enumerate([*names, "state"], start=1)}
     width = _width(ends[-1])
     parts = [MAGIC + struct.pack("<HI", MAJOR << 8, 0)]
     parts += [
-        _record(0, int(times[0][0]), make_start_payload(entry), width)
+        _pack_record(0, int(times[0][0]), make_start_payload(entry), width)
         for entry in _entries(log, ids)
     ]
     for run, time, end in zip(log.runs, times, ends, strict=True):
-        parts.append(_loops(run, time, ids, width=width, si=UNITS[log.units].si))
-        parts.append(_record(ids["state"], end, IDLE[0].encode(), width))
+        parts.append(_pack_loops(run, time, ids, width=width, si=UNITS[log.units].si))
+        parts.append(_pack_record(ids["state"], end, IDLE[0].encode(), width))
     content = b"".join(parts)
     path.write_bytes(lzma.compress(content) if path.suffix.lower() == PACKED else content)
 
 
-def _recorded(log: Log, name: str) -> bool:
+def _has_signal(log: Log, name: str) -> bool:
     return any(getattr(run, name) is not None for run in log.runs)
 
 
-def _microseconds(time: Array) -> Numbers:
-    """Whole microseconds; times closer together than that are moved one apart."""
+def _to_microseconds(time: Array) -> Numbers:
+    """Times in whole microseconds, which differ by at least one."""
     steps = np.arange(time.size)
     rounded = np.rint(time * SECOND).astype(np.int64)
     return np.maximum.accumulate(rounded - steps) + steps
 
 
-def _in_line(times: Sequence[Numbers]) -> list[Numbers]:
+def _order_runs(times: Sequence[Numbers]) -> list[Numbers]:
     """The times of all runs, each moved so that it begins after the one before has ended."""
     placed: list[Numbers] = []
     earliest = 0
@@ -95,14 +94,14 @@ def _in_line(times: Sequence[Numbers]) -> list[Numbers]:
 
 
 def _end(time: Numbers, after: Numbers | None) -> int:
-    """When a run is over: a typical loop after its last sample, or when the next one begins."""
+    """End of a run [µs]: a typical loop after its last sample, or the start of the next run."""
     loop = int(np.median(np.diff(time))) if time.size > 1 else LOOP
     end = int(time[-1]) + max(loop, 1)
     return end if after is None else min(end, int(after[0]))
 
 
 def _entries(log: Log, ids: dict[str, int]) -> Iterator[Start]:
-    """The entries of a mechanism with one motor, in the words of WPILib's Java."""
+    """The entries of a mechanism with one motor, with units as WPILib writes them in Java."""
     mechanism = log.mechanism or MECHANISM
     motor = log.mechanism.lower() or MOTOR
     unit = JAVA[log.units]
@@ -115,7 +114,7 @@ def _entries(log: Log, ids: dict[str, int]) -> Iterator[Start]:
             yield Start(number, f"{name}-{motor}-{mechanism}", "double", metadatum)
 
 
-def _loops(run: Run, time: Numbers, ids: dict[str, int], *, width: int, si: float) -> bytes:
+def _pack_loops(run: Run, time: Numbers, ids: dict[str, int], *, width: int, si: float) -> bytes:
     """All loops of a run: one record for each signal it has, then one for the test's name."""
     signals = {name: getattr(run, name) for name in ids if name != "state"}
     signals |= {"position": run.position / si, "velocity": run.velocity / si}
@@ -128,13 +127,13 @@ def _loops(run: Run, time: Numbers, ids: dict[str, int], *, width: int, si: floa
         table[name]["bits"] = _bits(width)
         table[name]["id"] = ids[name]
         table[name]["size"] = array.dtype.itemsize
-        table[name]["time"] = _digits(time, width)
+        table[name]["time"] = _low_bytes(time, width)
         table[name]["value"] = array
     return table.tobytes()
 
 
-def _record(number: int, time: int, payload: bytes, width: int) -> bytes:
-    """One record; its size takes four bytes, as a name may be long."""
+def _pack_record(number: int, time: int, payload: bytes, width: int) -> bytes:
+    """One record with four bytes for its size, because a name can be long."""
     head = struct.pack("<BBI", _bits(width) | 3 << 2, number, len(payload))
     return head + time.to_bytes(width, "little") + payload
 
@@ -145,10 +144,10 @@ def _bits(width: int) -> int:
 
 
 def _width(last: int) -> int:
-    """How many bytes the latest time takes."""
+    """Number of bytes for the latest time."""
     return max(1, (last.bit_length() + 7) // 8)
 
 
-def _digits(time: Numbers, width: int) -> Bytes:
-    """(n, width) the low bytes of each time."""
+def _low_bytes(time: Numbers, width: int) -> Bytes:
+    """The low bytes of each time (n, width)."""
     return time.astype("<u8").view(np.uint8).reshape(-1, 8)[:, :width]
