@@ -1,27 +1,27 @@
-// A mechanism that moves as simulated, beside its plots: one clock for both.
+// An animated mechanism and plots of its motion, with a common time cursor.
 //
 // The page holds <figure class="motion" data-motion> with its data as JSON (see __init__.py). Each
-// copy of this script starts every such figure that does not live yet, so that it works wherever
-// HTML is put into a page: an output of JupyterLab, or a page without a server.
+// copy of this script starts every such figure that was not started yet, so that it works in an
+// output of JupyterLab and in a page without a server.
 
 import { makeModel, simulateRun } from "./simulate.js";
 import { STAGES, draw } from "./stages.js";
 
-const SHORTEST = 3; // [s] that a play takes at least: what is over sooner is shown in slow motion
-const LONGEST = 12; // [s] that it takes at most
-const HIGH = { one: 170, many: 120 }; // [px] of a panel that is alone or holds areas, and of one of several
+const SHORTEST = 3; // [s] least duration of a play: shorter scenes are shown in slow motion
+const LONGEST = 12; // [s] largest duration of a play
+const HIGH = { one: 170, many: 120 }; // [px] height of a single panel or one with areas, and of one of several
 const EDGE = { left: 46, right: 14, top: 6, bottom: 22 };
-const MOVES = 0.02; // [m/s] slower is standing
+const MOVES = 0.02; // [m/s] slower counts as standing
 const TERMS = [["kS·sgn(v)", 0], ["kV·v", 1], ["kA·a", 2]]; // a term and its color
 
-/** A number, or what a knob makes of it. */
+/** The value of a number, or of a gain that a knob sets. */
 const resolve = (value, knobs) =>
   (value === null || typeof value === "number" ? value : value.plus + value.times * knobs[value.knob]);
 
 const resolveAll = (values, knobs) =>
   Object.fromEntries(Object.entries(values).map(([name, value]) => [name, resolve(value, knobs)]));
 
-/** The volts of a feedforward with these gains along a velocity, each held until the next time. */
+/** The volts of a feedforward for a target velocity, each held until the next time. */
 export function feedforward({ time, target }, gains) {
   return time.map((now, k) => {
     if (k + 1 >= time.length) return 0;
@@ -31,7 +31,7 @@ export function feedforward({ time, target }, gains) {
   });
 }
 
-/** A motion with its numbers; one that has gains is simulated, here and now. */
+/** A motion with its signals, which are simulated if the motion has gains. */
 function moveMotion(motion, scene, knobs) {
   if (!motion.gains) return motion;
   const gains = resolveAll(motion.gains, knobs);
@@ -50,14 +50,14 @@ function findVoltage(motion, scene, knobs, move) {
     : scene.time.map(() => resolve(motion.voltage, knobs) ?? 0);
 }
 
-/** The volts of a test that ends when the mark has passed and a thumb has reacted. */
+/** The volts of a test that ends when the mark was passed and the driver has reacted. */
 function driveTest({ ramp, step, mark, reaction, timeout }, time, move) {
   const asked = time.map((now) => (now < (timeout ?? Infinity) ? step + ramp * now : 0));
   const passed = move(asked).position.findIndex((place) => place > (mark ?? Infinity));
   return passed < 0 ? asked : asked.map((volts, k) => (time[k] < time[passed] + reaction ? volts : 0));
 }
 
-/** How far each position is ahead of the one that was asked for. */
+/** Each position minus the target position. */
 function addErrors(motions) {
   const asked = motions.find((motion) => motion.asked);
   return motions.map((motion) => ({
@@ -96,7 +96,7 @@ class Animation {
     this.playWhenSeen();
   }
 
-  /** What does not depend on the width: controls, and places for the pictures. */
+  /** Create the parts that do not depend on the width: controls, and containers of the drawings. */
   build() {
     const { data, figure } = this;
     const knobs = create(figure, "div", { className: "motion-knobs" });
@@ -143,7 +143,7 @@ class Animation {
 
   /** Space plays and pauses; arrows on the time line move the cursor by a hundredth. */
   press(event) {
-    event.stopPropagation(); // the notebook has shortcuts of its own
+    event.stopPropagation(); // so that the notebook does not handle the key
     if (event.key === " " && event.target !== this.button && event.target.tagName !== "SELECT") {
       event.preventDefault();
       this.toggle();
@@ -156,7 +156,7 @@ class Animation {
     }
   }
 
-  /** A try of a race: the clock starts with the first. */
+  /** Count a try; the time limit starts with the first. */
   count() {
     this.tries++;
     if (this.began !== undefined || !this.data.score?.seconds) return;
@@ -172,7 +172,7 @@ class Animation {
     this.fit(true);
   }
 
-  /** Simulate the scene that is picked with the knobs as they stand. */
+  /** Simulate the selected scene with the current values of the knobs. */
   compute() {
     const scene = this.data.scenes[this.picked.join("|")];
     const motions = scene.motions.map((motion) => moveMotion(motion, scene, this.knobs));
@@ -186,7 +186,7 @@ class Animation {
     if (this.rules) this.judge();
   }
 
-  /** Tick the rules that the plan keeps. */
+  /** Tick the rules that the plan meets. */
   judge() {
     this.rules.replaceChildren();
     for (const rule of this.data.rules) {
@@ -213,7 +213,7 @@ class Animation {
     return this.knobs[measure];
   }
 
-  /** Say how far the motion that counts is from the target, and which try was the best. */
+  /** Show the error of the scored motion, and the best try. */
   rank() {
     const { motion, unit, seconds } = this.data.score;
     const { motions, target } = this.scene;
@@ -233,7 +233,7 @@ class Animation {
     create(this.score, "span", { textContent: said.map((one) => ` · ${one}`).join("") });
   }
 
-  /** Draw for the width that there is; nothing happens where neither it nor the scene changed. */
+  /** Draw for the current width, if the width or the scene has changed. */
   fit(changed = false) {
     const width = Math.round(this.figure.clientWidth);
     if (!width || (width === this.width && !changed)) return;
@@ -261,7 +261,7 @@ class Animation {
     return motion.color === null ? "currentColor" : this.data.colors[motion.color];
   }
 
-  /** One plot over time: axes that do not move, its curves, and a line for the cursor. */
+  /** Draw one plot over time: fixed axes, its curves, and a line for the cursor. */
   drawPanel(panel, width) {
     const shown = this.scene.motions.filter((motion) => motion[panel.signal]?.length);
     const now = create(this.panels, "ul", { className: "motion-now" });
@@ -327,7 +327,7 @@ class Animation {
     }
   }
 
-  /** What friction, speed and acceleration take of the first motion's volts, stacked from zero. */
+  /** Draw the shares of kS, kV and kA in the first motion's volts, stacked from zero. */
   drawTerms(svg, now, { toX, toY }) {
     const { time, motions: [{ gains, velocity }] } = this.scene;
     const middle = velocity.slice(1).map((after, k) => (velocity[k] + after) / 2);
@@ -336,7 +336,7 @@ class Animation {
       middle.map((v) => gains.kV * v),
       velocity.slice(1).map((after, k) => (gains.kA * (after - velocity[k])) / (time[k + 1] - time[k])),
     ];
-    for (const term of takes) term.push(term.at(-1)); // up to the last time of the drive
+    for (const term of takes) term.push(term.at(-1)); // hold the last value to the end
     const [above, below] = [takes[0].map(() => 0), takes[0].map(() => 0)];
     for (const [name, color] of TERMS) {
       let best = null;
@@ -397,7 +397,7 @@ class Animation {
     this.pictures++;
   }
 
-  /** What is seen at the cursor, for a screen reader. */
+  /** A description of the state at the cursor, for a screen reader. */
   words() {
     const { unit } = this.data.stage;
     const each = this.scene.motions.map(({ name }, i) =>
@@ -432,7 +432,7 @@ class Animation {
     requestAnimationFrame(frame);
   }
 
-  /** Play once when it comes into sight, unless its reader has asked for less motion. */
+  /** Play once when the figure becomes visible, unless the user prefers reduced motion. */
   playWhenSeen() {
     if (matchMedia("(prefers-reduced-motion: reduce)").matches) return;
     const watch = new IntersectionObserver(([{ isIntersecting }]) => {

@@ -1,4 +1,4 @@
-// The mechanisms as they are drawn: each function draws one into an SVG and returns what moves it.
+// Drawings of the mechanisms: each function draws one into an SVG and returns a function to move it.
 //
 //     draw(svg, stage, motions, width) -> { height, move(states) }
 //
@@ -21,7 +21,7 @@ const ghosts = (motions) => motions.map((motion, at) => ({ ...motion, at })).fil
 const place = (element, x, y, angle = 0) =>
   element.setAttribute("transform", `translate(${x.toFixed(2)} ${y.toFixed(2)}) rotate(${angle.toFixed(2)})`);
 
-/** How something is painted: full in its color, or as a dashed outline. */
+/** SVG attributes of a filled shape, or of a dashed outline. */
 function paint(motion) {
   return motion.ghost
     ? { fill: "none", stroke: motion.color, "stroke-width": 1.8, "stroke-dasharray": "4 3" }
@@ -87,7 +87,7 @@ function drawCar(parent, motion, long) {
 function drawDrivetrain(svg, stage, motions, width) {
   const lane = 58;
   const { toX, scale, height, lanes } = drawFloor(svg, stage, motions, width, lane);
-  const long = Math.min(Math.max(0.8 * scale, 30), 56); // [px] a robot is 0.8 m long, and always seen
+  const long = Math.min(Math.max(0.8 * scale, 30), 56); // [px] a robot is 0.8 m long, but always visible
   const cars = lanes.flatMap((motion, row) =>
     [...ghosts(motions), motion].map((one) => ({ ...drawCar(svg, one, long), at: one.at, y: lane * (row + 1) - 4 })));
   const star = stage.wall === null ? null : draw(svg, "text", { "font-size": 26, class: "motion-hit" }, "✸");

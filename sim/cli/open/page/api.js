@@ -1,6 +1,6 @@
-// What the page asks its server; addresses are relative, so nothing else is ever asked.
+// Requests of the page to its server; addresses are relative, so no other server is used.
 
-/** A refusal of the server: what is wrong, where, and what to do next. */
+/** An error of the server: what is wrong, where, and what to do next. */
 export class Refused extends Error {
   constructor({ what, where, advice, kind }) {
     super(what);
@@ -11,7 +11,7 @@ export class Refused extends Error {
   }
 }
 
-/** Open a dropped file; its number and its name. */
+/** Open a dropped file; returns its number and its name. */
 export function openFile(file) {
   return ask(`logs?name=${encodeURIComponent(file.name)}`, { method: "POST", body: file });
 }
@@ -21,17 +21,17 @@ export function openExample() {
   return ask("example", { method: "POST" });
 }
 
-/** The logs that were named on the command line, or opened before the page was loaded again. */
+/** The open logs: those named on the command line, or opened before the page was reloaded. */
 export function listLogs() {
   return ask("logs");
 }
 
-/** What this page shows of every log: the data alone, and how marked spans are written. */
+/** The view: whether the page shows the data alone, and the text format of marked spans. */
 export function askView() {
   return ask("view");
 }
 
-/** What sysid watch follows, and the logs that grow. */
+/** The status of sysid watch, and the logs that grow. */
 export function askLive() {
   return ask("live");
 }
@@ -41,7 +41,7 @@ export function closeLog(id) {
   return ask(`logs/${id}`, { method: "DELETE" });
 }
 
-/** What the server knows of a log: summary, faults, fit, directions, code. */
+/** Data about a log: summary, faults, fit, directions or code. */
 export function askLog(id, what, query = {}) {
   return ask(addressOf(id, what, query));
 }
@@ -51,7 +51,7 @@ export async function askSamples(id, query) {
   return new Float64Array(await (await fetchOrRefuse(addressOf(id, "samples", query))).arrayBuffer());
 }
 
-/** Where something about a log is. */
+/** The address of data about a log. */
 export function addressOf(id, what, query = {}) {
   const given = Object.entries(query).filter(([, value]) => value !== undefined && value !== "");
   const text = new URLSearchParams(given).toString();

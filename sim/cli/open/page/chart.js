@@ -1,8 +1,8 @@
-// The chart: velocity measured and simulated, what is left between both, and the voltage; or the
-// signals of the log alone (signals.js), in which spans can be marked.
+// The chart: measured and simulated velocity, the residual, and the voltage; or the signals of the
+// log alone (signals.js), in which spans can be marked.
 //
-// Two canvases lie on each other. The lower one holds what stands still while a gain is moved; the
-// upper one the simulated curve and the cursor, drawn once a picture.
+// There are two canvases. The lower one holds what does not depend on the gains; the upper one holds
+// the simulated curve and the cursor, and is drawn once per frame.
 
 import { rangeOf } from "./drawing.js";
 import { FIT_PANELS, drawFit, drawMeasured, drawOther, errorRange, fitMarks } from "./fit_panels.js";
@@ -12,8 +12,8 @@ import { SIGNAL_PANELS, deriveSignals, drawSignals, signalMarks, signalRanges } 
 import { Timeline, firstNotBefore } from "./timeline.js";
 
 const GAP = 26, OVERVIEW = 34; // [px]
-const CLOSEST = 0.08; // [s] a view is never shorter
-const DOTS = 5; // [px] between samples from which each is a dot of its own
+const CLOSEST = 0.08; // [s] shortest visible interval
+const DOTS = 5; // [px] distance of samples from which each is drawn as a dot
 
 export class Chart {
   constructor(still, moving, { onCursor, onSpans }) {
@@ -22,7 +22,7 @@ export class Chart {
     this.onCursor = onCursor;
     this.onSpans = onSpans;
     this.showsSignals = false;
-    this.dragMarks = true; // in the view of the signals; Shift turns it round
+    this.dragMarks = true; // whether dragging marks a span in the view of the signals; Shift inverts it
     this.spans = new Map();
     this.pictures = 0;
     this.runs = [];
@@ -57,14 +57,14 @@ export class Chart {
     this.showAll();
   }
 
-  /** Show the signals of the log alone, or what was measured against what is simulated. */
+  /** Show the signals of the log alone, or the measured signals with the simulated ones. */
   showSignals(on) {
     this.showsSignals = on;
     this.prepareSignals();
     this.resize();
   }
 
-  /** Time steps and slopes, once they are needed. */
+  /** Time steps and slopes, computed when they are needed. */
   prepareSignals() {
     if (!this.showsSignals || !this.timeline || this.derived) return;
     this.derived = deriveSignals(this.runs);
@@ -95,20 +95,20 @@ export class Chart {
     this.redraw();
   }
 
-  /** Lay runs of another log over those of the same test: {color, run, time, velocity}. */
+  /** Draw runs of another log over those of the same test: {color, run, time, velocity}. */
   setOthers(others) {
     this.others = others;
     this.redraw();
   }
 
-  /** The simulated curves, {first, velocity} or null for each run; the picture comes at once. */
+  /** Set the simulated curves, {first, velocity} or null for each run, and draw them at once. */
   setSimulation(simulated, noise) {
     this.simulated = simulated;
     this.noise = noise;
     this.requestMoving();
   }
 
-  /** Zoom to a stretch of the axis, with some room on both sides. */
+  /** Zoom to an interval of the axis, with a margin on both sides. */
   show(from, to, room = 0.04) {
     const extra = room * Math.max(to - from, CLOSEST);
     this.setView(from - extra, to + extra);
@@ -164,7 +164,7 @@ export class Chart {
     });
   }
 
-  /** Fit the canvases to their place, in real pixels. */
+  /** Fit the canvases to their container, in device pixels. */
   resize() {
     const { clientWidth, clientHeight } = this.still.parentElement;
     const sharp = Math.min(devicePixelRatio || 1, 3);
@@ -189,7 +189,7 @@ export class Chart {
     this.redraw();
   }
 
-  /** Read the colors of the theme anew. */
+  /** Read the colors of the theme again. */
   readColors() {
     const style = getComputedStyle(document.documentElement);
     const names = ["ink", "quiet", "rule", "card", "measured", "simulated", "volts", "fault", "band", "stripe", "position", "mark"];
@@ -205,14 +205,14 @@ export class Chart {
     return this.view[0] + ((x - this.left) / (this.right - this.left)) * (this.view[1] - this.view[0]);
   }
 
-  /** From a value to a height in a panel. */
+  /** A function from a value to a height in a panel. */
   heights(name) {
     const { top, bottom } = this.panels[name];
     const [low, high] = this.rangeOfPanel(name);
     return (value) => bottom - ((value - low) / (high - low)) * (bottom - top);
   }
 
-  // ---- what stands still
+  // ---- static parts
 
   drawStill() {
     const to = this.still.getContext("2d");
@@ -230,7 +230,7 @@ export class Chart {
     drawOverview(this, to);
   }
 
-  /** Draw nothing beside the runs; with the name of a panel, nothing beside that panel. */
+  /** Clip drawing to the runs; with the name of a panel, to that panel. */
   clip(to, draw, name) {
     const { top, bottom } = this.panels[name] ?? { top: 8, bottom: this.overview.top - AXIS - 2 };
     to.save();
@@ -241,7 +241,7 @@ export class Chart {
     to.restore();
   }
 
-  /** One curve of one run; where samples are closer than pixels, from lowest to highest. */
+  /** Draw one curve of a run; if samples are closer than pixels, from the lowest to the highest. */
   curve(to, run, first, values, y, { color, width, alpha = 1, dots = false, steps = false }) {
     const { time } = this.runs[run];
     const begins = this.timeline.offsets[run] - time[0];
@@ -296,7 +296,7 @@ export class Chart {
     if (this.cursor) drawCursor(this, to, (this.showsSignals ? signalMarks : fitMarks)(this, this.cursor));
   }
 
-  // ---- moving about
+  // ---- moving and zooming
 
   stepCursor(by) {
     let { run, sample } = this.cursor ?? this.timeline.sampleAt(this.view[0]);

@@ -1,4 +1,4 @@
-// Rows to choose the signals of a log from, where they are not found by name.
+// Rows to choose the entries of signals that were not found by name.
 
 import { figure, text } from "./elements.js";
 
@@ -9,7 +9,7 @@ const ROLES = [
   ["state", "Name of the running test", true],
 ];
 
-/** A row for each signal: its entries to choose from, and a picture of the one that is chosen. */
+/** A row for each signal: a menu of entries, and a small plot of the chosen one. */
 export function makeSignalRows(entries, chosen) {
   return ROLES.map(([role, words, isText]) => {
     const row = text("label", "", "signal");
@@ -33,7 +33,7 @@ export function makeSignalRows(entries, chosen) {
   });
 }
 
-/** A small picture of an entry. */
+/** A small plot of an entry. */
 function sparkline(values) {
   const svg = "http://www.w3.org/2000/svg";
   const [low, high] = [Math.min(...values), Math.max(...values)];

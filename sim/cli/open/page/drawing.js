@@ -1,4 +1,4 @@
-// Small things of drawing that the chart and its panels share.
+// Drawing functions that the chart and its panels share.
 
 export function line(to, x, y, toX, toY) {
   to.beginPath();
@@ -19,7 +19,7 @@ export function rangeOf(arrays) {
   return low <= high ? [low, high] : [-1, 1];
 }
 
-/** A tick's number without noise of the arithmetic, with a true minus. */
+/** The text of a tick, without rounding errors, with a minus sign (−). */
 export function short(value) {
   return String(Number(value.toPrecision(6))).replace("-", "−");
 }

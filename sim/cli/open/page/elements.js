@@ -1,6 +1,6 @@
-// Small things that every part of the page is made of.
+// Functions that make elements of the page.
 
-/** A sentence of the command line for this page: code set apart, a number kept with its sign. */
+/** A sentence of the command line as nodes: options get the page's words, and code is marked. */
 export function prose(words) {
   const here = words.replaceAll("± ", "±\u00a0").replaceAll(" %", "\u00a0%").replace(/(\d) (V|rad)\b/g, "$1\u00a0$2")
     .replace(/([Ss])ay --(type|units)\b/g, (_, s, what) => `${s === "S" ? "Choose" : "choose"} the ${what} above`)

@@ -1,4 +1,4 @@
-// The view of a fit: velocity measured and simulated, what is left between both, and the voltage.
+// The view of a fit: measured and simulated velocity, the residual, and the voltage.
 
 import { drawGrid } from "./frame.js";
 
@@ -8,7 +8,7 @@ export const FIT_PANELS = [
   { name: "voltage", share: 0.25 },
 ];
 
-/** Draw what moves with a gain: the simulated curve, and what is left between it and the measured. */
+/** Draw the curves that depend on the gains: simulated velocity and residual. */
 export function drawFit(chart, to) {
   drawGrid(chart, to, "error");
   const [y, height] = [chart.heights("velocity"), chart.heights("error")];
@@ -28,7 +28,7 @@ export function drawFit(chart, to) {
   });
 }
 
-/** How far the error's panel reaches, in round steps so that it does not tremble. */
+/** Limit of the residual's axis, in round steps so that it does not flicker. */
 export function errorRange(chart) {
   let most = 6 * (chart.noise ?? 0);
   for (const [k, one] of chart.simulated.entries()) {
@@ -60,7 +60,7 @@ export function drawOther(chart, to, { color, run, time, velocity }) {
   to.globalAlpha = 0.75;
   to.beginPath();
   const stride = Math.max(1, Math.floor(time.length / 4000));
-  const [begins, end] = chart.timeline.spanOf(run); // a longer run of another log ends with ours
+  const [begins, end] = chart.timeline.spanOf(run); // a longer run of another log is cut off
   for (let k = 0; k < time.length && begins + time[k] - time[0] <= end; k += stride) {
     to.lineTo(chart.xOf(begins + time[k] - time[0]), y(velocity[k]));
   }

@@ -1,10 +1,10 @@
-// What every view of the chart has: runs, faults, grids, times, overview, marked spans and cursor.
+// Parts of every view of the chart: runs, faults, grids, times, overview, marked spans, cursor.
 
 import { line, short } from "./drawing.js";
 import { stepTitle } from "./signals.js";
 import { roundTicks } from "./timeline.js";
 
-export const TOP = 44, AXIS = 24; // [px] above the panels, and for the times below them
+export const TOP = 44, AXIS = 24; // [px] height above the panels, and of the times below them
 const TITLES = {
   velocity: ({ symbol }) => `velocity, ${symbol}/s`,
   error: ({ symbol }) => `measured − simulated, ${symbol}/s`,
@@ -13,7 +13,7 @@ const TITLES = {
   step: stepTitle,
 };
 
-/** A stripe and a name for each run. */
+/** Draw a stripe and a name for each run. */
 export function drawRuns(chart, to) {
   const { stripe, ink, quiet } = chart.colors;
   const { bottom } = chart;
@@ -95,7 +95,7 @@ export function drawGrid(chart, to, name) {
   to.globalAlpha = 1;
 }
 
-/** Times below the runs: in the log's own time, or since each test began in the view of the signals. */
+/** Draw times below the runs: those of the log, or in the view of the signals since each test began. */
 export function drawTimes(chart, to) {
   const { quiet, rule } = chart.colors;
   const at = chart.bottom + 17;
@@ -121,7 +121,7 @@ export function drawTimes(chart, to) {
   to.textAlign = "left";
 }
 
-/** The whole log in small, and which part of it is seen. */
+/** Draw an overview of the whole log, and which part of it is visible. */
 export function drawOverview(chart, to) {
   const { top, bottom } = chart.overview;
   const { measured, simulated, rule, fault, stripe } = chart.colors;
@@ -163,7 +163,7 @@ export function drawOverview(chart, to) {
   }
 }
 
-/** The spans that a person marked, each with two edges to take hold of. */
+/** Draw the spans that the user marked, each with two edges to drag. */
 export function drawSpans(chart, to) {
   const { mark } = chart.colors;
   for (const [run, span] of chart.spans) {

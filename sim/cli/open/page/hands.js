@@ -1,15 +1,15 @@
-// What hands do on the chart: wheel, mouse, touch and keyboard.
+// Input on the chart: wheel, mouse, touch and keyboard.
 
-const ZOOM = 1.25; // by one step of a key or a wheel
-const CURSOR_STEP = 10; // [samples] with Shift
-const STILL = 4; // [px] a pointer that moves less marks nothing
-const EDGE = 8; // [px] from an edge of a span within which it is taken hold of
+const ZOOM = 1.25; // factor per step of a key or a wheel
+const CURSOR_STEP = 10; // [samples] step of the cursor with Shift
+const STILL = 4; // [px] a shorter drag marks nothing
+const EDGE = 8; // [px] distance within which an edge of a span can be dragged
 
-/** Let a chart be moved, zoomed and marked. */
+/** Add the event handlers that move, zoom and mark a chart. */
 export function listen(chart) {
   const { moving } = chart;
   const pointers = new Map();
-  let drag = null; // what the pointer that is down does: {kind, x, run, anchor}
+  let drag = null; // the current action of the pointer: {kind, x, run, anchor}
   moving.addEventListener("wheel", (event) => {
     if (!chart.timeline) return;
     event.preventDefault();
@@ -52,7 +52,7 @@ export function listen(chart) {
   });
 }
 
-/** What a pointer that goes down will do. */
+/** The action that a pointer starts when it is pressed. */
 function beginDrag(chart, { offsetX, offsetY, shiftKey }) {
   if (offsetY > chart.overview.top - 4) return { kind: "overview" };
   if (!chart.showsSignals) return { kind: "pan" };
@@ -63,7 +63,7 @@ function beginDrag(chart, { offsetX, offsetY, shiftKey }) {
   return { kind: "mark", x: offsetX, run, anchor: sample };
 }
 
-/** The span whose edge lies at x: its run, and the sample of its other edge. */
+/** The marked span with an edge at x: its run, and the sample of its other edge. */
 function edgeAt(chart, x) {
   for (const [run, span] of chart.spans) {
     for (const [k, sample] of span.entries()) {

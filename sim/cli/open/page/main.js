@@ -1,4 +1,4 @@
-// The page: which logs are open, which one is seen, and what is known of it.
+// The page: the open logs, the selected log, and its results.
 
 import {
   Refused, addressOf, askLive, askLog, askSamples, askView, closeLog, listLogs, openExample, openFile,
@@ -11,18 +11,18 @@ import { Sliders } from "./sliders.js";
 import { writeSpans } from "./spans.js";
 import { storyParts } from "./story.js";
 
-const MOST_SHOWN = 12; // faults in the list before the rest is folded away
+const MOST_SHOWN = 12; // faults in the list; further ones are collapsed
 const SIGNALS = 4; // arrays of a run: time, voltage, position, velocity
 
 const at = (id) => document.getElementById(id);
 const logs = new Map();
 const begun = new Set(); // numbers of the logs that are or were open
 let active = null;
-let view = { raw: false, span_text: {} }; // what the server says that this page shows
+let view = { raw: false, span_text: {} }; // the PageView of the server
 
 const chart = new Chart(at("still"), at("moving"), { onCursor: showCursor, onSpans: showSpans });
 const sliders = new Sliders(at("sliders"), moveGains);
-window.sysid = { chart, sliders, logs, begin }; // for tests, and for the curious
+window.sysid = { chart, sliders, logs, begin }; // for tests and for debugging
 
 // ---- opening logs
 
@@ -32,9 +32,9 @@ async function openAll(files) {
   }));
 }
 
-/** Take a log that the server opened: read it, show it, then ask for faults and gains.
+/** Add a log that the server opened: read it, show it, then request faults and gains.
  *
- * One that was dropped while the page asked which logs are open is named twice, and begun once.
+ * A log that is dropped while the page requests the open logs is named twice, but added once.
  */
 async function begin({ id, name, revision = 0 }) {
   if (begun.has(id)) return;
@@ -71,7 +71,7 @@ async function load(log) {
   setLoading(log, false);
 }
 
-/** Cut the samples into runs; positions and velocities in the log's own unit, times in seconds. */
+/** Split the samples into runs; positions and velocities in the log's unit, times in seconds. */
 function take(log, summary, samples) {
   log.summary = summary;
   let from = 0;
@@ -116,7 +116,7 @@ async function askFit(log, asked) {
   if (active === log.id) showDoubts();
 }
 
-/** Do something for one file; what goes wrong is shown, and nothing else stops. */
+/** Do something for one file; an error is shown, and the rest of the page keeps working. */
 async function guarded(name, work) {
   try {
     await work();
@@ -135,9 +135,9 @@ function forget(id) {
 
 // ---- logs that grow
 
-const LOOK = 500; // [ms] between two questions what has been recorded
+const LOOK = 500; // [ms] between two requests for the status of sysid watch
 
-/** Follow what sysid watch follows: read a log anew whenever a test in it has ended. */
+/** Follow the logs of sysid watch: read a log again whenever a test in it has ended. */
 async function followLive() {
   for (;;) {
     const live = await askLive();
@@ -172,13 +172,13 @@ function showLive({ status, counts, next }) {
   });
   at("live-tests").replaceChildren(...words);
   const said = at("live-next");
-  if (said.dataset.said !== next) said.replaceChildren(...prose(next)); // said once, not at every look
+  if (said.dataset.said !== next) said.replaceChildren(...prose(next)); // only when it has changed
   said.dataset.said = next;
 }
 
 // ---- signals that are not found by name
 
-/** Where signals are missing and the file has entries, let a person choose; whether it is so. */
+/** If signals are missing and the file has entries, let the user choose; returns whether so. */
 async function offerChoice(log, problem) {
   if (problem.kind !== "MissingSignal") return false;
   const entries = log.choice?.entries ?? await askLog(log.id, "entries").catch(() => []);
@@ -205,7 +205,7 @@ at("signals").addEventListener("submit", (event) => {
 
 // ---- simulating
 
-/** Simulate every run of a log with gains in its own unit; the error, and the curves in `log`. */
+/** Simulate every run of a log with gains in its unit; returns the error, sets curves in `log`. */
 function simulate(log, gains) {
   const { si } = log.summary.units;
   const inSi = { ...gains, kV: gains.kV / si, kA: gains.kA / si };
@@ -261,7 +261,7 @@ function activate(id) {
   else clear(logs.get(id));
 }
 
-/** The frame of a log that is still being read. */
+/** Show a log that is still being read. */
 function clear(log) {
   at("title").textContent = log?.name ?? "";
   at("facts").textContent = "Reading…";
@@ -307,7 +307,7 @@ function setDrag(marks) {
   for (const one of at("drag").children) one.setAttribute("aria-pressed", String((one.value === "mark") === marks));
 }
 
-/** What was marked, as it is pasted. */
+/** Show the text of the marked spans. */
 function showSpans(spans) {
   const log = logs.get(active);
   if (!log?.runs) return;
@@ -347,7 +347,7 @@ function showFaults() {
     return;
   }
   chart.setFaults(marks(log));
-  const growing = log.revision > 0; // a test that is not recorded yet is no fault
+  const growing = log.revision > 0; // then a missing test is not a fault
   const faults = log.faults.faults.filter(({ fault }) => !(growing && fault === "missing-test"));
   const rows = faults.slice(0, MOST_SHOWN).map((one) => faultCard(one));
   if (faults.length > MOST_SHOWN) rows.push(item("busy", `${faults.length - MOST_SHOWN} more are marked on the time axis.`));
@@ -408,7 +408,7 @@ function showFit() {
   showSimulation(log);
 }
 
-/** Feedback gains to start from, as SysId suggests them. */
+/** Feedback gains to start with, as SysId suggests them. */
 function showFeedback({ feedback }) {
   const rows = Object.entries(feedback).map(([loop, { kP, kD }]) => {
     const pair = document.createElement("div");
@@ -436,9 +436,9 @@ function doubtItem({ message, grave }) {
   return made;
 }
 
-// ---- what the model lacks
+// ---- missing effects
 
-const POLL = 250; // [ms] between two questions how far a search is
+const POLL = 250; // [ms] between two requests for the progress of a search
 
 async function reconcile(log) {
   const { asked } = log;
@@ -566,7 +566,7 @@ function showTabs() {
   showOthers();
 }
 
-/** Lay the runs of other logs over those of the same test, the first over the first. */
+/** Draw the runs of other logs over those of the same test, in their order. */
 function showOthers() {
   const log = logs.get(active);
   if (!log?.runs) return;
@@ -601,7 +601,7 @@ function setLoading(log, busy) {
   if (log.id === active) at("loading").classList.toggle("busy", busy);
 }
 
-// ---- small things
+// ---- helper functions
 
 function say(words) {
   const toast = at("toast");
@@ -611,7 +611,7 @@ function say(words) {
   say.waiting = setTimeout(() => toast.classList.remove("seen"), 2600);
 }
 
-/** The gains that stand elsewhere than the fit put them. */
+/** The gains that differ from those of the fit. */
 function movedGains({ fit, gains }) {
   const moved = fit.gains.filter(({ name, value }) => gains[name] !== value);
   return Object.fromEntries(moved.map(({ name }) => [name, gains[name]]));
@@ -637,7 +637,7 @@ async function copy(place) {
   }
 }
 
-// ---- hands
+// ---- input
 
 at("file").addEventListener("change", (event) => {
   openAll(event.target.files);
@@ -700,7 +700,7 @@ at("theme").addEventListener("click", () => {
 });
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => chart.readColors());
 
-/** Samples of a step with noise, on the first screen. */
+/** Draw samples of a step with noise, on the first screen. */
 function drawHero() {
   const svg = "http://www.w3.org/2000/svg";
   const dots = Array.from({ length: 46 }, (_, k) => {
@@ -722,7 +722,7 @@ function drawHero() {
   }
 }
 
-/** The gains stay in sight while one scrolls; a column that is taller than the screen, by its end. */
+/** Keep the gains visible while scrolling; of a column taller than the screen, its end. */
 new ResizeObserver(([{ target }]) => {
   target.style.setProperty("--top", `${Math.min(12, innerHeight - target.offsetHeight - 12)}px`);
 }).observe(document.querySelector(".side"));

@@ -1,5 +1,5 @@
-// The signals of a log and nothing else: voltage, velocity, position and time steps, all runs on the
-// same axes. The slope of the position lies over the velocity, so that both can be compared.
+// The signals of a log without a fit: voltage, velocity, position and time steps, all runs on the
+// same axes. The slope of the position is drawn over the velocity, so that both can be compared.
 
 import { line, rangeOf, short } from "./drawing.js";
 
@@ -9,19 +9,19 @@ export const SIGNAL_PANELS = [
   { name: "position", share: 0.24 },
   { name: "step", share: 0.2 },
 ];
-const LATE = 1.5; // [median time steps] a longer one has a sample missing
-const LEAST_STEPS = 2.5, MOST_STEPS = 10; // [median time steps] to which their axis reaches
-const SEEN = 0.01; // [share] of the slopes at either end that may lie beyond the axis
-const MOST_SORTED = 20000; // samples of which a share is found
-const NEAR_ZERO = 1; // [ranges] from the positions within which their axis reaches to zero
+const LATE = 1.5; // [median time steps] in a longer one, a sample is missing
+const LEAST_STEPS = 2.5, MOST_STEPS = 10; // [median time steps] range of the upper end of their axis
+const SEEN = 0.01; // [share of the slopes] that may lie outside the axis, at each end
+const MOST_SORTED = 20000; // samples used for a quantile at most
+const NEAR_ZERO = 1; // [ranges of the positions] distance from zero within which their axis includes zero
 
-/** The title of the panel of the time steps: it names the dashed line. */
+/** The title of the panel of time steps, which explains the dashed line. */
 export function stepTitle({ derived }) {
   return `time step, ms; dashed: 1.5 × the median, ${short(Number(derived.late.toPrecision(3)))} ms`;
 }
 
-/** Of each run the time before each sample [ms] and the slope of the position; of all runs the median
- * time step [ms], and from where one is too long. */
+/** For each run, the time step before each sample [ms] and the slope of the position; for all runs,
+ * the median time step [ms], and the limit above which a time step is too long [ms]. */
 export function deriveSignals(runs) {
   const runsWith = runs.map(({ time, position }) => {
     const last = time.length - 1;
@@ -36,7 +36,7 @@ export function deriveSignals(runs) {
   return { runs: runsWith, median, late: LATE * median };
 }
 
-/** From where to where each panel reaches. */
+/** The limits of each panel. */
 export function signalRanges(runs, derived, { velocity, voltage }) {
   const slopes = derived.runs.map(({ slope }) => slope);
   const [low, high] = [share(slopes, SEEN), share(slopes, 1 - SEEN)];
@@ -73,7 +73,7 @@ export function drawSignals(chart, to) {
   drawLate(chart, to);
 }
 
-/** The line above which a time step is longer than it may be. */
+/** Draw the limit above which a time step is too long. */
 function drawLate(chart, to) {
   const y = Math.round(chart.heights("step")(chart.derived.late)) + 0.5;
   to.strokeStyle = chart.colors.quiet;
@@ -99,7 +99,7 @@ export function signalMarks(chart, { run, sample }) {
   return marks;
 }
 
-/** The value below which a share of all values lies. */
+/** A quantile: the value below which a share of all values lies. */
 function share(arrays, part) {
   const count = arrays.reduce((sum, one) => sum + one.length, 0);
   const stride = Math.max(1, Math.floor(count / MOST_SORTED));

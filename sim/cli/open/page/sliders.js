@@ -1,11 +1,11 @@
 // The gains: a slider and a number for each, with the fit's own value and its error marked.
 
-const STEPS = 2000; // of a slider from end to end
-const TINY = 0.0001; // smaller errors are told as smaller than that
+const STEPS = 2000; // steps of a slider
+const TINY = 0.0001; // smaller errors are shown as an upper bound
 const MOST_DECIMALS = 9;
-const DIGITS = 5; // of a gain that is shown; of a small one fewer, so that it has room
+const DIGITS = 5; // significant digits of a gain; small gains have fewer, to fit the field
 
-/** Rows of sliders in a form; calls back with {kS: 0.2, …} whenever a gain is moved. */
+/** Rows of sliders in a form; calls a function with {kS: 0.2, …} whenever a gain changes. */
 export class Sliders {
   constructor(form, onMove) {
     this.form = form;
@@ -24,7 +24,7 @@ export class Sliders {
     return Object.fromEntries(this.rows.map((row) => [row.gain.name, row.value]));
   }
 
-  /** Whether a gain stands elsewhere than the fit put it. */
+  /** Whether a gain differs from that of the fit. */
   get isMoved() {
     return this.rows.some((row) => row.value !== row.gain.value);
   }
@@ -76,19 +76,19 @@ export class Sliders {
     return row;
   }
 
-  /** Put every gain where the fit had it. */
+  /** Set every gain to that of the fit. */
   reset() {
     for (const row of this.rows) row.put(row.gain.value);
     this.onMove(this.values);
   }
 }
 
-/** How a gain is called. */
+/** The label of a gain. */
 export function nameOf(name) {
   return name === "offset_rad" ? "angle" : name;
 }
 
-/** From where to where a gain can be moved. */
+/** The range of the slider of a gain. */
 function endsOf({ name, value }) {
   if (name === "kS") return [Math.min(0, 2 * value), Math.max(2 * value, 0.6)];
   if (name === "kG") return [value - Math.max(Math.abs(value), 0.5), value + Math.max(Math.abs(value), 0.5)];
@@ -96,14 +96,14 @@ function endsOf({ name, value }) {
   return value > 0 ? [0.02 * value, 2 * value] : [2 * value, Math.max(-0.5 * value, 0.1)];
 }
 
-/** A gain with as many digits as its error leaves, and no more than have room. */
+/** A gain rounded to the precision of its error, and to the width of the field. */
 function rounded(value, error) {
   const digits = Math.abs(value) < 0.01 ? DIGITS - 2 : DIGITS;
   const kept = error > 0 ? Math.min(Math.max(1 - Math.floor(Math.log10(error)), 0), MOST_DECIMALS) : MOST_DECIMALS;
   return String(Number(Number(value.toPrecision(digits)).toFixed(kept))).replace("-", "−");
 }
 
-/** A standard error in two digits; a tiny one only as tiny. */
+/** A standard error with two digits; a negligible one as an upper bound. */
 function errorText({ error, error_text: words }) {
   if (error === null) return words;
   return error < TINY ? `< ${TINY}` : String(Number(error.toPrecision(2)));

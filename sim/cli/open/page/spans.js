@@ -1,8 +1,8 @@
-// The spans that a person marks in a log, written as an exercise asks for them.
+// The time spans that the user marks in a log, in the text format of an exercise.
 
-const FINEST = 100; // steps of a second in which times are written
+const FINEST = 100; // times are rounded to 1/FINEST s
 
-/** The text to paste: of every span its test, and its seconds since the test began. */
+/** The text to paste: the test of each span, and its seconds since the test began. */
 export function writeSpans({ before, span, between, after }, { name, runs }, spans) {
   const log = name.replace(/\.[^.]*$/, "");
   const fill = (pattern, words) => pattern.replace(/\{(\w+)\}/g, (whole, key) => words[key] ?? whole);
@@ -14,7 +14,7 @@ export function writeSpans({ before, span, between, after }, { name, runs }, spa
   return parts.length ? fill(before, { log }) + parts.join(between) + after : "";
 }
 
-/** From and to in seconds since the test began, rounded outward so that both samples are in it. */
+/** Start and end in seconds since the test began, rounded outward to contain both samples. */
 function secondsOf({ time }, [first, last]) {
   const since = (sample) => FINEST * (time[sample] - time[0]);
   const begin = Math.floor(since(first) + 0.01) / FINEST;

@@ -2,7 +2,7 @@
 
 import { item, prose, text } from "./elements.js";
 
-/** The headline, the gap of each model, what was found, and where the base model is wrong. */
+/** The headline, the gap of each model, the findings, and where the base model is wrong. */
 export function storyParts(story) {
   const head = text("p", "", "headline");
   head.append(...prose(story.headline));
@@ -23,7 +23,7 @@ export function storyParts(story) {
   return [head, gapBars(story), ...found, list(rest), ...places, text("p", story.how, "quiet")];
 }
 
-/** The gap of each model as a bar: in times the noise, 1 is nothing but noise. */
+/** The gap of each model as a bar, in times the noise; 1 is noise alone. */
 function gapBars({ gaps }) {
   const most = Math.max(1, ...gaps.map(({ gap }) => gap ?? 0));
   const rows = gaps.map(({ name, text: words, gap }, k) => {

@@ -1,8 +1,8 @@
-// The time axis: the runs of a log one behind the other, the time between them cut out.
+// The time axis: the runs of a log one after another, without the time between them.
 
-const GAP = 0.018; // [share of all runs together] between two runs
+const GAP = 0.018; // [share of the length of all runs] gap between two runs
 
-/** Where each run stands on the axis; places are seconds since the first run began. */
+/** The positions of the runs on the axis, in seconds since the start of the first run. */
 export class Timeline {
   constructor(runs) {
     const total = runs.reduce((sum, run) => sum + lasts(run), 0) || 1;
@@ -17,19 +17,19 @@ export class Timeline {
     this.end = Math.max(at - gap, 1e-3);
   }
 
-  /** The place of a time of a run. */
+  /** The position on the axis of a time in a run. */
   placeOf(run, time) {
     return this.offsets[run] + time - this.runs[run].time[0];
   }
 
-  /** The run and the sample nearest to a place. */
+  /** The run and the sample nearest to a position on the axis. */
   sampleAt(place) {
     let run = 0;
     while (run + 1 < this.runs.length && middleOfGap(this, run) < place) run++;
     return { run, sample: this.sampleIn(run, place) };
   }
 
-  /** The sample of a run nearest to a place. */
+  /** The sample of a run nearest to a position on the axis. */
   sampleIn(run, place) {
     const { time } = this.runs[run];
     const when = place - this.offsets[run] + time[0];
@@ -38,13 +38,13 @@ export class Timeline {
     return when - time[before] < time[after] - when ? before : after;
   }
 
-  /** The first and last place of a run. */
+  /** The first and last position of a run on the axis. */
   spanOf(run) {
     return [this.offsets[run], this.offsets[run] + lasts(this.runs[run])];
   }
 }
 
-/** The first place in a rising array whose value is not below another. */
+/** The first index in a rising array whose value is not below another. */
 export function firstNotBefore(values, value) {
   let [low, high] = [0, values.length];
   while (low < high) {
@@ -55,7 +55,7 @@ export function firstNotBefore(values, value) {
   return low;
 }
 
-/** Round numbers between two values, about so many. */
+/** About so many round numbers between two values, for ticks. */
 export function roundTicks(low, high, count) {
   const raw = (high - low) / Math.max(count, 1);
   const power = 10 ** Math.floor(Math.log10(raw || 1));
