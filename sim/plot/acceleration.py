@@ -76,13 +76,13 @@ def _table(samples: Mapping[str, tuple[Array, Array]], per: Unit) -> Table:
 
 def _words(table: Table, per: Unit) -> str:
     """The description of the picture, with the numbers of the table."""
-    said = "The picture shows acceleration against velocity, as recorded and filtered."
+    text = "The picture shows acceleration against velocity, as recorded and filtered."
     for test, samples, slowest, fastest, height, slope in table.rows:
-        said += f" {test} has {samples} samples from {to_text(slowest)} to {to_text(fastest)} "
-        said += f"{per.symbol}/s"
+        text += f" {test} has {samples} samples from {to_text(slowest)} to {to_text(fastest)} "
+        text += f"{per.symbol}/s"
         if isinstance(slope, str):
-            said += ", too few for a line."
+            text += ", too few for a line."
         else:
-            said += f". Their line is at {to_text(height)} {per.symbol}/s² for velocity 0. Its "
-            said += f"slope is {to_text(slope)} per second."
-    return said
+            text += f". Their line is at {to_text(height)} {per.symbol}/s² for velocity 0. Its "
+            text += f"slope is {to_text(slope)} per second."
+    return text

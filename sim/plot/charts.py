@@ -120,13 +120,13 @@ def plot_curves(
         axes.set_yscale("log")
         axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axes.legend(fontsize=8)
-    said = [f"{ylabel} over {xlabel}.", *_curve_sentences(x, lines, levels or {})]
+    sentences = [f"{ylabel} over {xlabel}.", *_curve_sentences(x, lines, levels or {})]
     if marked is not None:
-        said.append(f"A star marks “{mark}”, {to_text(marked[1])} at {marked[0]:g}.")
+        sentences.append(f"A star marks “{mark}”, {to_text(marked[1])} at {marked[0]:g}.")
     rows = tuple(
         _row(f"{x[i]:g}", [float(y[i]) for y in lines.values()]) for i in range(0, len(x), few)
     )
-    return Picture(figure, " ".join(said), Table((xlabel, *lines), rows, caption=ylabel))
+    return Picture(figure, " ".join(sentences), Table((xlabel, *lines), rows, caption=ylabel))
 
 
 def _curve_sentences(

@@ -127,15 +127,15 @@ def describe_faults(log: Log, damage: Sequence[FaultMark], *, drawn: Iterable[in
         damage: marks of its damaged parts.
         drawn: indices of the runs that the picture shows.
     """
-    there, said = set(drawn), ""
+    there, text = set(drawn), ""
     for fault in dict.fromkeys(mark.fault for mark in damage):
         parts = [mark for mark in damage if mark.fault == fault]
         sentences = [_describe_part(log, mark.where, there) for mark in parts[:NAMED]]
         if len(parts) > NAMED:
             sentences.append(f"The fault is in {len(parts) - NAMED} more parts.")
-        said += f" Hatching and the letter {parts[0].letter} mark the fault “{fault}”. "
-        said += " ".join(sentences)
-    return said
+        text += f" Hatching and the letter {parts[0].letter} mark the fault “{fault}”. "
+        text += " ".join(sentences)
+    return text
 
 
 def _check(log: Log, fault: str, where: LogInterval) -> None:
@@ -232,6 +232,6 @@ def _describe_part(log: Log, where: LogInterval, drawn: set[int]) -> str:
     start, end = where.start - run.time[0], where.end - run.time[0]
     whole = where.start <= run.time[0] and where.end >= run.time[-1]
     name = run.test if where.run in drawn else f"Run {where.run}, {run.test},"
-    said = f"{name} is damaged from "
-    said += "its start to its end." if whole else f"{max(start, 0.0):.2f} to {end:.2f} s."
-    return said if where.run in drawn else f"{said} The picture does not show this run."
+    text = f"{name} is damaged from "
+    text += "its start to its end." if whole else f"{max(start, 0.0):.2f} to {end:.2f} s."
+    return text if where.run in drawn else f"{text} The picture does not show this run."

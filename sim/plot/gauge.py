@@ -105,13 +105,13 @@ def find_band(value: float, bands: Mapping[str, float]) -> str:
 def _words(
     rows: tuple[tuple[str, float, str], ...], bands: Mapping[str, float], label: str, low: float
 ) -> str:
-    said = f"A scale of {label} with bands: "
+    text = f"A scale of {label} with bands: "
     names, start, parts = list(bands), low, []
     for name in names[:-1]:
         parts.append(f"{name} from {to_text(start)} to {to_text(bands[name])}")
         start = bands[name]
     parts.append(f"{names[-1]} above {to_text(start)}")
-    said += ", ".join(parts) + "."
+    text += ", ".join(parts) + "."
     for name, value, band in rows:
-        said += f" {name} is {to_text(value)}: {band}."
-    return said
+        text += f" {name} is {to_text(value)}: {band}."
+    return text

@@ -168,9 +168,9 @@ def _two_decimals(value: Cell) -> str:
 
 
 def _time_words(table: Table, per: Unit, names: Sequence[str]) -> str:
-    said = "Four panels show the log over time. The upper two show voltage, the lower two "
-    said += "velocity. The quasistatic tests are on the left, the dynamic tests on the right. A "
-    said += (
+    text = "Four panels show the log over time. The upper two show voltage, the lower two "
+    text += "velocity. The quasistatic tests are on the left, the dynamic tests on the right. A "
+    text += (
         "solid line with circles is a forward test. A dashed line with squares is a reverse test."
     )
     for test, _, lasts, first, last, fastest in table.rows:
@@ -179,14 +179,14 @@ def _time_words(table: Table, per: Unit, names: Sequence[str]) -> str:
             if first == last
             else (f"goes from {_two_decimals(first)} to {_two_decimals(last)} V in")
         )
-        said += f" In {test} the voltage {goes} {lasts:.1f} s, "
-        said += f"and the velocity reaches {_two_decimals(fastest)} {per.symbol}/s."
+        text += f" In {test} the voltage {goes} {lasts:.1f} s, "
+        text += f"and the velocity reaches {_two_decimals(fastest)} {per.symbol}/s."
     for kind in KINDS:
         there = [way for way in DIRECTIONS if any(row[0] == f"{kind}-{way}" for row in table.rows)]
         if len(there) < len(DIRECTIONS):
             lacking = "".join(way for way in DIRECTIONS if not there or way not in there[0])
             which = f"{kind}-{lacking}" if there else f"{kind} test"
-            said += f" There is no {which}."
+            text += f" There is no {which}."
     if len(names) > 1:
-        said += f" A thin dotted black line shows {names[1]} beside the {names[0]}."
-    return said
+        text += f" A thin dotted black line shows {names[1]} beside the {names[0]}."
+    return text

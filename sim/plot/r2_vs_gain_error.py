@@ -148,17 +148,17 @@ def _words(
     off: Mapping[str, Mapping[str, float]] | None,
 ) -> str:
     passing = [name for name, value in scores.items() if value > good]
-    said = (
+    text = (
         f"Each of the {len(scores)} logs has a badge. {len(passing)} have a {score} above {good:g}"
     )
     failing = [name for name in scores if name not in passing]
-    said += f". These do not: {', '.join(failing)}." if failing else "."
+    text += f". These do not: {', '.join(failing)}." if failing else "."
     if off is None:
-        return f"{said} The errors of their gains are hidden."
-    said += " Next to the badges are the errors of the gains."
+        return f"{text} The errors of their gains are hidden."
+    text += " Next to the badges are the errors of the gains."
     for gain, found in off.items():
         sizes = np.abs([found[name] for name in scores])
         worst = max(found, key=lambda name: abs(found[name]))
-        said += f" {gain} is off by more than {PERCENT * float(np.median(sizes)):.0f} % in half of "
-        said += f"the logs. The largest error is {format_percent(found[worst])}, in {worst}."
-    return said
+        text += f" {gain} is off by more than {PERCENT * float(np.median(sizes)):.0f} % in half of "
+        text += f"the logs. The largest error is {format_percent(found[worst])}, in {worst}."
+    return text

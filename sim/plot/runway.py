@@ -157,19 +157,19 @@ def _table(drive: FloorTest) -> Table:
 
 def _words(drive: FloorTest, now: int) -> str:
     tape, passed = drive.floor.tape, _passed(drive)
-    said = f"You see a floor from above. A wall stands at {drive.floor.wall:.1f} m. "
-    said += "There is no tape. " if tape is None else f"A strip of tape lies at {tape:.1f} m. "
+    text = f"You see a floor from above. A wall stands at {drive.floor.wall:.1f} m. "
+    text += "There is no tape. " if tape is None else f"A strip of tape lies at {tape:.1f} m. "
     if passed is not None:
-        said += f"The robot passes it after {passed:.2f} s. "
-    said += f"The motors are off after {drive.released:.2f} s. "
+        text += f"The robot passes it after {passed:.2f} s. "
+    text += f"The motors are off after {drive.released:.2f} s. "
     if drive.hit_wall is not None:
-        said += f"It hits the wall after {drive.hit_wall:.2f} s. "
+        text += f"It hits the wall after {drive.hit_wall:.2f} s. "
     else:
         margin = drive.floor.wall - drive.final_position
-        said += f"It stops at {drive.final_position:.2f} m, {margin:.2f} m before the wall. "
-    said += (
+        text += f"It stops at {drive.final_position:.2f} m, {margin:.2f} m before the wall. "
+    text += (
         f"The picture shows it at {drive.time[now]:.2f} s, {drive.position[now]:.2f} m from the "
     )
-    said += "start. Below are two curves over time. The speed is at most "
-    said += f"{drive.velocity.max():.2f} m/s. The battery has at least {drive.battery.min():.1f} V"
-    return said + (", which is a brownout." if drive.browned_out else ", which is enough.")
+    text += "start. Below are two curves over time. The speed is at most "
+    text += f"{drive.velocity.max():.2f} m/s. The battery has at least {drive.battery.min():.1f} V"
+    return text + (", which is a brownout." if drive.browned_out else ", which is enough.")

@@ -194,15 +194,15 @@ def _words(found: Sequence[GapMap], titles: Sequence[str]) -> str:
         "each run, and one each by speed, by position, by the time since the voltage jumped, and "
         "for where the model stands still."
     )
-    said = [first]
+    sentences = [first]
     for one, title in zip(found, titles, strict=True):
         places = one.find_places(DESCRIBED, signal="velocity")
         if places:
-            said.append(f"{title}: " + ". ".join(place.sentence for place in places) + ".")
+            sentences.append(f"{title}: " + ". ".join(place.sentence for place in places) + ".")
         else:
-            said.append(f"{title}: nowhere clearly more than the noise.")
+            sentences.append(f"{title}: nowhere clearly more than the noise.")
     again = [f"{pair.test}, repeated: what is left {pair.verdict}" for pair in found[0].repeats]
-    return " ".join(said + [". ".join(again) + "."] * bool(again))
+    return " ".join(sentences + [". ".join(again) + "."] * bool(again))
 
 
 def _numbers(found: Sequence[GapMap], titles: Sequence[str]) -> Table:

@@ -157,8 +157,8 @@ def _set_title_and_ticks(axes: Axes, test: str, these: Sequence[_Steps]) -> None
     """Set title and ticks; only few ticks, because drawing their labels is slow."""
     gaps = sum(int(one.gaps.sum()) for one in these)
     count = "no" if not gaps else str(gaps)
-    said = f"{count} gap{'' if gaps == 1 else 's'}" if these else "not in this log"
-    axes.set_title(f"{test}: {said}", fontsize=10, color=INK)
+    text = f"{count} gap{'' if gaps == 1 else 's'}" if these else "not in this log"
+    axes.set_title(f"{test}: {text}", fontsize=10, color=INK)
     axes.xaxis.set_major_locator(MaxNLocator(6, steps=[1, 2, 5, 10]))
     axes.yaxis.set_major_locator(MaxNLocator(3, steps=[1, 2, 5, 10]))
 
@@ -166,20 +166,20 @@ def _set_title_and_ticks(axes: Axes, test: str, these: Sequence[_Steps]) -> None
 def _words(all_steps: Sequence[_Steps], *, median: float, top: float) -> str:
     total = sum(one.length.size for one in all_steps)
     gaps = sum(int(one.gaps.sum()) for one in all_steps)
-    said = "One panel for each test shows the time from each sample to the next. A "
-    said += f"solid line marks the median of these time steps, {to_text(median)} ms. "
-    said += f"A dotted line marks {GAP:g} times the median. "
+    text = "One panel for each test shows the time from each sample to the next. A "
+    text += f"solid line marks the median of these time steps, {to_text(median)} ms. "
+    text += f"A dotted line marks {GAP:g} times the median. "
     if not gaps:
         longest = max(float(one.length.max()) for one in all_steps)
-        return said + (
+        return text + (
             f"None of the {total} time steps is above the dotted line. The longest is "
             f"{to_text(longest)} ms."
         )
     verb, mark = (
         ("is", "a diamond marks this gap") if gaps == 1 else ("are", "diamonds mark these gaps")
     )
-    said += f"{gaps} of the {total} time steps {verb} above the dotted line "
-    said += f"({_share(gaps, total)}): {mark}."
+    text += f"{gaps} of the {total} time steps {verb} above the dotted line "
+    text += f"({_share(gaps, total)}): {mark}."
     for one in all_steps:
         where = np.flatnonzero(one.gaps)
         if not where.size:
@@ -188,14 +188,14 @@ def _words(all_steps: Sequence[_Steps], *, median: float, top: float) -> str:
         listed = ", ".join(f"{to_text(one.length[i])} ms at {one.after[i]:.2f} s" for i in worst)
         only = "" if where.size <= DESCRIBED else f" The {DESCRIBED} longest:"
         gap = "gap" if where.size == 1 else "gaps"
-        said += f" {one.run.test} has {where.size} {gap}{only and '.'}{only or ':'} {listed}."
+        text += f" {one.run.test} has {where.size} {gap}{only and '.'}{only or ':'} {listed}."
     beyond = sum(int((one.length > top).sum()) for one in all_steps)
     if beyond:
         verb, mark = (
             ("is", "a triangle marks it") if beyond == 1 else ("are", "triangles mark them")
         )
-        said += f" {beyond} of them {verb} too long for the panel: {mark} at the upper edge."
-    return said
+        text += f" {beyond} of them {verb} too long for the panel: {mark} at the upper edge."
+    return text
 
 
 def _share(part: int, total: int) -> str:

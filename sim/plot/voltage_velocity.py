@@ -187,20 +187,20 @@ def _direction_text(way: str) -> str:
 
 
 def _words(ramps: Sequence[_Ramps], lines: Mapping[str, Line], per: Unit, *, top: float) -> str:
-    said = (
+    text = (
         "Two panels show voltage against velocity. The first shows the whole voltage ramp, and the "
     )
-    said += "second only the slow part."
+    text += "second only the slow part."
     for one in ramps:
         index = int(np.argmax(np.abs(one.velocity)))
         moving = _moving(one, top=top)
         tests = f"{one.way} test" if one.runs == 1 else f"{one.runs} {one.way} tests"
-        said += f" The {one.velocity.size} samples of the {tests} reach "
-        said += (
+        text += f" The {one.velocity.size} samples of the {tests} reach "
+        text += (
             f"{_decimals(one.velocity[index])} {per.symbol}/s at {_decimals(one.voltage[index])} V"
         )
         fast = f"{_direction_text(one.way)} faster than {MOVING * top:.2f} {per.symbol}/s"
-        said += (
+        text += (
             f". At {_decimals(one.voltage[moving][0])} V, the mechanism moves {fast} for the "
             "first time"
             if moving.any()
@@ -208,14 +208,14 @@ def _words(ramps: Sequence[_Ramps], lines: Mapping[str, Line], per: Unit, *, top
         )
         stray = _rms_from_line(one, top=top)
         if stray is not None:
-            said += (
+            text += (
                 f". While it moves, the samples are {stray:.3f} V (RMS) away from a straight line"
             )
-        said += "."
+        text += "."
     for name, line in lines.items():
-        said += f" The line “{name}” is at {line.intercept:.3f} V for velocity 0, and rises by "
-        said += f"{line.slope:.3f} V per {per.symbol}/s."
-    return said
+        text += f" The line “{name}” is at {line.intercept:.3f} V for velocity 0, and rises by "
+        text += f"{line.slope:.3f} V per {per.symbol}/s."
+    return text
 
 
 def _table(ramps: Sequence[_Ramps], lines: Mapping[str, Line], per: Unit, *, top: float) -> Table:

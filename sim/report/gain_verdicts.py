@@ -37,18 +37,18 @@ def write_gain_verdict(found: Fit, log: Log | None = None) -> str:
     usable: list[str] = []
     others: dict[str, list[str]] = {}
     for name in sorted(found.gains, key=lambda name: name != "kV"):  # kV first
-        said = _format_error(name, found.gains[name], found.errors.get(name, math.nan))
+        error = _format_error(name, found.gains[name], found.errors.get(name, math.nan))
         label = "angle" if name == "offset_rad" else name
         if _is_usable(name, found.gains[name], found.errors.get(name, math.nan)):
-            usable.append(f"{label} usable ({said})")
+            usable.append(f"{label} usable ({error})")
         else:
             advice = _advice(name, log) if log is not None else ""
-            others.setdefault(advice, []).append(f"{label} not usable ({said})")
+            others.setdefault(advice, []).append(f"{label} not usable ({error})")
     groups = [
         ", ".join(several) + (f": {what}" if what else "") for what, several in others.items()
     ]
-    said = "; ".join([", ".join(usable), *groups] if usable else groups) + "."
-    return f"{said}{_write_caution(found, usable)}"
+    text = "; ".join([", ".join(usable), *groups] if usable else groups) + "."
+    return f"{text}{_write_caution(found, usable)}"
 
 
 def _write_caution(found: Fit, usable: Sequence[str]) -> str:

@@ -138,12 +138,12 @@ def describe_inertia(turned: "MomentOfInertia") -> str:
     least, most = turned.without_rotors
     share = turned.error / turned.value
     error = f"± {turned.error:.2g} kg·m²" if share > FINEST else f"kg·m² (± less than {FINEST:.1%})"
-    said = " (computed from the speeds)" if turned.lever == turned.lever_seen else ""
+    remark = " (computed from the speeds)" if turned.lever == turned.lever_seen else ""
     if turned.lever_seen is None:
-        said = ", which cannot be checked, as the log of going straight is not in meters"
+        remark = ", which cannot be checked, as the log of going straight is not in meters"
     return (
         f"Moment of inertia {turned.value:.3g} {error}: mass · lever · kA turning / kA "
-        f"straight, with a lever of {turned.lever:.3g} m{said}. This includes wheels and "
+        f"straight, with a lever of {turned.lever:.3g} m{remark}. This includes wheels and "
         "rotors. They usually count like 3 to 10 % of the mass; without them the robot has "
         f"{least:.3g} to {most:.3g} kg·m²."
     )

@@ -121,14 +121,14 @@ class PageRequest(BaseHTTPRequestHandler):
                 method(steps[1:], query)
         except Refusal as refusal:
             folder = str(self.server.session.folder)
-            said = page_data.describe_refusal(refusal, folder)
-            self._send_json({"refusal": said}, HTTPStatus.UNPROCESSABLE_ENTITY)
+            error_data = page_data.describe_refusal(refusal, folder)
+            self._send_json({"refusal": error_data}, HTTPStatus.UNPROCESSABLE_ENTITY)
         except (ConnectionError, TimeoutError):
             self.close_connection = True
         except Exception as error:  # noqa: BLE001 - one broken log must not end the others
             what = f"our mistake, not yours ({type(error).__name__}: {error})"
-            said = {"what": what, "where": "", "advice": "Try sysid fit, which says more."}
-            self._send_json({"refusal": said}, HTTPStatus.INTERNAL_SERVER_ERROR)
+            error_data = {"what": what, "where": "", "advice": "Try sysid fit, which says more."}
+            self._send_json({"refusal": error_data}, HTTPStatus.INTERNAL_SERVER_ERROR)
 
     def _is_ours(self) -> bool:
         """Whether the Host and Origin headers are those of our own page."""
@@ -281,8 +281,12 @@ class PageRequest(BaseHTTPRequestHandler):
 
     def _refuse(self, status: HTTPStatus, what: str) -> None:
         self.close_connection = True  # the request's body, if any, is not read
-        said = {"what": what, "where": "", "advice": "Open the address that sysid open printed."}
-        self._send_json({"refusal": said}, status)
+        error_data = {
+            "what": what,
+            "where": "",
+            "advice": "Open the address that sysid open printed.",
+        }
+        self._send_json({"refusal": error_data}, status)
 
     def _send(
         self, content: bytes, kind: str, *, status: HTTPStatus = HTTPStatus.OK, page: bool = False

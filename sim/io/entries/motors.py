@@ -276,19 +276,19 @@ def _make_missing_error(found: Sequence[MotorEntries], search: _Search) -> Missi
     signal = lacking[0]
     mechanism = search.state.mechanism or "<mechanism>"
     name = f"{signal}-{motor.name or '<motor>'}-{mechanism}"
-    said = [f"no {signal} entry: expected {name!r} (double)"]
+    details = [f"no {signal} entry: expected {name!r} (double)"]
     if len(lacking) > 1:
-        said.append(f"{' and '.join(lacking[1:])} missing too")
-    said += [
+        details.append(f"{' and '.join(lacking[1:])} missing too")
+    details += [
         f"{entry.name!r} {explain_unfit_entry(entry, kinds=NUMBERS)}"
         for entry in search.entries
         if _split_signal_name(entry.name, signal, search)
     ]
     near = _find_similar_names(signal, search.entries, search.state.mechanism)
     if near:
-        said.append(f"entries with similar names: {quote_names(near)}")
+        details.append(f"entries with similar names: {quote_names(near)}")
     return MissingSignal(
-        "; ".join(said),
+        "; ".join(details),
         where=search.where,
         advice=f"{_advise_logging(signal)}. Or name another logger's entries: {FLAGS}. {EXPORT}",
     )
@@ -312,12 +312,14 @@ def make_no_motor_error(
         else "no motor has a voltage, a position and a velocity that all change"
     )
     near = [name for signal in NEEDED for name in _find_similar_names(signal, entries, mechanism)]
-    said = f". Entries with similar names: {quote_names(list(dict.fromkeys(near)))}" if near else ""
+    details = (
+        f". Entries with similar names: {quote_names(list(dict.fromkeys(near)))}" if near else ""
+    )
     arrays = [one.name for one in entries if one.type.endswith("[]") and identify_signal(one)]
-    said += f". Arrays cannot be used: {quote_names(arrays)}" if arrays else ""
+    details += f". Arrays cannot be used: {quote_names(arrays)}" if arrays else ""
     return MissingSignal(
         f"{what} during the tests. Each motor needs three entries: voltage, position and "
-        f"velocity{said}",
+        f"velocity{details}",
         where=where,
         advice=f"Log all three of each motor, or name the entries: {FLAGS}. {EXPORT}",
     )

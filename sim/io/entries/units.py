@@ -168,8 +168,8 @@ def choose_scale(signals: Mapping[str, Entry], *, options: ReadOptions, where: s
     stands_in = signals["velocity"] is signals["position"]  # only its slope is used
     needed = [signal for signal in NEEDED if not (stands_in and signal == "velocity")]
     texts = {signal: find_unit_text(signals[signal], signal) for signal in needed}
-    said = {signal: parse_signal_unit(text, signal) for signal, text in texts.items()}
-    stated = [found.units for name in ("position", "velocity") if (found := said.get(name))]
+    parsed = {signal: parse_signal_unit(text, signal) for signal, text in texts.items()}
+    stated = [found.units for name in ("position", "velocity") if (found := parsed.get(name))]
     if options.units is None and len({UNITS[units].angular for units in stated}) > 1:
         raise BadRequest(
             f"the position is in {texts['position']!r} and the velocity in {texts['velocity']!r}, "
@@ -181,8 +181,8 @@ def choose_scale(signals: Mapping[str, Entry], *, options: ReadOptions, where: s
     factors, doubts = {}, []
     for signal, text in texts.items():
         wanted = VOLTS if signal == "voltage" else units
-        factors[signal] = _factor(said[signal], wanted, ordered=options.units is not None)
-        problem = _problem(text, said[signal], wanted, ordered=options.units is not None)
+        factors[signal] = _factor(parsed[signal], wanted, ordered=options.units is not None)
+        problem = _problem(text, parsed[signal], wanted, ordered=options.units is not None)
         if problem:
             code, what = problem
             name = signals[signal].name
@@ -190,7 +190,7 @@ def choose_scale(signals: Mapping[str, Entry], *, options: ReadOptions, where: s
     others = [
         (found.units, signals[name].name)
         for name in ("position", "velocity")
-        if (found := said.get(name)) and found.units != units
+        if (found := parsed.get(name)) and found.units != units
     ]
     if options.units is not None and others:
         other, name = others[0]
@@ -220,26 +220,26 @@ def _rate_doubt(name: str, where: str) -> Doubt:
     )
 
 
-def _factor(said: StatedUnit | None, units: str, *, ordered: bool) -> float:
+def _factor(stated_unit: StatedUnit | None, units: str, *, ordered: bool) -> float:
     """The factor to ``units``; a unit that the user chose (``ordered``) replaces the file's."""
-    if said is None or said.units == units:
-        return said.factor if said else 1.0
-    return 1.0 if ordered else said.factor * (UNITS[said.units].si / UNITS[units].si)
+    if stated_unit is None or stated_unit.units == units:
+        return stated_unit.factor if stated_unit else 1.0
+    return 1.0 if ordered else stated_unit.factor * (UNITS[stated_unit.units].si / UNITS[units].si)
 
 
 def _problem(
-    text: str, said: StatedUnit | None, units: str, *, ordered: bool
+    text: str, stated_unit: StatedUnit | None, units: str, *, ordered: bool
 ) -> tuple[str, str] | None:
     """Code and text of the doubt about a unit; None if there is none."""
-    if said is None and text:
+    if stated_unit is None and text:
         return "unknown-unit", f"is {text!r}, which is not understood; it was taken as {units}."
-    if said is None and units != VOLTS and not ordered:
+    if stated_unit is None and units != VOLTS and not ordered:
         return "units-assumed", (
             f"is not stated and was taken as {units}; if that is wrong, add --units."
         )
-    if said is None or (said.units == units and said.factor == 1.0):
+    if stated_unit is None or (stated_unit.units == units and stated_unit.factor == 1.0):
         return None
-    if said.units != units and ordered and units != VOLTS:
+    if stated_unit.units != units and ordered and units != VOLTS:
         return None  # there is one doubt for all signals
     return "converted-units", (
         f"is {text!r} and was converted to {units}. SysId itself does not convert: there, log all "
