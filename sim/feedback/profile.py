@@ -78,9 +78,8 @@ def join_legs(legs: Sequence[Leg], *, start: float = 0.0) -> Profile:
         lasts = count * STEP
         place += speed * lasts + leg.acceleration * lasts * lasts / 2.0
         speed += leg.acceleration * lasts
-        speed = (
-            0.0 if abs(speed) < STEP * abs(leg.acceleration) else speed
-        )  # remove rounding errors at rest
+        # Remove rounding errors at rest
+        speed = 0.0 if abs(speed) < STEP * abs(leg.acceleration) else speed
         begins.append(len(rows))
     time = tuple(STEP * k for k in range(len(rows)))
     position, velocity, acceleration = zip(*rows, strict=True)

@@ -89,10 +89,8 @@ def draw_fault_marks(log: Log, damage: Sequence[FaultMark], *, drawn: Signals) -
     if not damage:
         return
     limits = {axes: axes.get_ylim() for pairs in drawn.values() for axes, _ in pairs}
-    for axes, (
-        bottom,
-        top,
-    ) in limits.items():  # panels may share limits, so all are read before any is changed
+    # Panels may share limits, so all are read before any is changed
+    for axes, (bottom, top) in limits.items():
         margin = MARGIN * (top - bottom)
         axes.set_ylim(bottom - margin, top + margin)
         axes.set_xlim(axes.get_xlim())  # keep the limits when boxes are added

@@ -13,9 +13,8 @@ GOOD = COLORS[2]
 REST = ((COLORS[4], "//"), (COLORS[3], ".."))  # colors and hatches of the other bands
 WORST = (COLORS[1], "xx")
 MOST = len(REST) + 2  # bands at most: these, the good one and the worst
-APART = (
-    0.22  # [half a band's height] largest offset of a mark from the middle, if there are several
-)
+# [half a band's height] largest offset of a mark from the middle, if there are several
+APART = 0.22
 MARGIN = 0.05  # [share of the scale] margin beyond a mark outside the bands
 
 
@@ -75,10 +74,8 @@ def _draw(
 ) -> None:
     """Draw the bands, and the marks on them."""
     low, high = span
-    below, above = (
-        iter(REST),
-        reversed(REST),
-    )  # so that the band after the good one always looks the same
+    # So that the band after the good one always looks the same
+    below, above = iter(REST), reversed(REST)
     start, last, good_ends = low, list(bands)[-1], bands[good]
     for name, end in bands.items():
         rest = below if end < good_ends else above

@@ -125,10 +125,8 @@ class Picture:
         return {"text/plain": str(self), "text/html": self.html}
 
 
-_DATE = {
-    ".svg": "Date",
-    ".pdf": "CreationDate",
-}  # omitted, so that the same picture gives the same file
+# Omitted, so that the same picture gives the same file
+_DATE = {".svg": "Date", ".pdf": "CreationDate"}
 
 
 def make_panels(

@@ -13,7 +13,7 @@ LONG, WIDE = 0.8, 0.8  # [m] size of the robot with its bumpers, as drawn
 BEHIND = 1.2  # [m] of floor behind the start
 TEXT_WIDTH = 0.25  # [share of the floor] width of a label beside the label of the wall
 ROBOT, TAPE, BUMP = COLORS[0], COLORS[3], COLORS[1]
-LAMP_ON = "#F5C2A3"  # pale, so that text over it stays legible
+LAMP = "#F5C2A3"  # pale, so that text over it stays legible
 
 
 def plot_runway(drive: FloorTest, *, moment: float = 1.0) -> Picture:
@@ -119,11 +119,7 @@ def _lamp(axes: Axes, drive: FloorTest) -> None:
         color=INK,
         loc="right",
         x=0.99,  # its frame ends with the floor
-        bbox={
-            "facecolor": LAMP_ON if out else PAPER,
-            "edgecolor": INK,
-            "boxstyle": "round,pad=0.3",
-        },
+        bbox={"facecolor": LAMP if out else PAPER, "edgecolor": INK, "boxstyle": "round,pad=0.3"},
     )
 
 

@@ -26,11 +26,8 @@ FULL_SHADE = 20.0  # [times the noise] at the end of the color scale, about loga
 TICKS = (-20, -5, -1, 0, 1, 5, 20)
 DESCRIBED = 5  # places in the description and in the table
 DECIMALS = 4  # decimals of a tick label at most
-WIDE, ROW, SPARE = (
-    8.4,
-    0.27,
-    0.72,
-)  # [in] width of the picture, height of a row, height around each map
+# [in] width of the picture, height of a row, height around each map
+WIDE, ROW, SPARE = 8.4, 0.27, 0.72
 # Pale tones of Okabe and Ito's blue and orange, so that dark numbers on them stay legible.
 SHADES = LinearSegmentedColormap.from_list("gap", ["#4C9BD1", PAPER, "#F08A4B"])
 NO_SAMPLES = "#E9E9E9"  # no samples

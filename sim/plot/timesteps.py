@@ -26,9 +26,8 @@ NEAR_MEDIAN = 2.5  # [median steps] least height of a panel
 MOST = 160  # ordinary steps drawn in a panel
 MOST_GAPS = 200  # gaps drawn in a panel
 DESCRIBED = 4  # gaps of a test in the description
-EDGE = (
-    0.955  # [share of a panel's height] height of the mark of a gap that is longer than the panel
-)
+# [share of a panel's height] height of the mark of a gap that is longer than the panel
+EDGE = 0.955
 TITLE, ROW, FOOT = 0.3, 1.6, 0.85  # [in] above the panels, for each row of them, and below
 MILLI = 1e3
 

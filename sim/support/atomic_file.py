@@ -7,15 +7,11 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from uuid import uuid4
 
-OWNER_ONLY, USUAL = (
-    0o600,
-    0o666,
-)  # permissions of a new file; the system's umask applies to the second
+# Permissions of a new file; the system's umask applies to the second
+OWNER_ONLY, USUAL = 0o600, 0o666
 OWNER_ONLY_FOLDER = 0o700
-TRIES, PAUSE = (
-    20,
-    0.05,
-)  # number, and [s]: Windows refuses to replace a file while a program reads it
+# Number and pause [s] of tries: Windows cannot replace a file while a program reads it
+TRIES, PAUSE = 20, 0.05
 
 
 def write_atomically(path: Path, content: str | bytes, *, private: bool = False) -> None:

@@ -157,9 +157,8 @@ class PIDController:
             setpoint: target position [m or rad].
         """
         error = setpoint - measurement
-        change = (
-            error - self._last
-        ) / self.period  # in the first loop, the last error is 0, as in WPILib
+        # In the first loop, the last error is 0, as in WPILib
+        change = (error - self._last) / self.period
         self._last = error
         if self.kI:
             most = 1.0 / abs(self.kI)  # WPILib's limit: the integral adds at most one volt
@@ -257,9 +256,8 @@ def follow_in_closed_loop(
 
 Loop = Callable[[ElevatorFeedforward, PIDController, LoopInput], float]
 
-EXAMPLE = LoopInput(
-    Setpoint(0.4, 0.8), Setpoint(0.418, 0.92), 0.37, 0.74
-)  # all numbers differ, so that mistakes can be told apart
+# All numbers differ, so that mistakes can be told apart
+EXAMPLE = LoopInput(Setpoint(0.4, 0.8), Setpoint(0.418, 0.92), 0.37, 0.74)
 CLOSE = 1e-9  # [1] relative tolerance for rounding errors
 RIGHT = "Your loop: right."
 OURS = " The next cells use our loop until then."

@@ -196,9 +196,8 @@ def write_code(one: "OpenLog", reading: "Reading", query: Mapping[str, str]) -> 
     found = one.fit(reading).found.in_log_units()
     moved = {name: float(query[name]) for name in found.gains if _is_number(query.get(name, ""))}
     errors = {name: error for name, error in found.errors.items() if name not in moved}
-    found = replace(
-        found, gains={**found.gains, **moved}, errors=errors
-    )  # a value set by hand has no standard error
+    # A value set by hand has no standard error
+    found = replace(found, gains={**found.gains, **moved}, errors=errors)
     code = write_robot_code(found, language=language, season=int(season))
     if moved:
         code = (

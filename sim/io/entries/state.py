@@ -16,15 +16,8 @@ from sim.io.format import ReadOptions
 
 WORD = "sysid-test-state"
 IDLE = ("none", "")  # its values while no test runs
-FILLERS = (
-    "state",
-    "k",
-    "sysid",
-    "sys",
-    "id",
-    "test",
-    "routine",
-)  # words allowed in addition to a test's name
+# Words allowed in addition to a test's name.
+FILLERS = ("state", "k", "sysid", "sys", "id", "test", "routine")
 FOREVER = 2**62  # [µs] end of a run whose end is not in the file
 
 

@@ -59,10 +59,8 @@ __all__ = [
 FOLDER = Path(__file__).parent
 KINDS = ("drivetrain", "elevator", "arm", "flywheel", "swerve")
 FLOORS = ("drivetrain", "swerve")  # kinds that drive on a floor
-LONG, BEHIND = (
-    0.9,
-    0.16,
-)  # length of a robot with bumpers [m]; largest share of the floor drawn behind its start [1]
+# Length of a robot with bumpers [m]; largest share of the floor drawn behind its start [1]
+LONG, BEHIND = 0.9, 0.16
 DIGITS = 5  # significant digits of what is drawn
 MARGIN = 0.08  # [1] margin of the axes, relative to the range of the values
 DASHES = {"-": "", "--": "7 4", "-.": "8 3 2 3", ":": "2 3"}  # matplotlib's line styles in SVG

@@ -121,8 +121,8 @@ class _Document:
             tuple(runs),
             units=header.units,
             mechanism=header.mechanism,
-            type=header.type
-            or ("simple" if len(form.sides) > 1 else ""),  # two sides: a drivetrain
+            # two sides: a drivetrain
+            type=header.type or ("simple" if len(form.sides) > 1 else ""),
             source=self.where,
             doubts=tuple(doubts),
         )

@@ -20,9 +20,8 @@ from sim.core.errors import BadRequest, MissingSignal
 from sim.io.formats.sysid_json.side import Side, align_signs, find_test_sign, make_doubt
 
 STILL = 0.02  # [share of the other side's largest velocity] below it, an encoder stands still
-APART = (
-    0.2  # [share of the RMS of the mean velocity] a larger RMS difference of the sides is doubted
-)
+# [share of the RMS of the mean velocity] a larger RMS difference of the sides is doubted
+APART = 0.2
 SIDES = ("left", "right")
 MOTORS = (*SIDES, "combined")
 

@@ -308,9 +308,8 @@ def _follow(
     record whose first header byte is new.
     """
     width = stop - at
-    open_here = np.ones(
-        width + 1, dtype=bool
-    )  # the last element stands for all bytes after the window
+    # The last element stands for all bytes after the window
+    open_here = np.ones(width + 1, dtype=bool)
     open_here[:width] = _any_of(buffer[at:stop], shapes)
     begin = np.flatnonzero(open_here[:width])
     after = begin + _lengths(buffer, begin + at, shapes)

@@ -18,12 +18,8 @@ from sim.support.atomic_file import write_atomically
 SECOND = 1e6  # [µs]
 MOST = 255  # [entries] at most, so that an id takes one byte
 PREFACE = MAGIC + struct.pack("<HI", MAJOR << 8, 0)
-PACKING = {
-    "double": "<d",
-    "float": "<f",
-    "int64": "<q",
-    "boolean": "<?",
-}  # type of an entry -> format of a value
+# Type of an entry -> format of a value
+PACKING = {"double": "<d", "float": "<f", "int64": "<q", "boolean": "<?"}
 
 
 @dataclass(frozen=True, eq=False)

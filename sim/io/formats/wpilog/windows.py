@@ -145,9 +145,8 @@ class _KeptRecords:
             sizes = self.size[small]
             dropped &= (sizes < 0) | (sizes == head.size)
         for number in self._follow_controls(file, head):
-            dropped &= (
-                head.id != number
-            )  # keep all of them: whether they are before or after the control record matters
+            # Keep all of them: whether they are before or after the control record matters
+            dropped &= head.id != number
         keep = np.flatnonzero(~dropped)
         payload, sizes = head.payload[keep], head.size[keep]
         place = self.length + np.cumsum(sizes) - sizes
