@@ -98,7 +98,7 @@ def render_story(story: Story, *, title: str) -> str:
             per=find_unit(story.shown.units),
             headline=write_headline(story),
             unsure=story.remainder or story.verdict in {AMBIGUOUS, UNEXPLAINED},
-            beside=list_remarks(story),
+            remarks=list_remarks(story),
             findings=[_describe_finding(one, story) for one in story.findings],
             overview=_html(make_findings_table(story)),
             tests=list_next_tests(story),
