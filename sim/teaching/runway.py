@@ -1,4 +1,4 @@
-"""One test on a floor with a stop mark: when the driver releases the button, where it stops.
+"""One test on a floor with a stop mark: release of the button, braking, and final position.
 
 The voltage of the routine is on until the robot has passed the mark and the driver has reacted, or
 until the timeout. Then the motors brake, limited by back-EMF and grip:
