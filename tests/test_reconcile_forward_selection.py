@@ -22,7 +22,7 @@ from sim.reconcile.forward_selection import (
     find_alternative,
     select_admissible,
 )
-from sim.reconcile.model_selection import HARDLY, WIDENS, choose_likeliest
+from sim.reconcile.model_selection import HARDLY, WIDENS, choose_next
 from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound, WeighedCandidate
 from sim.reconcile.story import TriedCandidate
@@ -40,17 +40,23 @@ def weighed(effect, score, *, gap=0.95, why="", **values):
 @pytest.mark.parametrize(
     ("one", "other", "taken"),
     [
-        (("drag", 45.0), ("heating", 43.0), "drag"),
+        (("drag", 45.0, 0.7), ("heating", 43.0, 0.7), "drag"),
+        (("stribeck", 308.0, 0.74), ("deadband", 237.0, 0.35), "deadband"),  # closes far more
+        (("stribeck", 308.0, 0.74), ("deadband", 237.0, 0.5), "stribeck"),
+        (("stribeck", 308.0, 0.74), ("deadband", 140.0, 0.35), "stribeck"),  # not half as likely
+        (("heating", 308.0, 0.74), ("inertia-change", 280.0, 0.3), "heating"),  # may be an accident
         # an effect and its simpler form: both have paid for their parameters
-        (("spring", 45.0), ("constant-load", 43.0), "spring"),
-        (("constant-load", 45.0), ("spring", 43.0), "constant-load"),
+        (("spring", 45.0, 0.7), ("constant-load", 43.0, 0.7), "spring"),
+        (("constant-load", 45.0, 0.7), ("spring", 43.0, 0.7), "constant-load"),
         # what may be an accident in one run has to be far likelier than what lasts
-        (("inertia-change", 280.0), ("heating", 160.0), "heating"),
-        (("inertia-change", 300.0), ("heating", 160.0), "inertia-change"),
+        (("inertia-change", 280.0, 0.7), ("heating", 160.0, 0.7), "heating"),
+        (("inertia-change", 300.0, 0.7), ("heating", 160.0, 0.7), "inertia-change"),
     ],
 )
-def test_of_two_candidates_the_likelier_is_taken(one, other, taken):
-    assert choose_likeliest([weighed(*one), weighed(*other)]).candidate.effect == taken
+def test_the_likelier_candidate_is_added_or_one_that_closes_far_more(one, other, taken):
+    tried = [weighed(name, score, gap=gap) for name, score, gap in (one, other)]
+
+    assert choose_next(tried).candidate.effect == taken
 
 
 LIMIT = weighed("current-limit", 491.0, limit=4.3)

@@ -17,7 +17,7 @@ from sim.reconcile.cross_validation import (
 )
 from sim.reconcile.local_minimum import minimize, minimize_fully
 from sim.reconcile.model_selection import (
-    choose_likeliest,
+    choose_next,
     is_ordinary_size,
     is_wider,
     list_blocked_candidates,
@@ -125,7 +125,7 @@ def _add_effects(data: SelectionData, rounds: list[SelectionRound]) -> list[Sele
         admitted = select_admissible(weighed)
         if not admitted:
             break
-        chosen = choose_likeliest(admitted)
+        chosen = choose_next(admitted)
         best, near = _finish_search(data, chosen), list_rivals(chosen, weighed)
         if best is not chosen:
             near = [one for one in near if _is_close(_finish_search(data, one), best)]

@@ -10,10 +10,12 @@ from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound, WeighedCandidate
 from sim.reconcile.story import TriedCandidate
 from sim.reconcile.thresholds import (
+    COMPARABLE,
     EQUAL_SCORE,
     LEAST_SCORE,
     LEAST_SCORE_ONCE,
     LEAST_SCORE_UNSEEN,
+    MAJOR_UNEXPLAINED,
     NARROWER,
 )
 
@@ -65,18 +67,27 @@ def is_wider(gap: Gap, before: Gap) -> bool:
     return bool(min(velocity, math.sqrt(velocity * position)) * NARROWER > 1.0)
 
 
-def choose_likeliest(admitted: Sequence[WeighedCandidate]) -> WeighedCandidate:
-    """The candidate with the smallest BIC.
+def choose_next(admitted: Sequence[WeighedCandidate]) -> WeighedCandidate:
+    """The candidate with the smallest BIC, or one half as likely that closes far more of the gap.
 
-    An effect with an onset has to beat the others by ``LEAST_SCORE_ONCE``, because it may be an
-    accident in a single run.
+    A model that is still far from the log has large process noise, and its likelihood may prefer
+    an effect with which no run is predicted better. An effect that begins at a moment has to beat
+    the others by ``LEAST_SCORE_ONCE``, because it may be an accident in a single run.
     """
-    return max(
-        admitted,
-        key=lambda one: (
-            one.report.improvement - LEAST_SCORE_ONCE * EFFECTS[one.candidate.effect].has_onset
-        ),
-    )
+
+    def once(one: WeighedCandidate) -> bool:
+        return EFFECTS[one.candidate.effect].has_onset
+
+    best = max(admitted, key=lambda one: one.report.improvement - LEAST_SCORE_ONCE * once(one))
+    likely = [
+        one
+        for one in admitted
+        if one.report.improvement >= COMPARABLE * best.report.improvement
+        and (once(best) or not once(one))
+    ]
+    closest = min(likely, key=lambda one: one.report.gap_ratio)
+    closer = closest.report.gap_ratio < MAJOR_UNEXPLAINED * best.report.gap_ratio
+    return closest if closer else best
 
 
 def list_rivals(

@@ -28,8 +28,9 @@ EQUAL_SCORE = 10.0
 The other effect is then reported as a possible explanation, too."""
 
 COMPARABLE = 0.5
-"""Share of the best score from which an everyday effect is added first; its square is enough for an
-alternative path. Also the share of the gap that may remain in an explained log."""
+"""Share of the best score from which an everyday effect is added first, or one that closes far more
+of the gap; its square is enough for an alternative path. Also the share of the gap that may remain
+in an explained log."""
 
 # Gaps: velocity errors on runs to which the model was not fitted.
 
@@ -43,8 +44,8 @@ effects (50 mV of Stribeck friction, 8 % of battery sag, 4 ms of delay) narrow i
 tenth."""
 
 MAJOR_UNEXPLAINED = 0.6
-"""The same ratio where the last model leaves more than noise. An unknown effect resembles many
-effects a little."""
+"""The same ratio where the last model leaves more than noise, and between an effect that closes far
+more of the gap and the likeliest one. An unknown effect resembles many effects a little."""
 
 LEAST_FLOOR = 0.003
 """Least noise of a velocity, as a share of the top speed. Friction differs by more between runs,
