@@ -247,7 +247,7 @@ def test_of_a_group_the_first_is_the_student(tmp_path):
     [
         (["gradescope", "-o", "x.zip", "--secret", "{root}/class.secret"], "in the course folder"),
         (
-            ["gradescope", "-o", "x.zip", "--secret", "../gone"],
+            ["gradescope", "-o", "x.zip", "--secret", "{elsewhere}/gone"],
             "there is no such file with a secret",
         ),
         (["gradescope", "-o", "x.zip", "--roster", "gone.csv"], "gone.csv"),
@@ -255,10 +255,11 @@ def test_of_a_group_the_first_is_the_student(tmp_path):
         (["github", "-o", "{root}/README.md/grade.yml"], "cannot be written"),
     ],
 )
-def test_what_cannot_be_exported_is_one_line(root, monkeypatch, capsys, words, said):
+def test_what_cannot_be_exported_is_one_line(root, tmp_path, monkeypatch, capsys, *, words, said):
     monkeypatch.chdir(root)
+    filled = [word.format(root=root, elsewhere=tmp_path) for word in words]
 
-    assert run_command(["export", *(word.format(root=root) for word in words)]) == 2
+    assert run_command(["export", *filled]) == 2
     assert said in capsys.readouterr().err
     assert not (root / "x.zip").exists()
 
