@@ -24,7 +24,7 @@ from sim.fit import fit
 from sim.inspect.contaminate import contaminate
 from sim.inspect.detect_faults import inspect
 from sim.io import read, write
-from sim.io.entries.state import FOREVER
+from sim.io.entries.state import NO_END
 from sim.io.formats.wpilog.growing import GrowingLog
 from sim.report.next_test import ENOUGH, advise_next, find_settled_step, find_voltage_limit
 
@@ -64,7 +64,7 @@ def test_wherever_a_growing_log_stops_its_tests_are_those_of_the_whole(
         with path.open("ab") as stream:
             stream.write(content[path.stat().st_size : round(share * len(content))])
         tests = growing.list_tests()
-        finished = [one for one in tests if one.end != FOREVER]
+        finished = [one for one in tests if one.end != NO_END]
         assert list(before) == finished[: len(before)]  # nothing that was complete changes
         assert len(tests) - len(finished) <= 1
         before = finished

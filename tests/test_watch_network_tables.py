@@ -15,7 +15,7 @@ from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.cli.options import PartReader
 from sim.cli.watch.live_fit import LiveFit
-from sim.cli.watch.network_tables import CUT, NetworkTablesSource
+from sim.cli.watch.network_tables import INTERRUPTED, NetworkTablesSource
 from sim.core.errors import BadRequest
 from sim.core.vocabulary import FOUR_TESTS
 from sim.fit import fit
@@ -177,7 +177,7 @@ def test_a_robot_that_starts_again_loses_the_test_that_was_running_and_no_other(
     assert [run.test for run in read(first).runs] == ["quasistatic-forward"]
     assert [run.test for run in read(second).runs] == [*FOUR_TESTS[1:]]
     texts = next(one for one in list_entries(first) if "SysIdState" in one.name).texts()
-    assert CUT in texts
+    assert INTERRUPTED in texts
     assert sorted(run.test for run in update.log.runs) == sorted(FOUR_TESTS)
     assert update.advice == ENOUGH
 

@@ -54,7 +54,7 @@ from sim.fit.search import (
 from sim.fit.sysid_doubts import warn_of_uncertain_gains
 
 WORTH = 8.0  # [of -2 log L] improvement from which on a lag is included: odds of fifty to one
-EXTRA = 4.0  # [of -2 log L] more for a window below a sample period, which noise can imitate
+PENALTY = 4.0  # [of -2 log L] more for a window below a sample period, which noise can imitate
 HINT = 2.0  # [of -2 log L] predicted improvement by short lags from which on longer ones are tried
 FIRST_LAGS = {"velocity-filter.window": (0.5, 2.0, 6.0), "delay.lag": (0.3, 1.0, 2.0, 4.0)}
 SHORT_WINDOWS = (0.1, 1.0, 0.5)
@@ -309,7 +309,7 @@ def _add_lags(
             break
         more = predict_improvement(problem, point, others, kept=kept)
         tried = firsts + others
-        least = np.array([WORTH + EXTRA * (left[name] is SHORT_WINDOWS) for name, _ in tried])
+        least = np.array([WORTH + PENALTY * (left[name] is SHORT_WINDOWS) for name, _ in tried])
         worth = np.concatenate([first, more]) - least
         if not worth.max() > 0.0:
             break

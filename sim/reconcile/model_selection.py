@@ -75,15 +75,18 @@ def choose_next(admitted: Sequence[WeighedCandidate]) -> WeighedCandidate:
     the others by ``LEAST_SCORE_ONCE``, because it may be an accident in a single run.
     """
 
-    def once(one: WeighedCandidate) -> bool:
+    def has_onset(one: WeighedCandidate) -> bool:
         return EFFECTS[one.candidate.effect].has_onset
 
-    best = max(admitted, key=lambda one: one.report.improvement - LEAST_SCORE_ONCE * once(one))
+    best = max(
+        admitted,
+        key=lambda one: one.report.improvement - LEAST_SCORE_ONCE * has_onset(one),
+    )
     likely = [
         one
         for one in admitted
         if one.report.improvement >= COMPARABLE * best.report.improvement
-        and (once(best) or not once(one))
+        and (has_onset(best) or not has_onset(one))
     ]
     closest = min(likely, key=lambda one: one.report.gap_ratio)
     closer = closest.report.gap_ratio < MAJOR_UNEXPLAINED * best.report.gap_ratio

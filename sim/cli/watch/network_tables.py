@@ -25,7 +25,7 @@ from sim.io.formats.wpilog.signals import SignalRecorder
 TYPES = {"double": "double", "float": "float", "int": "int64", "boolean": "boolean", STRING: STRING}
 """Type of a topic -> type of its log entry; arrays and structures hold no signal."""
 PORT = 5810  # default port of NetworkTables 4
-CUT = "interrupted"  # replaces the name of a test whose end was not recorded
+INTERRUPTED = "interrupted"  # replaces the name of a test whose end was not recorded
 LARGEST_TEAM = 25599  # 10.255.99.2
 """The largest team number that fits into an address."""
 
@@ -184,7 +184,7 @@ class _TopicRecorder:
         """Close the file, and replace the name of a test that was still running."""
         for name, (since, test) in self._tests.items():
             if test in TESTS:
-                self._file.record(_entry_name(name), STRING, since, CUT)
+                self._file.record(_entry_name(name), STRING, since, INTERRUPTED)
         self._file.close()
 
 

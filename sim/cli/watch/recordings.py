@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
 from sim.core.errors import UnreadableFile
-from sim.io.entries.state import FOREVER, RunInterval
+from sim.io.entries.state import NO_END, RunInterval
 from sim.io.formats.wpilog import SUFFIXES
 from sim.io.formats.wpilog.growing import GrowingLog
 
@@ -141,6 +141,6 @@ def split_finished_tests(
     tests: Sequence[RunInterval],
 ) -> tuple[tuple[RunInterval, ...], float]:
     """The tests that have ended, and the start [s] of the running one; infinite if none runs."""
-    finished = tuple(one for one in tests if one.end != FOREVER)
-    running = [one.begin for one in tests if one.end == FOREVER]
+    finished = tuple(one for one in tests if one.end != NO_END)
+    running = [one.begin for one in tests if one.end == NO_END]
     return finished, min(running) / SECOND if running else math.inf

@@ -46,7 +46,7 @@ CREPT, CREEPS = 0.2, 1.0  # [share of the creep, s] after which the rest lasts s
 PRESSES = 1.5  # [times kS] least gravity that presses a mechanism onto a stop
 LATE = 0.25  # [V] least voltage above that which would move it, when it leaves the stop
 LEANS = 0.7  # [1] confidence: a chain that is pulled tight looks the same
-GIVES = 0.25  # [share of the way without a stop] largest motion after the impact
+LARGEST_REBOUND = 0.25  # [share of the way without a stop] largest motion after the impact
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
@@ -105,7 +105,7 @@ def _find_stop(index: int, run: Run, *, fast: float, still: float, period: float
         return None
     moved = abs(float(run.position[-1] - run.position[impact]))
     share = 1.0 - moved / (speed * lasts)
-    if share < 1.0 - GIVES:
+    if share < 1.0 - LARGEST_REBOUND:
         return None
     return Damage(
         fault="hard-stop",

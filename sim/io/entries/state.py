@@ -18,7 +18,7 @@ WORD = "sysid-test-state"
 IDLE = ("none", "")  # its values while no test runs
 # Words allowed in addition to a test's name.
 FILLERS = ("state", "k", "sysid", "sys", "id", "test", "routine")
-FOREVER = 2**62  # [µs] end of a run whose end is not in the file
+NO_END = 2**62  # [µs] end of a run whose end is not in the file
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,7 +102,7 @@ def find_run_intervals(
     words = _read_states(state.entry)
     times = state.entry.time.tolist()
     fresh = [i for i, word in enumerate(words) if i == 0 or word != words[i - 1]]
-    ends = [times[i] for i in fresh[1:]] + [FOREVER]
+    ends = [times[i] for i in fresh[1:]] + [NO_END]
     found = tuple(
         RunInterval(words[i], times[i], end)
         for i, end in zip(fresh, ends, strict=True)

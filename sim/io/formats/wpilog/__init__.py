@@ -17,7 +17,7 @@ from sim.core.log import Log
 from sim.io.entries import assemble_log, assemble_motor_logs
 from sim.io.entries.discovery import may_be_signal
 from sim.io.entries.entry import NUMBERS, STRING, Entry
-from sim.io.entries.state import FOREVER, RunInterval
+from sim.io.entries.state import NO_END, RunInterval
 from sim.io.format import ReadOptions
 from sim.io.formats.wpilog.contents import FileDamage, read_contents
 from sim.io.formats.wpilog.control import Start
@@ -112,7 +112,7 @@ def _read(
         raise _make_unreadable_error(damage, records.end, where, missing.what) from None
     if damage is None:
         return made, (*lost, *_doubt_unfinished_run(spans[-1], where))
-    if not damage.torn and spans[0].end == FOREVER:
+    if not damage.torn and spans[0].end == NO_END:
         raise _make_unreadable_error(damage, records.end, where, "no run is whole before it")
     return made, (*lost, _doubt_damage(damage, where))
 
@@ -165,7 +165,7 @@ def _doubt_damage(damage: FileDamage, where: str) -> Doubt:
 
 def _doubt_unfinished_run(last: RunInterval, where: str) -> Iterator[Doubt]:
     """A doubt if the last run has no end."""
-    if last.end == FOREVER:
+    if last.end == NO_END:
         yield Doubt(
             "unfinished-run",
             f"{where}: the file ends while {last.test} is running, so the end of that run is "

@@ -37,7 +37,7 @@ class GrowingLog:
         self._file.path = path
 
     def list_tests(self) -> tuple[RunInterval, ...]:
-        """The tests so far, sorted by start; one that is still running ends at ``FOREVER``.
+        """The tests so far, sorted by start; one that is still running ends at ``NO_END``.
 
         Raises:
             FileNotFoundError: the file does not exist.
