@@ -36,7 +36,7 @@ from types import ModuleType
 from typing import Any
 
 from grader.answer_names import find_unknown_names
-from grader.check import Check, Result, Status, run_checks, skip_check
+from grader.check import Check, NotRunError, Result, Status, run_checks, skip_check
 from grader.consequence import Consequence
 from grader.submission import find_files, find_whole_answer, read_answers, read_text
 from sim.core.errors import BadRequest, Refusal
@@ -179,8 +179,9 @@ class Exercise:
         Args:
             given: a file or a folder; None takes the exercise's own files.
             student: whose answer it is.
-            run: whether the learner's code may be run, where the exercise can; else robot code is
-                only read, and what only running can tell makes the exercise ungradable.
+            run: whether the learner's code may be run, where the exercise can; else what only
+                running can tell makes the exercise ungradable. Java of robots is interpreted by
+                the grader itself and graded in any case.
         """
         try:
             whole = find_whole_answer(given, names=self.files, companion_files=self.companion_files)
@@ -203,7 +204,7 @@ class Exercise:
         asked = {"run": False} if self.runs_code else {}
         try:
             found = tell(self.module.read(grade.file, student=grade.student, **asked))
-        except Refusal:  # it was readable a moment ago: somebody is saving it
+        except (Refusal, NotRunError):  # somebody is saving it, or only a run could tell
             return None
         return found if isinstance(found, Consequence) else None
 
@@ -211,7 +212,7 @@ class Exercise:
         asked = {"run": run} if self.runs_code else {}
         try:
             subject = self.module.read(file, student=student, **asked)
-        except Refusal as refusal:
+        except (Refusal, NotRunError) as refusal:
             return replace(self._ungradable(str(refusal), student=student), file=file)
         results = run_checks(self.checks, subject)
         score, most = (sum(points) for points in zip(*_sum_points(results), strict=True))

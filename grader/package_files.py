@@ -39,6 +39,8 @@ SOURCES = (
     ".svg",
     "example.toml",
     "probability.json",
+    "phoenix6.toml",
+    "revlib.toml",
     "setup.sh",
     "run_autograder",
 )

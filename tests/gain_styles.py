@@ -1,5 +1,13 @@
 """The same gains, written in the many ways that teams write them: text, and what to change."""
 
+IMPORTS = """import com.ctre.phoenix6.configs.*;
+import com.ctre.phoenix6.hardware.TalonFX;
+import com.ctre.phoenix6.signals.*;
+import com.revrobotics.spark.*;
+import com.revrobotics.spark.config.*;
+import edu.wpi.first.math.controller.*;
+import edu.wpi.first.math.util.Units;
+"""
 BODY = """  static class CharacterizationConstants {{
     static final double kS = {kS}; // volts
     static final double kV = {kV} / (2 * Math.PI); // volts per (rad/s)
@@ -41,11 +49,12 @@ STYLES = {
     ],
     "a loop's kP": [
         ("{kP} / (2 * Math.PI)", "{kP}"),
+        ("  SimpleMotor", "  class Gains extends CharacterizationConstants {{}}\n  SimpleMotor"),
+        ("  SimpleMotor", "  double TURN = 0.5 / Math.PI;\n  SimpleMotor"),
         (
             "  SimpleMotor",
-            "  PID pid = new PID(TURN * CharacterizationConstants.kP);\n  SimpleMotor",
+            "  PIDController pid = new PIDController(TURN * Gains.kP, 0, 0);\n  SimpleMotor",
         ),
-        ("  SimpleMotor", "  double TURN = 0.5 / Math.PI;\n  SimpleMotor"),
     ],
     "through a variable": [
         ("  SimpleMotor", "  double gain = CharacterizationConstants.kV;\n  SimpleMotor"),
@@ -89,9 +98,13 @@ PYTHON_STYLES = {
         ("import math\n", "import math\nfrom wpimath.units import radiansToRotations\n"),
         ("{kV} / math.tau", "{kV} * radiansToRotations(1)"),
     ],
-    "2027": [
-        ("import math\n", "import math\nfrom wpimath.units import radians_to_rotations\n"),
-        ("{kV} / math.tau", "{kV} * radians_to_rotations(1)"),
+    "an inner class": [
+        (
+            "class CharacterizationConstants:",
+            "class Turret(Subsystem):\n  class CharacterizationConstants:",
+        ),
+        ("\nclass Turret(Subsystem):\n    def", "\n  def"),
+        ("        C = Char", "        C = Turret.Char"),
     ],
     "an object of it": [
         ("class Turret", "GAINS = CharacterizationConstants()\n\nclass Turret"),

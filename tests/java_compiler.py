@@ -1,8 +1,7 @@
 """Compiles robot code with javac, against stubs of the library classes that it uses.
 
-The stubs in ``java_stubs/`` are signatures without bodies, one file a class, and each names its
-source. ``season2026`` has WPILib, Phoenix 6, REVLib and AdvantageKit. ``season2027`` has the WPILib
-classes that changed with it; the others are those of 2026 under their new packages.
+The stubs in ``java_stubs/season2026`` are signatures without bodies, one file a class of WPILib,
+Phoenix 6 or REVLib, and each names its source.
 """
 
 import re
@@ -15,20 +14,6 @@ from pathlib import Path
 import pytest
 
 STUBS = Path(__file__).with_name("java_stubs")
-MOVED_IN_2027 = {  # packages of which nothing else changed that the stubs have
-    "edu.wpi.first.units": "org.wpilib.units",
-    "edu.wpi.first.math": "org.wpilib.math",
-    "edu.wpi.first.wpilibj.event": "org.wpilib.event",
-    "edu.wpi.first.wpilibj2.command": "org.wpilib.command2",
-    "edu.wpi.first.wpilibj.motorcontrol": "org.wpilib.hardware.motor",
-}
-VENDORS = ("com.ctre", "com.revrobotics", "org.littletonrobotics")  # ... which keep theirs
-RENAMED_IN_2027 = {  # what WPILib's MotorController wants of every motor controller
-    "void set(double speed)": "void setThrottle(double throttle)",
-    "double get()": "double getThrottle()",
-}
-GONE_IN_2027 = re.compile(r"  public \w+\(int deviceId, String canbus\) \{\}\n\n")  # Phoenix 6
-LEFT_OUT_IN_2027 = ("button", "sysid", "motorcontrol")  # folders that season2027 has of its own
 OLDEST = 17  # the JDK of WPILib 2026
 TIME = 300.0  # [s] for all programs, on a busy machine
 
@@ -39,11 +24,9 @@ class JavaProgram:
 
     Args:
         files: its source files.
-        season: whose classes it is compiled against.
     """
 
     files: tuple[Path, ...]
-    season: int = 2026
 
 
 @dataclass(frozen=True)
@@ -72,26 +55,6 @@ def find_java() -> str:
     return java or pytest.skip("no java beside javac")
 
 
-def write_stubs(folder: Path) -> None:
-    """Write the stubs of each season into ``folder/season2026`` and ``folder/season2027``."""
-    shutil.copytree(STUBS / "season2026", folder / "season2026")
-    newer = folder / "season2027"
-    for path in sorted((STUBS / "season2026").rglob("*.java")):
-        package = ".".join(path.relative_to(STUBS / "season2026").parts[:-1])
-        own = package.startswith("edu.wpi") and package.endswith(LEFT_OUT_IN_2027)
-        if own or not package.startswith((*MOVED_IN_2027, *VENDORS)):
-            continue
-        text = GONE_IN_2027.sub("", path.read_text(encoding="utf-8"))
-        for old, new in (MOVED_IN_2027 | RENAMED_IN_2027).items():
-            text = text.replace(old, new)
-        home = re.search(r"^package ([\w.]+);", text, re.MULTILINE)
-        assert home, path
-        place = newer.joinpath(*home[1].split("."), path.name)
-        place.parent.mkdir(parents=True, exist_ok=True)
-        place.write_text(text, encoding="utf-8")
-    shutil.copytree(STUBS / "season2027", newer, dirs_exist_ok=True)
-
-
 def compile_java(programs: Iterable[JavaProgram], folder: Path) -> list[list[JavaError]]:
     """Compile programs, each for itself, in one Java process.
 
@@ -103,11 +66,9 @@ def compile_java(programs: Iterable[JavaProgram], folder: Path) -> list[list[Jav
         The errors of each program, in the order of the programs.
     """
     java = find_java()
-    write_stubs(folder)
+    stubs = shutil.copytree(STUBS, folder, dirs_exist_ok=True) / "season2026"
     given = list(programs)
-    rows = [
-        "\t".join(map(str, (folder / f"season{one.season}", *one.files))) + "\n" for one in given
-    ]
+    rows = ["\t".join(map(str, (stubs, *one.files))) + "\n" for one in given]
     done = subprocess.run(
         [java, "-XX:TieredStopAtLevel=1", str(STUBS / "CompileEach.java")],
         input="".join(rows),

@@ -4,17 +4,19 @@ from pathlib import Path
 
 import pytest
 
-from grader.robotcode import bench
+from grader.robotcode import python
+from grader.robotcode.bench.simulation import Mount
 
 ROOT = Path(__file__).resolve().parents[1]
 RIGHT = (ROOT / "solutions" / "exercise4" / "example_subsystem.py").read_text("utf-8")
+MOUNTS = {0: Mount(), 1: Mount(backward=True)}  # of exercise 4's own drivetrain
 
 
 def needs_robot(test):
     """Skip a test, with the reason, where RobotPy is not installed."""
     reason = "RobotPy (extra `robot`) is not installed"
     return pytest.mark.robot(
-        pytest.mark.skipif(not bench.is_robotpy_installed(), reason=reason)(test)
+        pytest.mark.skipif(not python.is_robotpy_installed(), reason=reason)(test)
     )
 
 
@@ -27,7 +29,8 @@ def changed(*changes):
     return text
 
 
-def ran(tmp_path, text, *, seconds=bench.SECONDS, name="ExampleSubsystem"):
+def ran(tmp_path, text, **options):
+    """The facts of one run of a text."""
     path = tmp_path / "mine.py"
     path.write_text(text, "utf-8")
-    return bench.run_sysid_routine(path, name, seconds=seconds)
+    return python.run_python(path, "routine", MOUNTS, **options)[0]

@@ -4,7 +4,7 @@ import json
 import shutil
 
 import pytest
-from robot_mistakes import RIGHT, ROOT, changed, needs_robot
+from robot_mistakes import RIGHT, ROOT
 from small_course import lay_out
 
 import grader.isolation
@@ -117,28 +117,20 @@ def test_what_runs_a_learners_code_can_be_told_not_to(name):
     assert Exercise(name, ROOT / "exercises" / name).runs_code
 
 
-@needs_robot
-@pytest.mark.parametrize(("may", "status"), [(True, "failed"), (False, "passed")])
-def test_what_only_a_run_shows_is_not_held_against_code_that_is_only_read(tmp_path, may, status):
-    path = tmp_path / "mine.py"
-    rate = ("self.left_encoder.getRate()", "[self.left_encoder.getRate()][1]")
-    path.write_text(changed(rate), "utf-8")
+def test_python_robot_code_that_may_not_be_run_waits_for_a_person(tmp_path):
+    path = tmp_path / "example_subsystem.py"
+    path.write_text(RIGHT, "utf-8")
     fourth = Exercise("exercise4", ROOT / "exercises" / "exercise4")
 
-    assert fourth.grade(path, student="ann", run=may).status == status
+    assert fourth.grade(path, student="ann", run=False).status == "ungradable"
 
 
-@needs_robot
-def test_practice_reads_robot_code_without_running_it_where_it_may_not(tmp_path, monkeypatch):
-    practice = Exercise("practice", ROOT / "exercises" / "practice")
-    monkeypatch.setattr(
-        "grader.robotcode.bench.run_sysid_routine", lambda *_: pytest.fail("it was run")
-    )
-    (tmp_path / "example_subsystem.py").write_text(RIGHT, "utf-8")
-    (tmp_path / "answers.toml").write_text('language = "python"\n', "utf-8")
-    answers = practice.module.read(tmp_path / "answers.toml", student="ann", run=False)
+def test_java_robot_code_is_graded_where_no_code_of_others_may_run(tmp_path):
+    shutil.copy(ROOT / "solutions" / "exercise4" / "ExampleSubsystem.java", tmp_path)
+    fourth = Exercise("exercise4", ROOT / "exercises" / "exercise4")
+    grade = fourth.grade(tmp_path / "ExampleSubsystem.java", student="ann", run=False)
 
-    assert answers.routine.ran is None
+    assert grade.score == grade.max_score
 
 
 def test_a_function_that_may_not_be_run_waits_for_a_person_and_is_not_run(tmp_path, monkeypatch):

@@ -1,4 +1,4 @@
-"""The code that lesson 4 shows: the Java as exercise 4 reads it, the Python as a robot runs it."""
+"""The code that lesson 4 shows does on a simulated robot what the lesson says."""
 
 import re
 import subprocess
@@ -8,8 +8,15 @@ from pathlib import Path
 import pytest
 
 import sim
-from grader import robotcode
-from grader.robotcode.facts import Output, Source
+from grader.check import WrongAnswer
+from grader.robotcode.running import run_routine
+from grader.routine_checks import (
+    check_assembled,
+    check_driven,
+    check_logged,
+    check_open_loop,
+    check_units,
+)
 from sim.fit import fit
 
 LESSON = Path(__file__).resolve().parents[1] / "lessons" / "04_wire_sysidroutine.py"
@@ -24,30 +31,28 @@ def shown(language, *, holding):
     return block
 
 
+def run_code(tmp_path, name, text):
+    """What the robot did with some code of the lesson."""
+    (tmp_path / name).write_text(text, encoding="utf-8")
+    return run_routine(tmp_path / name, mounts={"java": {}, "python": {}}, task="no task")[0]
+
+
 @pytest.fixture(params=["java", "python"])
 def facts(request, tmp_path):
-    """What the examiner reads off the routine that the lesson shows as right."""
+    """What the routine does that the lesson shows as right."""
     name, holding = {"java": ("Drive.java", "class Drive"), "python": ("drive.py", "class Drive")}[
         request.param
     ]
-    path = tmp_path / name
-    path.write_text(shown(request.param, holding=holding), encoding="utf-8")
-    return robotcode.read(path)
+    return run_code(tmp_path, name, shown(request.param, holding=holding))
 
 
 def test_the_routine_has_no_mistake_that_exercise_4_knows(facts):
-    assert facts.problems == ()
-    assert facts.is_subsystem
-    assert facts.subsystem_passed
-    assert (facts.config_argument, facts.mechanism_argument) == (0, 1)
-    assert {call.motor for call in facts.drive} == set(facts.motors)
-    assert {call.output for call in facts.drive} == {Output.VOLTAGE}
-    assert all(call.uses_parameter and not call.scaled for call in facts.drive)
-    assert {signal.signal for signal in facts.logged} == {"voltage", "position", "velocity"}
-    assert {signal.source for signal in facts.logged if signal.signal == "voltage"} == {
-        Source.APPLIED
-    }
-    assert {signal.family for signal in facts.logged if signal.signal != "voltage"} == {"linear"}
+    assert facts.errors == ()
+    check_driven(facts, points=3, mirrored=False)
+    check_logged(facts, points=3, demanded=2)
+    check_units(facts, mechanism="Drivetrain", scales={})
+    check_assembled(facts)
+    check_open_loop(facts)
 
 
 def test_the_routine_does_not_give_the_numbers_of_exercise_4_away(facts):
@@ -55,25 +60,30 @@ def test_the_routine_does_not_give_the_numbers_of_exercise_4_away(facts):
     assert numbers == (1.0, 2.0, 8.0)
 
 
-def test_the_snippet_with_defects_has_those_that_can_be_read_off_it(tmp_path):
-    path = tmp_path / "Shooter.java"
-    path.write_text(
+def test_the_snippet_with_defects_has_those_that_the_lesson_asks_for(tmp_path):
+    text = (
+        "import static edu.wpi.first.units.Units.*;\nimport com.ctre.phoenix6.hardware.TalonFX;\n"
+        "import edu.wpi.first.units.measure.*;\nimport edu.wpi.first.wpilibj2.command.*;\n"
+        "import edu.wpi.first.wpilibj2.command.sysid.SysIdRoutine;\n"
         "public class Shooter extends SubsystemBase {\n"
         "private final TalonFX m_leader = new TalonFX(1);\n"
         + shown("java", holding="m_lastRequest").partition("// in RobotContainer")[0]
-        + "}\n",
-        encoding="utf-8",
+        + "}\n"
     )
-    facts = robotcode.read(path)
-    assert facts.problems == ()
-    assert {call.output for call in facts.drive} == {Output.DUTY}
-    (voltage,) = (signal for signal in facts.logged if signal.signal == "voltage")
-    assert voltage.source is not Source.APPLIED
-    assert {s.unit for s in facts.logged if s.signal != "voltage"} == {
-        "Radians",
-        "RadiansPerSecond",
-    }
+    facts = run_code(tmp_path, "Shooter.java", text)
+
     assert facts.step.value == 7.0
+    with pytest.raises(WrongAnswer):
+        check_open_loop(facts)
+    with pytest.raises(WrongAnswer):
+        check_logged(facts, points=3, demanded=0)
+    units = {
+        one.unit
+        for test in facts.tests.values()
+        for s in test.signals.values()
+        for one in s.values()
+    }
+    assert units >= {"Radian", "Radian per Second"}
 
 
 @pytest.mark.robot

@@ -12,25 +12,25 @@ from mutation import robot_code
 from mutation.report import all_mutants, legal_variants, survey
 
 from grader.exercise import find_exercise
-from grader.robotcode.compiling import find_compile_errors
-from grader.robotcode.files import Files
-from grader.robotcode.symbol_table import SymbolTable
+from grader.robotcode.java.program import Program
+from grader.robotcode.java.run import allow_deep_calls
 
 BASES = Path(__file__).resolve().parent / "mutation" / "bases"
 EXERCISES = ("exercise4", "exercise5", "exercise10")
+EACH = 45  # mutants of an exercise are run
 STRIDE = 4  # of the mutants of the right answers, one in so many is compiled
-# What the grader refuses although it compiles: a motor class whose methods a learner overrides.
-ON_PURPOSE = "methods of its own"
+LEAST_FOUND = 0.5  # of the mutants that javac refuses: the others stop when they are run
 
 
 @pytest.mark.parametrize("name", EXERCISES)
-def test_every_mutant_of_robot_code_loses_points_with_advice_or_is_listed(name):
-    report = survey(one for one in robot_code.mutants() if one.exercise == name)
+def test_mutants_of_robot_code_lose_points_with_advice_or_are_listed(name):
+    """Some of them: ``python tests/mutation/report.py`` runs them all in a quarter of an hour."""
+    made = [one for one in robot_code.mutants() if one.exercise == name]
+    report = survey(made[:: max(len(made) // EACH, 1)])
     left = [(one.file, one.operator, one.line, said.said) for one, said in report.survivors]
 
     assert left == []
-    assert report.killed.total() > 100
-    assert not any(one.exercise == name for one in report.stale)
+    assert report.killed.total() > EACH / 2
 
 
 def test_the_grader_refuses_no_mutant_of_a_right_answer_that_javac_takes(tmp_path):
@@ -44,20 +44,24 @@ def test_the_grader_refuses_no_mutant_of_a_right_answer_that_javac_takes(tmp_pat
     stubs = tmp_path / "stubs"
     stubs.mkdir()
 
-    errors = compile_java(programs, stubs)
+    javacs = compile_java(programs, stubs)
+    ours = [_find_errors(one.files[0]) for one in programs]
 
-    assert sum(map(bool, errors)) > len(made) / 4  # of each kind there have to be many
-    assert sum(not one for one in errors) > len(made) / 4
-    refused = {
-        (one.file, one.operator, one.line): graders
-        for one, program, javac in zip(made, programs, errors, strict=True)
-        if not javac and (graders := find_compile_errors(SymbolTable(Files(program.files[0]))))
-    }
-    assert {
-        mutant: graders
-        for mutant, graders in refused.items()
-        if not all(ON_PURPOSE in one.message for one in graders)
-    } == {}
+    assert sum(map(bool, javacs)) > len(made) / 4  # of each kind there have to be many
+    assert sum(not one for one in javacs) > len(made) / 4
+    pairs = list(zip(made, javacs, ours, strict=True))
+    assert [
+        (one.file, one.line, errors) for one, javac, errors in pairs if errors and not javac
+    ] == []
+    assert sum(map(bool, ours)) > LEAST_FOUND * sum(map(bool, javacs))
+
+
+def _find_errors(path):
+    allow_deep_calls()
+    program = Program(path)
+    if not program.problems:
+        program.compile_all()
+    return [*program.problems, *program.errors]
 
 
 def test_there_are_enough_mutants_of_enough_kinds():
@@ -75,6 +79,6 @@ def test_every_listed_variant_has_a_reason():
 @pytest.mark.parametrize("path", sorted(BASES.rglob("*.java")), ids=str)
 def test_the_other_ways_of_writing_earn_full_marks_unchanged(path, root):
     one = find_exercise(path.parent.name, root)
-    grade = one.grade(path, student="ann", run=False)
+    grade = one.grade(path, student="ann")
 
     assert (grade.status, grade.score) == ("passed", grade.max_score)

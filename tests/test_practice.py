@@ -7,7 +7,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from grader import robotcode
 from grader.exercise import Exercise, find_exercise
 from grader.mistake import make_wrong_answer, scale_numbers
 from grader.variant import make_folder_name
@@ -119,6 +118,24 @@ def test_with_a_robot_everything_can_be_earned(tmp_path, solved):
     assert lacking(results) == {}
 
 
+def test_a_logger_of_ones_own_is_no_fault_where_its_log_is_there(tmp_path, solved):
+    answers, found = robot(tmp_path)
+    texts = {**solved, **constants(found)}
+    config = "Seconds.of(10))"
+    assert config in texts["ExampleSubsystem.java"]
+    text = texts["ExampleSubsystem.java"].replace("this::record", "null")
+    own = 'Seconds.of(10), state -> SignalLogger.writeString("state", state.toString()))'
+    text = text.replace(config, own)
+    bring = "import com.ctre.phoenix6.SignalLogger;\nimport com.ctre.phoenix6.hardware.TalonFX;"
+    texts["ExampleSubsystem.java"] = text.replace(bring.splitlines()[1], bring)
+    with_log = grade_answer(tmp_path, texts, **answers)
+    without = grade_answer(tmp_path, texts)
+
+    assert {with_log[f"routine-{name}"].status for name in ("log", "units")} == {"passed"}
+    assert "a logger of your own records" in with_log["routine-log"].hint
+    assert without["routine-log"].status == "failed"
+
+
 def test_a_poor_fit_asks_what_is_suspected(tmp_path, solved):
     answers, found = robot(tmp_path, noise=0.6)
     texts = {**solved, **constants(found)}
@@ -209,12 +226,12 @@ def test_the_files_to_fill_in_and_the_log_are_one_mechanism(tmp_path, solved):
     names = {"motor_count": 2, "units": "meters"}
     for name, file in (("java", "ExampleSubsystem.java"), ("python", "example_subsystem.py")):
         (tmp_path / file).write_text(solved[file], encoding="utf-8")
-        facts = robotcode.read(tmp_path / file)
+        (facts,) = OWN.module.FOURTH.read(tmp_path / file, student="zoë")
         container = next(one for one in OWN.module.LANGUAGES[name] if "ontainer" in one)
         text = (OWN.folder / container).read_text(encoding="utf-8")
 
         assert len(facts.motors) == names["motor_count"]
-        assert f"new {facts.class_name}(" in text or f"{facts.class_name}()" in text
+        assert f"new {facts.name}(" in text or f"{facts.name}()" in text
         assert "class ExampleSubsystem" not in text
     assert {name: getattr(drawn.mechanism, name) for name in names} == names
     constant = OWN.module.METERS_PER_ROTATION

@@ -3,12 +3,12 @@
 import json
 
 import pytest
-from robot_mistakes import ROOT, changed, needs_robot
+from robot_mistakes import MOUNTS, RIGHT, ROOT, changed, needs_robot, ran
 
 from grader.exercise import Exercise
 from grader.isolation import sandbox_parent
-from grader.robotcode import bench
-from grader.robotcode.bench import RunOutcome
+from grader.robotcode import python
+from grader.robotcode.bench.facts import Outcome, to_json
 
 EXERCISE = Exercise("exercise4", ROOT / "exercises" / "exercise4")
 HALVED = (  # half of each voltage, hidden from whoever only reads
@@ -17,27 +17,18 @@ HALVED = (  # half of each voltage, hidden from whoever only reads
     ("METERS_PER_PULSE = 0", "from trick import share\n\nMETERS_PER_PULSE = 0"),
 )
 SHARE = "def share():\n    return float(str(0.5))\n\n\n"
+LEAVE = "import os\nos._exit(0)\n"
 
 
-def forged():
-    """What the bench would leave of a right answer: four tests, each motor as it was asked."""
-    rows = []
-    for test, asked in (
-        ("quasistatic-forward", lambda t: 0.5 * t),
-        ("quasistatic-reverse", lambda t: -0.5 * t),
-        ("dynamic-forward", lambda _: 3.5),
-        ("dynamic-reverse", lambda _: -3.5),
-    ):
-        for loop in range(80):
-            now, volts = len(rows) * 0.02, asked(loop * 0.02)
-            rows.append([test, now, volts, [volts, volts], [now, now]])
-    lasted = {"quasistatic-forward": 10.0}
-    told = {"lasted": lasted, "required": True, "per_pulse": [0.000156] * 2}
-    return json.dumps({**told, "motors": ["left", "right"], "rows": rows})
-
-
-WRITE = f"FORGED = {forged()!r}\n"
-LEAVE = "open('seen.json', 'w').write(FORGED)\nimport os\nos._exit(0)\n"
+@pytest.fixture
+def write(tmp_path):
+    """Prints what the bench would say of a right answer, on every channel that is open."""
+    facts = to_json(ran(tmp_path, RIGHT))
+    text = json.dumps({"facts": facts, "undecided": False})
+    return (
+        f"import os\nfor channel in range(20):\n    try:\n        os.write(channel, {text!r}"
+        ".encode())\n    except OSError:\n        pass\n"
+    )
 
 
 @pytest.fixture
@@ -54,6 +45,12 @@ def mine(tmp_path):
     return write
 
 
+@pytest.fixture
+def tampering_allowed(monkeypatch):
+    """Lets through what is refused, to see that it would be of no use."""
+    monkeypatch.setattr(python, "refuse_tampering", lambda _: None)
+
+
 @pytest.fixture(params=["all there is", "Landlock as on Linux 6.7", "limits only"])
 def each_level(request, monkeypatch):
     """With all the confinement this system has, with an older kernel's, and with limits only."""
@@ -61,25 +58,23 @@ def each_level(request, monkeypatch):
     monkeypatch.setattr(sandbox_parent, "LANDLOCK_ABI", 4 if "6.7" in request.param else None)
 
 
-@needs_robot
-@pytest.mark.usefixtures("each_level")
-def test_what_a_program_wrote_that_left_early_is_not_believed(mine):
-    run = bench.run_sysid_routine(mine(WRITE + LEAVE), "ExampleSubsystem")
+@pytest.mark.usefixtures("each_level", "tampering_allowed")
+def test_what_a_program_wrote_that_left_early_is_not_believed(mine, write):
+    (run,) = python.run_python(mine(write + LEAVE), "routine", MOUNTS)
 
-    assert run.outcome is RunOutcome.CRASHED
-    assert run.said == "your code ended the robot program in the middle of a test"
-
-
-@needs_robot
-@pytest.mark.usefixtures("each_level")
-def test_a_file_that_was_changed_after_the_tests_is_not_believed(mine):
-    late = "import atexit\natexit.register(lambda: open('seen.json', 'w').write(FORGED))\n"
-    run = bench.run_sysid_routine(mine(WRITE + late), "ExampleSubsystem")
-
-    assert run.outcome is RunOutcome.CRASHED
+    assert run.stop.outcome is Outcome.CRASHED
+    assert run.stop.said == python.ENDED
+    assert not run.tests
 
 
-@needs_robot
+@pytest.mark.usefixtures("tampering_allowed")
+def test_what_is_written_before_the_facts_makes_them_unreadable(mine, write):
+    (run,) = python.run_python(mine(write), "routine", MOUNTS)
+
+    assert run.stop.outcome is Outcome.CRASHED
+    assert not run.tests
+
+
 def test_halved_volts_that_forge_nothing_lose_the_points_of_the_drive_callback(mine):
     grade = EXERCISE.grade(mine(""), student="ann")
     wrong = {one.id: one.seen for one in grade.checks if one.status != "passed"}
@@ -88,26 +83,41 @@ def test_halved_volts_that_forge_nothing_lose_the_points_of_the_drive_callback(m
     assert "drive" in wrong
 
 
-@needs_robot
-def test_a_forged_run_earns_nothing_even_where_the_code_is_not_refused(mine, monkeypatch):
-    monkeypatch.setattr(bench, "refuse_tampering", lambda _: None)
-    honest = EXERCISE.grade(mine(""), student="ann")
-    forged = EXERCISE.grade(mine(WRITE + LEAVE), student="ann")
+@pytest.mark.usefixtures("tampering_allowed")
+def test_a_forged_run_earns_nothing_even_where_the_code_is_not_refused(mine, write):
+    forged = EXERCISE.grade(mine(write + LEAVE), student="ann")
 
-    drive = next(one for one in forged.checks if one.id == "drive")
-    assert forged.score <= honest.score
-    assert drive.status == "failed"
-    assert "ended the robot program in the middle of a test" in drive.hint
+    assert forged.score == 0
+    assert python.ENDED in forged.checks[0].seen
+
+
+PRIVATE = (
+    "self.left._ask('voltage', voltage)",
+    "self.left._commands.clear()",
+    "self.right._applied = voltage",
+    "getattr(self.left, '_shaft').velocity = 0",
+)
+
+
+@pytest.mark.parametrize("statement", PRIVATE)
+@pytest.mark.parametrize("robotpy", [False, pytest.param(True, marks=pytest.mark.robot)])
+def test_what_is_private_of_the_bench_is_out_of_reach(tmp_path, statement, robotpy):
+    if robotpy and not python.is_robotpy_installed():
+        pytest.skip("RobotPy is not installed")
+    text = changed(("self.left.setVoltage(voltage)", f"voltage = 2 * voltage; {statement}"))
+    run = ran(tmp_path, text, robotpy=robotpy)
+
+    assert run.stop or run.tests["dynamic-forward"].motors["left"].never
 
 
 TRICKS = {
-    "a forged result": WRITE + LEAVE,
     "an exit": "import os\nos._exit(0)",
     "an exit by another name": "import os as o\no._exit(0)",
     "an exit of another module": "import random\nrandom._os._exit(0)",
     "an exit, imported": "from os import _exit\n_exit(0)",
     "an exit at the end": "import atexit\natexit.register(print)",
     "a signal": "import signal\nsignal.raise_signal(9)",
+    "the bench": "from grader.robotcode.library.world import WORLD",
     "the nonce, by the stack": "import sys\nprint(sys._getframe().f_back.f_locals)",
     "the nonce, by an error": "try:\n    1 / 0\nexcept Exception as e:\n    e.__traceback__",
     "the nonce, by the collector": "import gc\ngc.get_objects()",
@@ -130,7 +140,7 @@ TRICKS = {
     "machine code": "import ctypes",
     "code in an encoding that hides it": "# coding: utf-7\n# +AAo-import os",
     "code that is written first": "open('more.py', 'w').write('')",
-    "the log rewritten": "import pathlib\npathlib.Path('robot.wpilog').write_bytes(b'')",
+    "a file rewritten": "import pathlib\npathlib.Path('more.py').write_bytes(b'')",
 }
 
 
@@ -158,10 +168,10 @@ HONEST = (
     "from pathlib import Path\nNOTE = Path(__file__).parent / 'note.txt'",
     "class A:\n    def __init__(self):\n        super().__init__()\na = A()\na.b = 2",
     "import threading, time, math, typing, enum, functools, logging\nlogging.info(__name__)",
+    "import random\nrandom.seed(3)\nrandom.random()",
 )
 
 
-@needs_robot
 @pytest.mark.parametrize("text", HONEST)
 def test_what_robot_programs_do_is_not_refused(tmp_path, text):
     (tmp_path / "trick.py").write_text(text, "utf-8")
@@ -172,9 +182,18 @@ def test_what_robot_programs_do_is_not_refused(tmp_path, text):
 
 
 @needs_robot
-def test_a_program_that_knows_it_is_simulated_is_not_settled_by_a_run(mine):
-    asks = "import wpilib\n\n\ndef share():\n    return 1 - wpilib.RobotBase.isReal() / 2\n"
-    checks = {one.id: one for one in EXERCISE.grade(mine(asks), student="ann").checks}
+@pytest.mark.parametrize(
+    "asked",
+    [
+        "wpilib.RobotBase.isReal()",
+        "(not wpilib.RobotBase.isSimulation())",
+        "(hal.getRuntimeType() == hal.RuntimeType.HAL_Runtime_RoboRIO2)",
+        "(wpilib.RobotBase.getRuntimeType() != hal.RuntimeType.HAL_Runtime_Simulation)",
+    ],
+)
+def test_a_program_that_asks_whether_it_is_simulated_is_told_that_it_is_real(tmp_path, asked):
+    asks = f"import hal\nimport wpilib\n\n\ndef share():\n    return 1 - {asked} / 2\n"
+    (tmp_path / "trick.py").write_text(asks, "utf-8")
+    run = ran(tmp_path, changed(*HALVED), robotpy=True)
 
-    assert checks["drive"].status == "failed"
-    assert "checks whether this is a simulation" in checks["drive"].hint
+    assert run.tests["dynamic-forward"].motors["left"].ratio == pytest.approx(0.5)

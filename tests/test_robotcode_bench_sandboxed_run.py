@@ -3,22 +3,17 @@
 import os
 import socket
 import sys
-import threading
 import time
 
 import pytest
-from robot_mistakes import ROOT, changed, needs_robot
+from robot_mistakes import MOUNTS, ROOT, changed
 
-from grader.exercise import Exercise
 from grader.isolation import find_isolation_level
 from grader.isolation import sandbox_parent as isolation
-from grader.robotcode import bench
-from grader.robotcode.bench import RunOutcome
-from grader.robotcode.bench.log_facts import read_facts
-from grader.robotcode.bench.sandbox_files import MOST, copy_program
-from grader.robotcode.bench.sandboxed_run import LARGEST, run_confined
+from grader.robotcode import python
+from grader.robotcode.bench.facts import Outcome
+from grader.robotcode.python.sandbox_files import MOST, copy_program
 
-EXERCISE = Exercise("exercise4", ROOT / "exercises" / "exercise4")
 LEVEL = find_isolation_level()
 NO_ISOLATION = "" if LEVEL.startswith("isolated") else f"this system is {LEVEL}"
 isolated = pytest.mark.skipif(bool(NO_ISOLATION), reason=NO_ISOLATION or "isolated")
@@ -34,18 +29,24 @@ def each_kernel(request, monkeypatch):
 
 
 @pytest.fixture
-def tried(tmp_path):
+def tried(tmp_path, monkeypatch):
     """Runs the right answer with a trick before it sends its first voltage."""
+    monkeypatch.setattr(python, "refuse_tampering", lambda _: None)
 
-    def run(trick, *, seconds=bench.SECONDS, start=run_confined):
+    def run(trick, *, seconds=python.SECONDS):
         folder = tmp_path / "theirs"
         folder.mkdir(exist_ok=True)
         path = folder / "mine.py"
         path.write_text(changed((SEND, f"import trick; {SEND}")), "utf-8")
         (folder / "trick.py").write_text(trick, "utf-8")
-        return bench.run_sysid_routine(path, "ExampleSubsystem", start=start, seconds=seconds)
+        return python.run_python(path, "routine", MOUNTS, seconds=seconds)[0]
 
     return run
+
+
+def goes_on(run):
+    """Whether a run came to its end, and shows what the program did."""
+    return run.stop is None and (run.ramp.value, run.step.value) == (0.5, 3.5)
 
 
 def quietly(statement):
@@ -55,7 +56,6 @@ def quietly(statement):
     )
 
 
-@needs_robot
 @isolated
 @pytest.mark.usefixtures("each_kernel")
 @pytest.mark.parametrize(
@@ -91,67 +91,52 @@ def test_a_trick_is_refused_and_the_run_is_what_it_was(tried, tmp_path, statemen
         }
         run = tried(quietly(statement.format(**names)))
 
-    assert run.outcome is RunOutcome.RAN, run.said
-    assert (round(run.ramp, 4), run.step, run.timeout) == (0.5, 3.5, 10.0)
+    assert goes_on(run), run.stop
     assert not (tmp_path / "planted").exists()
 
 
-@needs_robot
 def test_the_same_tricks_succeed_where_nothing_is_shut_in(tried, tmp_path, monkeypatch):
     (tmp_path / "key.txt").write_text(KEY, "utf-8")
     monkeypatch.setattr(isolation, "CONFINED", False)
     run = tried(quietly(f"open({str(tmp_path / 'key.txt')!r}).read()"))
 
-    assert run.outcome is RunOutcome.CRASHED
-    assert "REACHED" in run.said
+    assert "REACHED" in run.stop.said
 
 
-@needs_robot
-@isolated
-def test_vendor_code_that_needs_the_network_cannot_be_run_and_is_not_blamed(tried):
-    run = tried("import socket; socket.socket()")
-
-    assert run.outcome is RunOutcome.CANNOT
-    assert run.said.startswith("it asks for what it cannot have here: PermissionError")
-
-
-@needs_robot
 @posix
 @pytest.mark.parametrize(
     ("trick", "outcome"),
     [
-        pytest.param("import os; os._exit(0)", RunOutcome.CRASHED, id="a sudden end"),
-        pytest.param("import os; os.abort()", RunOutcome.CRASHED, id="a crash of Python's"),
-        pytest.param("while True: pass", RunOutcome.ENDLESS, id="an endless loop"),
+        pytest.param("import os; os._exit(0)", Outcome.CRASHED, id="a sudden end"),
+        pytest.param("import os; os.abort()", Outcome.CRASHED, id="a crash of Python's"),
+        pytest.param("while True: pass", Outcome.ENDLESS, id="an endless loop"),
         pytest.param(
             "import faulthandler\nfaulthandler.cancel_dump_traceback_later()\nwhile True: pass",
-            RunOutcome.ENDLESS,
+            Outcome.ENDLESS,
             id="an endless loop that hides",
         ),
-        pytest.param("x = bytearray(8 * 1024**3)", RunOutcome.CRASHED, id="memory"),
-        pytest.param("print('flood ' * 5_000_000)", RunOutcome.RAN, id="an output flood"),
+        pytest.param("x = bytearray(8 * 1024**3)", Outcome.CRASHED, id="memory"),
+        pytest.param("print('flood ' * 5_000_000)", None, id="an output flood"),
         pytest.param(
             "with open('flood', 'wb') as f:\n    for _ in range(99): f.write(bytes(10**6))",
-            RunOutcome.CRASHED,
+            Outcome.CRASHED,
             id="a file flood",
         ),
         pytest.param(
             "import os\nfor _ in range(1500):\n    os.mkdir('d'); os.chdir('d')",
-            RunOutcome.RAN,
+            None,
             id="a deep folder",
         ),
     ],
 )
 def test_what_takes_too_much_is_ended_and_stops_nobody(tried, trick, outcome):
     begin = time.monotonic()
-    run = tried(trick, seconds=2.0 if outcome is RunOutcome.ENDLESS else bench.SECONDS)
+    run = tried(trick)
 
-    assert run.outcome is outcome, run.said
-    assert time.monotonic() - begin < bench.SECONDS + 5.0
-    assert "\n" not in run.said
+    assert (run.stop and run.stop.outcome) is outcome, run.stop
+    assert time.monotonic() - begin < python.SECONDS + 5.0
 
 
-@needs_robot
 @posix
 def test_what_a_program_started_ends_with_it(tried, tmp_path, monkeypatch):
     monkeypatch.setattr(isolation, "CONFINED", False)  # else it can start nothing
@@ -173,68 +158,14 @@ def test_what_a_program_started_ends_with_it(tried, tmp_path, monkeypatch):
     assert beat.read_text("utf-8") == last
 
 
-@needs_robot
 @isolated
 def test_environment_and_arguments_hold_no_secret(tried, monkeypatch):
     monkeypatch.setenv("SYSID_SECRET", "of the class")
     run = tried("import os, sys; raise KeyError(str(dict(os.environ)) + str(sys.argv)[:60])")
 
-    assert run.outcome is RunOutcome.CRASHED
-    assert "HOME" in run.said
-    assert "SYSID_SECRET" not in run.said
-    assert "of the class" not in run.said
-
-
-@needs_robot
-@isolated
-def test_reading_decides_where_a_trick_ends_the_run(tmp_path):
-    path = tmp_path / "mine.py"
-    path.write_text(changed((SEND, f"open('/etc/hostname').read(); {SEND}")), "utf-8")
-    result = EXERCISE.grade(path, student="ann")
-
-    assert (result.status, result.score) == ("passed", 15)
-    assert "Only read, not run" in result.checks[0].hint
-
-
-@posix
-@pytest.mark.parametrize("name", ["seen.json", "endless.txt", "robot.wpilog"])
-def test_a_pipe_in_place_of_a_result_holds_nobody_up(tmp_path, name):
-    os.mkfifo(tmp_path / name)
-    done = threading.Event()
-
-    def judge():
-        read_facts(tmp_path, tmp_path / "mine.py", ended=True, seconds=1)
-        done.set()
-
-    threading.Thread(target=judge, daemon=True).start()
-    assert done.wait(5)
-
-
-@pytest.mark.parametrize(
-    "left",
-    [
-        "[" * 100_000,
-        '{"cannot": "' + "x" * LARGEST + '"}',
-        '{"rows": [["a", 1e999, 1, [1], [1]]], "lasted": {"quasistatic-forward": 1}}',
-        '{"rows": [["a", ' + "9" * 400 + ', 1, [1], [1]]], "lasted": {"quasistatic-forward": 1}}',
-    ],
-    ids=["deep", "large", "no number", "a number too large"],
-)
-def test_results_made_to_hurt_are_only_results_that_cannot_be_read(tmp_path, left):
-    (tmp_path / "seen.json").write_text(left, "utf-8")
-    found = read_facts(tmp_path, tmp_path / "mine.py", ended=True, seconds=1)
-
-    assert (found.outcome, found.said) == (
-        RunOutcome.CANNOT, "the run left no result",
-    )  # fmt: skip
-
-
-def test_what_is_told_on_is_one_line_that_can_be_printed(tmp_path):
-    (tmp_path / "seen.json").write_text('{"cannot": "a\\u001b[2J\\nb' + "x" * 999 + '"}', "utf-8")
-    said = read_facts(tmp_path, tmp_path / "mine.py", ended=True, seconds=1).said
-
-    assert said.startswith("a [2J bxxx")
-    assert len(said) <= 201
+    assert "HOME" in run.stop.said
+    assert "SYSID_SECRET" not in run.stop.said
+    assert "of the class" not in run.stop.said
 
 
 def test_a_program_is_handed_over_with_what_belongs_to_it_and_nothing_else(tmp_path):

@@ -1,169 +1,159 @@
-"""RobotPy code that does not run to its end: crashes, endless loops, other seasons."""
-
-import sys
+"""RobotPy code that does not run to its end: crashes, endless loops, results that mislead."""
 
 import pytest
-from robot_mistakes import changed, needs_robot, ran
+from robot_mistakes import MOUNTS, changed, needs_robot, ran
 
-from grader.robotcode import bench
-from grader.robotcode.bench import RunOutcome, sandboxed_run
-from grader.robotcode.bench.log_facts import read_facts
+from grader.robotcode import python
+from grader.robotcode.bench.facts import Outcome
+from sim.core.errors import UnreadableFile
 
 
-@needs_robot
 @pytest.mark.parametrize(
-    ("changes", "outcome", "said", "where"),
+    ("changes", "line", "said", "where"),
     [
         pytest.param(
             [("self.right_encoder.getRate()", "self.right_encoder.getSpeed()")],
-            RunOutcome.CRASHED,
-            "mine.py, line 51: AttributeError: 'wpilib._wpilib.Encoder' object has no",
+            51,
+            "AttributeError: Encoder has no getSpeed",
             "log",
-            id="a crash",
+            id="a misspelled method",
+        ),
+        pytest.param(
+            [("self.left.setVoltage", "self.lfet.setVoltage")],
+            38,
+            "AttributeError: ExampleSubsystem has no lfet. Did you mean left?",
+            "drive",
+            id="a misspelled field",
         ),
         pytest.param(
             [("METERS_PER_PULSE = 0.000156", "METERS_PER_PULSE = 1 / 0")],
-            RunOutcome.CRASHED,
-            "mine.py, line 12: ZeroDivisionError: division by zero",
-            "",
+            12,
+            "ZeroDivisionError: division by zero",
+            "start",
             id="a crash on import",
         ),
         pytest.param(
+            [("Encoder, PWMSparkMax\n", "Encoder, PWMSparkMx\n")],
+            9,
+            "ImportError: wpilib has no PWMSparkMx. Did you mean PWMSparkMax?",
+            "start",
+            id="a misspelled import",
+        ),
+        pytest.param(
             [("Config(rampRate", "Mechanism(rampRate")],
-            RunOutcome.CRASHED,
-            "TypeError: SysIdRoutine.Mechanism.__init__() got an unexpected keyword",
-            "",
+            30,
+            "TypeError: ",
+            "start",
             id="arguments of another",
         ),
         pytest.param(
-            [
-                ("SysIdRoutine.Config(rampRate=0.5, stepVoltage=3.5, timeout=10.0),", "A,"),
-                ("SysIdRoutine.Mechanism(self.drive, self.record, self)", "B"),
-                ("A,", "SysIdRoutine.Mechanism(self.drive, self.record, self),"),
-                ("            B,", "            SysIdRoutine.Config(0.5, 3.5, 10.0),"),
-            ],
-            RunOutcome.CRASHED,
-            "AttributeError: 'Config' object has no attribute 'name'",
-            "",
-            id="arguments swapped",
-        ),
-        pytest.param(
             [("super().__init__()", "super().__init__(); raise SystemExit")],
-            RunOutcome.CRASHED,
-            "mine.py, line 19: SystemExit",
-            "",
+            19,
+            "sys.exit() ends the program",
+            "start",
             id="an exit",
         ),
         pytest.param(
-            [("self.left.setVoltage(voltage)", "import os; os._exit(0)")],
-            RunOutcome.CRASHED,
-            "your code ended the robot program in the middle of a test",
-            "",
-            id="a sudden end",
-        ),
-        pytest.param(
-            [("from commands2 import", "import phoenix_7\nfrom commands2 import")],
-            RunOutcome.CANNOT,
-            "it imports phoenix_7, which is not here",
-            "",
-            id="a vendor's library",
-        ),
-        pytest.param(
-            [("def __init__(self)", "def __init__(self, port)")],
-            RunOutcome.CANNOT,
-            "ExampleSubsystem() has to be given port",
-            "",
-            id="an argument",
-        ),
-        pytest.param(
-            [("self.left.setVoltage", "self.left.set_voltage")],
-            RunOutcome.CANNOT,
-            "set_voltage is a name of 2027, and the RobotPy installed here is 2026",
-            "",
-            id="another season",
+            [
+                ("def drive(", "def periodic(self):\n        1 / self.nothing\n\n    def drive("),
+                ("super().__init__()", "super().__init__(); self.nothing = 0"),
+            ],
+            36,
+            "ZeroDivisionError: division by zero",
+            "periodic",
+            id="a crash in periodic",
         ),
     ],
-)
-def test_what_does_not_run_says_so_in_one_line(tmp_path, changes, outcome, said, where):
-    run = ran(tmp_path, changed(*changes))
+)  # fmt: skip
+def test_a_crash_tells_its_line_and_where_it_was(tmp_path, changes, line, said, where):
+    stop = ran(tmp_path, changed(*changes), robotpy=False).stop
 
-    assert run.outcome is outcome, run.said
-    assert said in run.said
-    assert run.where == where
-    assert "\n" not in run.said
+    assert stop.outcome is Outcome.CRASHED
+    assert said in stop.said
+    assert (stop.line, stop.where) == (line, where)
+    assert "\n" not in stop.said
 
 
 @needs_robot
+def test_robotpy_tells_the_same_of_a_crash(tmp_path):
+    text = changed(("self.left.setVoltage", "self.left.setVolatge"))
+    fakes, robotpy = (ran(tmp_path, text, robotpy=one).stop for one in (False, True))
+
+    assert fakes == robotpy
+    assert fakes.said == "AttributeError: PWMSparkMax has no setVolatge. Did you mean setVoltage?"
+
+
+def test_private_names_are_told_as_the_learner_wrote_them(tmp_path):
+    text = changed(("self.left", "self._left"), ("METERS_PER_PULSE", "_PULSE"))
+
+    assert [one.name for one in ran(tmp_path, text).devices][:2] == ["_left", "right"]
+    wrong = text.replace("self._left.setVoltage", "self._lfet.setVoltage")
+    assert "_lfet'. Did you mean _left?" in ran(tmp_path, wrong).stop.said
+
+
+def test_private_names_never_meet_those_of_a_fake(tmp_path):
+    private = "super().__init__(); self._subsystem_name = self._shaft = self._name = 3"
+
+    assert ran(tmp_path, changed(("super().__init__()", private))) == ran(tmp_path, changed())
+
+
+ENDLESS = "        while True:\n            pass"
+HIDING = (
+    "        while True:\n            try:\n                while True:\n                    pass\n"
+    "            except BaseException:\n                pass"
+)
+
+
 def test_an_endless_loop_is_ended_and_its_line_named(tmp_path):
-    endless = (
-        "        self.right.setVoltage(voltage)",
-        "        while True:\n            pass",
-    )
-    run = ran(tmp_path, changed(endless), seconds=4)
+    text = changed(("        self.right.setVoltage(voltage)", ENDLESS))
+    stop = ran(tmp_path, text).stop
 
-    assert run.outcome is RunOutcome.ENDLESS
-    assert run.where == "drive"
-    assert run.line in {38, 39, 40}  # the loop, or the call before it
-    assert "did not end within 4 s" in run.said
+    assert (stop.outcome, stop.where) == (Outcome.ENDLESS, "drive")
+    assert stop.line in {39, 40}
 
 
-@pytest.mark.parametrize(
-    "left",
-    [
-        "",
-        "{",
-        "[]",
-        '{"rows": 3}',
-        '{"rows": [[1]], "lasted": {}}',
-        '{"crash": 1}',
-        '{"presses": [3]}',
-    ],
-)
-def test_whatever_a_child_leaves_behind_is_an_answer(tmp_path, left):
-    (tmp_path / "seen.json").write_text(left, "utf-8")
+def test_an_endless_loop_that_lets_nothing_stop_it_is_ended(tmp_path):
+    text = changed(("        self.right.setVoltage(voltage)", HIDING))
+    run = ran(tmp_path, text, seconds=4)
 
-    assert (
-        read_facts(tmp_path, tmp_path / "a.py", ended=True, seconds=1).outcome is RunOutcome.CANNOT
-    )
-
-
-def test_a_child_that_does_not_end_is_ended(tmp_path):
-    program = [sys.executable, "-c", "while True: pass"]
-
-    assert sandboxed_run.run_limited(program, tmp_path, 0.5) is False
-    assert (
-        read_facts(tmp_path, tmp_path / "a.py", ended=False, seconds=0.5).outcome
-        is RunOutcome.ENDLESS
-    )
+    assert run.stop.outcome is Outcome.ENDLESS
+    assert not run.tests
 
 
 @pytest.mark.parametrize(
-    ("stack", "outcome"),
-    [
-        ('  File "/class/mine.py", line 7 in drive\n', RunOutcome.ENDLESS),
-        ('  File "/lib/wpilib/__init__.py", line 7 in run\n', RunOutcome.CANNOT),
-    ],
-    ids=["in the learner's code", "on a machine that is too busy"],
+    ("text", "line"),
+    [("x = = 3\n", 1), ("def f():\nreturn 1\n", 2), ("import a.B;\npublic class A {}\n", 2)],
 )
-def test_only_a_loop_in_the_learners_own_code_is_blamed_on_the_learner(tmp_path, stack, outcome):
-    (tmp_path / "endless.txt").write_text(stack, "utf-8")
-
-    assert read_facts(tmp_path, tmp_path / "mine.py", ended=True, seconds=1).outcome is outcome
-
-
-@needs_robot
-def test_whoever_confines_the_child_starts_it(tmp_path):
-    started = []
-
-    def start(program, folder, seconds):
-        started.append((program[0], folder.is_dir(), [*folder.iterdir()], seconds))
-        return sandboxed_run.run_limited(program, folder, seconds)
-
+def test_a_text_that_is_not_python_is_refused_with_its_line(tmp_path, text, line):
     path = tmp_path / "mine.py"
-    path.write_text(changed(), "utf-8")
+    path.write_text(text, "utf-8")
 
-    assert (
-        bench.run_sysid_routine(path, "ExampleSubsystem", start=start, seconds=8).outcome
-        is RunOutcome.RAN
+    with pytest.raises(UnreadableFile) as refused:
+        python.run_python(path, "routine", MOUNTS)
+    assert f"line {line}" in str(refused.value.where)
+
+
+@pytest.mark.parametrize(
+    "left", ["", "{", "[]", "3", '{"facts": 3}', '{"facts": {"language": 1}}', "[" * 100_000]
+)
+def test_whatever_a_child_says_is_an_answer(tmp_path, monkeypatch, left):
+    monkeypatch.setattr(
+        python, "run_program", lambda *_, stdin, **__: (True, f"{stdin} {left}".encode())
     )
-    assert started == [(sys.executable, True, [], 8 + sandboxed_run.GRACE)]
+    run = ran(tmp_path, changed())
+
+    assert (run.stop.outcome, run.tests) == (Outcome.CRASHED, {})
+    assert run.stop.said == "the run leaves no result that can be read"
+
+
+def test_what_nobody_knows_is_assumed_both_ways(tmp_path):
+    text = changed(
+        ("from commands2 import Subsystem\n", "from commands2 import Subsystem\nimport team\n"),
+        ("self.left.setVoltage(voltage)", "self.left.setVoltage(0 if team.STILL else voltage)"),
+    )
+    path = tmp_path / "mine.py"
+    path.write_text(text, "utf-8")
+    runs = python.run_python(path, "routine", MOUNTS)
+
+    assert [one.tests["dynamic-forward"].motors["left"].never for one in runs] == [False, True]
+    assert "STILL" in runs[0].unknown

@@ -1,107 +1,71 @@
-"""Robot code in, facts out: a corpus of what teams write and learners hand in, sound and broken.
+"""Robot code in, facts of its run out: a corpus of what teams write and learners hand in."""
 
-The tables are the files `expected.toml` in the folders of `robotcode/`. They were written by
-reading the code, not by running the reader.
-"""
-
+import re
 import tomllib
 
 import pytest
 from robot_corpus import whole_corpus
 
-from grader.robotcode import read
-from grader.robotcode.facts import Certainty, ConfigQuantity, DriveCall, LoggedSignal, RoutineFacts
+from grader.robotcode.bench.facts import RoutineFacts, Setting
+from grader.robotcode.running import run_routine
 from sim.core.errors import UnreadableFile
 
 CORPUS = whole_corpus()
-SUFFIXES = {".java", ".py"}
-LEAST = {".java": 60, ".py": 50}  # files of each language: what a reader of both has to stand
+TABLE = tomllib.loads((CORPUS / "expected.toml").read_text("utf-8"))
+SOURCES = {one for one in CORPUS.rglob("*") if one.suffix in {".java", ".py"}}
+VOLTS = re.compile("set_?voltage", re.IGNORECASE)  # a PWM controller makes a duty cycle of it
 
 
-def expected() -> dict[str, dict[str, object]]:
-    """Every table row, by the file's path in the corpus."""
-    found = {}
-    for page in sorted(CORPUS.rglob("expected.toml")):
-        folder = page.parent.relative_to(CORPUS)
-        rows = tomllib.loads(page.read_text(encoding="utf-8"))
-        found |= {(folder / name).as_posix(): row for name, row in rows.items()}
-    return found
+def run(name: str) -> tuple[RoutineFacts, ...]:
+    return run_routine(CORPUS / name, mounts={"java": {}, "python": {}}, task="no task")
 
 
-EXPECTED = expected()
-SOURCES = sorted(path for path in CORPUS.rglob("*") if path.suffix in SUFFIXES)
-PASSED = {True: "self", False: "no", None: "other"}
-CONSTANT = {True: "parameter", False: "constant", None: "untold"}
+def number(settings: list[Setting]) -> object:
+    """One number of the Config as the table has it: unknown where two runs have two."""
+    first = settings[0]
+    if first.value is None or len({one.value for one in settings}) > 1:
+        return "wrong" if first.problem else "unknown"
+    return "default" if first.default else pytest.approx(first.value)
 
 
-def number(quantity: ConfigQuantity) -> str:
-    if quantity.known is Certainty.STATED:
-        return f"{quantity.value:g} {quantity.dimension}"
-    return quantity.known.value
-
-
-def command(call: DriveCall) -> str:
-    scaled = {True: " scaled", False: "", None: " scaled?"}[call.scaled]
-    carries = CONSTANT[call.uses_parameter]
-    return f"{call.motor} {call.method} {call.output.value} {carries}{scaled}"
-
-
-def entry(signal: LoggedSignal) -> str:
-    words = (signal.family, signal.signal, signal.unit, signal.source.value)
-    return f"{signal.motor}: {' '.join(word for word in words if word)}"
-
-
-def table(facts: RoutineFacts) -> dict[str, object]:
-    """The facts as `expected.toml` writes them, without what is as it should be."""
-    problems = [f"line {one.line}: {one.message}" for one in facts.problems]
-    if facts == RoutineFacts(facts.language, problems=facts.problems):
-        return {"nothing": problems}
-    found = {
-        "class": facts.class_name,
-        "subsystem": facts.is_subsystem,
-        "config": [number(one) for one in (facts.ramp, facts.step, facts.timeout)],
-        "motors": list(facts.motors),
-        "drive": [command(call) for call in facts.drive],
-        "logged": [entry(signal) for signal in facts.logged],
-        "passed": PASSED[facts.subsystem_passed],
-        "arguments": [facts.config_argument, facts.mechanism_argument],
-        "callbacks": [
-            "drive" if facts.drive_found else "",
-            "null" if facts.log_is_null else "log" if facts.log_found else "",
-        ],
-        "problems": problems,
-        "unread": [f"line {one.line}: {one.message}" for one in facts.unread],
-    }
-    usual = {
-        "subsystem": True,
-        "passed": "self",
-        "arguments": [0, 1],
-        "callbacks": ["drive", "log"],
-        "problems": [],
-        "unread": [],
-    }
-    return {key: value for key, value in found.items() if value != usual.get(key)}
+def table(runs: tuple[RoutineFacts, ...]) -> dict[str, object]:
+    """What the table says of a program, without what is as it should be."""
+    tests = [test for facts in runs for test in facts.tests.values()]
+    driven = [(name, one) for test in tests for name, d in test.motors.items() for one in d.sent]
+    kinds = {f"{m} {'voltage' if VOLTS.fullmatch(s.method) else s.kind}" for m, s in driven}
+    logged = {f"{m} {s}" for test in tests for m, several in test.signals.items() for s in several}
+    config = [
+        number([getattr(facts, one) for facts in runs]) for one in ("ramp", "step", "timeout")
+    ]
+    found = {"config": config, "drive": sorted(kinds), "logged": sorted(logged)}
+    return {key: value for key, value in found.items() if value and value != ["unknown"] * 3}
 
 
 def test_every_file_has_a_row_and_every_row_a_file() -> None:
-    assert sorted(EXPECTED) == sorted(path.relative_to(CORPUS).as_posix() for path in SOURCES)
+    rows = [name for part in TABLE.values() for name in part]
+    assert sorted(rows) == sorted(path.relative_to(CORPUS).as_posix() for path in SOURCES)
 
 
-@pytest.mark.parametrize("suffix", LEAST)
-def test_the_corpus_holds_many_files_of_either_language(suffix: str) -> None:
-    assert sum(path.suffix == suffix for path in SOURCES) >= LEAST[suffix]
+@pytest.mark.parametrize("name", TABLE["ran"])
+def test_a_run_shows_what_a_reader_finds(name: str) -> None:
+    row, runs = dict(TABLE["ran"][name]), run(name)
+    stop = runs[0].stop.said if runs[0].stop else ""
+    own = [one.message for one in runs[0].errors if not one.file]
+    errors = "\n".join(one for one in own if "is not imported" not in one)
+
+    for said, part in ((stop, row.pop("stop", "")), (errors, row.pop("error", ""))):
+        assert part in said
+        assert bool(part) == bool(said)
+    assert table(runs) == row
 
 
-@pytest.mark.parametrize("name", EXPECTED)
-def test_a_file_gives_the_facts_a_reader_finds_in_it(name: str) -> None:
-    row = EXPECTED[name]
+@pytest.mark.parametrize("name", TABLE["nothing"])
+def test_no_routine_is_found_where_there_is_none(name: str) -> None:
+    assert run(name)[0].line == 0
 
-    if "refused" in row:
-        with pytest.raises(UnreadableFile) as refusal:
-            read(CORPUS / name)
-        assert str(row["refused"]) in refusal.value.what
-    elif "problem" in row:  # of what is this damaged, the first problem is all that is asked
-        first = read(CORPUS / name).problems[0]
-        assert f"line {first.line}: {first.message}".startswith(str(row["problem"]))
-    else:
-        assert table(read(CORPUS / name)) == row
+
+@pytest.mark.parametrize("name", TABLE["refused"])
+def test_what_cannot_be_run_is_refused_with_the_reason(name: str) -> None:
+    with pytest.raises(UnreadableFile) as refusal:
+        run(name)
+    assert TABLE["refused"][name] in str(refusal.value)

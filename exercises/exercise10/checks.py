@@ -3,23 +3,30 @@
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import wraps
 from pathlib import Path
 
-from grader.check import NotReachedError, WrongAnswer, check
+from grader.check import Check, NotReachedError, WrongAnswer, check
 from grader.consequence import Consequence
-from grader.robotcode.gain_constants import DeployFacts, Feedforward, GainConstant, read_gains
+from grader.robotcode.bench.gains_run import GainConstant, Gains
+from grader.robotcode.running import Runs, judge_runs, run_gains
+from grader.routine_checks import check_compiles, check_stop
 from grader.student_files import write_student_files
-from grader.submission import read_text
-from grader.sysid_routine_checks import READ as READ_ONLY
-from grader.sysid_routine_checks import check_compiles
-from sim.core.errors import UnreadableFile
 
 from .comment_units import find_commented_units, judge_comment
 from .drawn import draw
-from .handed import check_choices, check_one_place, check_order, feedforward_of, place_of
-from .key import FEED_FORWARD, FULL, PLACES, SLOT0, Variant, near
+from .handed import (
+    Seen,
+    check_one_place,
+    check_order,
+    check_settings,
+    explain,
+    is_known,
+    list_feedbacks,
+)
+from .key import FEED_FORWARD, FULL, SLOT0, Variant, near
 from .outcome import outcome
-from .slips import constant_slip, feedback_slip, handed_slip
+from .slips import find_constant_slip, find_feedback_slip, find_handed_slip
 
 FILES = ("ExampleMechanism.java", "example_mechanism.py")
 HERE = Path(__file__).resolve().parent
@@ -33,10 +40,26 @@ START = re.compile(
 
 @dataclass(frozen=True)
 class Code:
-    """What the checks look at."""
+    """What the checks look at: the runs of the program, and the learner's mechanism."""
 
-    facts: DeployFacts
-    variant: Variant  # with the gains where this code puts them
+    runs: Runs
+    variant: Variant
+
+
+Look = Callable[[Seen], str | None]
+
+
+def judged(points: float) -> Callable[[Look], Check[Code]]:
+    """Make a check of a function that looks at one run: it judges all runs of a program."""
+
+    def make(look: Look) -> Check[Code]:
+        @wraps(look)
+        def judge(code: Code) -> str | None:
+            return judge_runs(code.runs, lambda facts: look(Seen(facts, code.variant)))
+
+        return check(points=points)(judge)
+
+    return make
 
 
 def prepare(student: str, *, say: Callable[[str], None]) -> None:
@@ -49,20 +72,19 @@ def told(variant: Variant) -> str:
     """What a learner gets to know."""
     given, used = variant.symbol(used=False), variant.symbol(used=True)
     units = {
-        "kS": "V",
-        "kG": "V",
         "kV": f"V for a velocity of 1 {given}/s",
         "kA": f"V for an acceleration of 1 {given}/s every second",
         "kP": f"suggested for a velocity loop: V for an error of 1 {given}/s",
     }
-    rows = "".join(
-        f"{name} = {value:g}  # {units[name]}\n" for name, value in variant.shown.items()
-    )
-    output = (
-        f'"duty cycle"  # from -1 to 1, where 1 stands for {FULL:g} V'
-        if variant.duty
-        else '"volts"'
-    )
+    gains = [
+        f"{name} = {value:g}  # {units.get(name, 'V')}" for name, value in variant.shown.items()
+    ]
+    rows = "\n".join(gains)
+    duty = f'"duty cycle"  # from -1 to 1, where 1 stands for {FULL:g} V'
+    thing = {"drivetrain": "wheel", "elevator": "drum"}.get(variant.kind, variant.kind)
+    radius = f"\nradius = {variant.radius:g}  # [m] of the {thing}" if variant.radius else ""
+    rotations = f"rotations of the {thing}: SensorToMechanismRatio is set"
+    factors = f"{used}: both conversion factors are set"
     return f"""\
 # Exercise 10: your own mechanism. Only read here; your answer goes into the code.
 mechanism = "{variant.kind}"
@@ -71,62 +93,46 @@ mechanism = "{variant.kind}"
 analysis = "{variant.analysis}"
 units = "{variant.shown_in}"
 {rows}
+
 [robot]  # what your code needs
 units = "{variant.used_in}"  # it measures, and asks for, velocities in {used}/s
-loop_output = {output}
+loop_output = {duty if variant.duty else '"volts"'}
 
 [motor_controller]  # only if you put the gains there, and not into a feedforward class
-{_controller(variant)}"""
+gear_ratio = {variant.ratio:g}  # turns of the motor for one turn of the {thing}{radius}
+{SLOT0} = {{ counts = "{rotations}", loop_output = "volts" }}
+{FEED_FORWARD} = {{ counts = "{factors}", loop_output = "duty cycle" }}
+"""
 
 
-def _controller(variant: Variant) -> str:
-    """What a learner gets to know of the motor controller."""
-    thing = {"drivetrain": "wheel", "elevator": "drum"}.get(variant.kind, variant.kind)
-    used = variant.symbol(used=True)
-    radius = f"radius = {variant.radius:g}  # [m] of the {thing}\n" if variant.radius else ""
-    rows = (
-        (SLOT0, f"rotations of the {thing}: SensorToMechanismRatio is set", "volts"),
-        (FEED_FORWARD, f"{used}: both conversion factors are set", "duty cycle"),
-    )
-    tables = "".join(
-        f'{name} = {{ counts = "{counts}", loop_output = "{output}" }}\n'
-        for name, counts, output in rows
-    )
-    return (
-        f"gear_ratio = {variant.ratio:g}  # turns of the motor for one turn of the {thing}\n"
-        f"{radius}{tables}"
-    )
+def read(path: Path, *, student: str, run: bool = True) -> Code:
+    """What the program holds of gains.
 
-
-def read(path: Path, *, student: str) -> Code:
-    """What the file says about its gains.
+    Args:
+        path: the file.
+        student: whose it is.
+        run: whether a learner's Python may be run; Java is interpreted by ourselves in any case.
 
     Raises:
         UnreadableFile: it cannot be read, or does not parse.
+        NotRunError: it is Python, which may not be run.
     """
-    read_text(path)
-    facts = read_gains(path)
-    if facts.problems:
-        first = facts.problems[0]
-        raise UnreadableFile(
-            first.message,
-            where=f"{path}, line {first.line}",
-            advice="Fix that line first: code with a mistake like this does not compile.",
-        )
-    return Code(facts, draw(student).held_by(place_of(facts)))
+    return Code(run_gains(path, run=run), draw(student))
 
 
 def consequence(code: Code) -> Consequence | None:
     """What the learner's feedforward would do on their mechanism."""
-    return outcome(code.facts, code.variant)
+    return outcome(Seen(code.runs[0], code.variant))
 
 
-@check(points=1)
-def named(code: Code) -> None:
+@judged(1)
+def named(seen: Seen) -> None:
     """A class CharacterizationConstants holds every gain under its own name."""
-    wanted = (*code.variant.gains, "kP")
-    there = [one for one in wanted if code.facts.find_constant(one)]
+    wanted = (*seen.variant.gains, "kP")
+    there = [one for one in wanted if seen.facts.find_constant(one)]
     if not there:
+        check_compiles(seen.facts.errors, language=seen.facts.language)
+        check_stop(seen.facts, "start")
         raise WrongAnswer(
             "no gain in this file",
             hint=f"Write them into {HOLDER}, one constant for each: {', '.join(wanted[:1])} and "
@@ -139,7 +145,7 @@ def named(code: Code) -> None:
             hint="Every gain the analyzer shows gets a constant, by the name it has there.",
             earned=0.5 * len(there) / len(wanted),
         )
-    outside = [one for one in code.facts.constants if "haracteri" not in one.holder]
+    outside = [one for one in seen.facts.constants if "haracteri" not in one.holder]
     if outside:
         raise WrongAnswer(
             f"{outside[0].name} in line {outside[0].line} is not in {HOLDER}",
@@ -148,186 +154,161 @@ def named(code: Code) -> None:
         )
 
 
-@check(points=1)
-def volts(code: Code) -> None:
+@judged(1)
+def volts(seen: Seen) -> None:
     """The constants kS, and kG if gravity pulls, have the analyzer's values."""
-    for gain in code.variant.gains:
+    for gain in seen.variant.gains:
         if gain in {"kS", "kG"}:
-            _valued(gain, code)
+            _check_value(gain, seen)
 
 
-@check(points=1)
-def kv(code: Code) -> None:
+@judged(1)
+def kv(seen: Seen) -> None:
     """The constant kV has the analyzer's value, or that value converted to the robot's unit."""
-    _valued("kV", code)
+    _check_value("kV", seen)
 
 
-@check(points=1)
-def ka(code: Code) -> None:
+@judged(1)
+def ka(seen: Seen) -> None:
     """The constant kA has the analyzer's value, or that value converted to the robot's unit."""
-    _valued("kA", code)
+    _check_value("kA", seen)
 
 
-def _valued(gain: str, code: Code) -> None:
-    constant = _constant(gain, code)
-    value = _known(constant.value, f"{constant.name} = {constant.text}", constant.line)
-    if _right(constant, code.variant):
-        return
-    slip = constant_slip(value, gain, code.variant, text=constant.text)
-    raise WrongAnswer(_at(constant), hint=slip.says, misconception=slip.misconception)
+def _check_value(gain: str, seen: Seen) -> None:
+    constant = _get_constant(gain, seen)
+    value = seen.get_value(constant.value, _describe(constant))
+    if not seen.variant.accepts(gain, value):
+        slip = find_constant_slip(value, gain, seen.variant, text=constant.text)
+        raise explain(_describe(constant), slip)
 
 
-def _right(constant: GainConstant, variant: Variant) -> bool:
-    """Whether a constant is the analyzer's number, or the one the robot needs."""
-    return constant.value is not None and variant.accepts(constant.gain, constant.value)
-
-
-def _constant(gain: str, code: Code) -> GainConstant:
-    found = code.facts.find_constant(gain)
+def _get_constant(gain: str, seen: Seen) -> GainConstant:
+    found = seen.facts.find_constant(gain)
     if found is None:
         raise NotReachedError(f"checked after you write a constant {gain}")
     return found
 
 
-def _known(value: float | None, text: str, line: int) -> float:
-    if value is None:
-        raise WrongAnswer(
-            f"the grader cannot see the number by reading {text} in line {line}",
-            hint="Write it as a number, or as a calculation with numbers and named constants.",
-        )
-    return value
+def _describe(one: GainConstant) -> str:
+    known = one.value is not None and f"{one.value:g}" not in one.text
+    worked = f", which is {one.value:.4g}" if known else ""
+    return f"{one.name} = {one.text} in line {one.line}{worked}"
 
 
-def _at(constant: GainConstant) -> str:
-    worked = "" if f"{constant.value:g}" in constant.text else f", which is {constant.value:.4g}"
-    return f"{constant.name} = {constant.text} in line {constant.line}{worked}"
-
-
-@check(points=1)
-def units(code: Code) -> None:
+@judged(1)
+def units(seen: Seen) -> None:
     """A comment gives the unit of each gain of the feedforward."""
-    found = [one for one in code.facts.constants if one.gain in code.variant.gains]
+    found = [one for one in seen.facts.constants if one.gain in seen.variant.gains]
     if not found:
         raise NotReachedError("checked after you write the gains")
     for one in found:
-        verdict = _unit_told(one, code)
+        verdict = _is_unit_told(one, seen)
         shown = f'"{one.comment[:50]}" next to {one.name}' if one.comment else f"{one.name} alone"
-        if verdict is False and any(find_commented_units(one.comment)):
-            raise WrongAnswer(
-                f"{shown}, line {one.line}",
-                hint=f"That is a unit of something else than {one.name}. Each gain times what it "
-                "is multiplied by gives volts.",
-                misconception="M-UNITS",
-            )
-        if verdict is False:
+        other = verdict is False and any(find_commented_units(one.comment))
+        if verdict is False and not other:
             raise WrongAnswer(
                 f"no unit of {one.name} in line {one.line}: {shown}",
                 hint="Write it next to the number: next year nobody will remember it.",
             )
-        if verdict is None:
-            raise WrongAnswer(
-                f"{shown}, line {one.line}",
-                hint="This is the right kind of unit, but not the unit of this number.",
-                misconception="M-UNITS",
-            )
+        if not verdict:
+            hint = "This is the right kind of unit, but not the unit of this number."
+            if other:
+                hint = f"That is a unit of something else than {one.name}. Each gain times what it "
+                hint += "is multiplied by gives volts."
+            raise WrongAnswer(f"{shown}, line {one.line}", hint=hint, misconception="M-UNITS")
 
 
-def _unit_told(one: GainConstant, code: Code) -> bool | None:
+def _is_unit_told(one: GainConstant, seen: Seen) -> bool | None:
     """Whether a gain's unit is told; where the number itself is not right, either will do."""
-    units_ = code.variant.list_matching_units(one.gain, one.value)
-    beside = {judge_comment(one.comment, unit, name=one.name) for unit in units_}
-    if True in beside or (
-        beside == {False} and any(judge_comment(code.facts.general, u) for u in units_)
+    units_ = seen.variant.list_matching_units(one.gain, one.value)
+    verdicts = {judge_comment(one.comment, unit, name=one.name) for unit in units_}
+    if True in verdicts or (
+        verdicts == {False} and any(judge_comment(seen.facts.general, u) for u in units_)
     ):
         return True
     # per meter, where per rotation is right
-    elsewhere = code.variant.list_matching_units(one.gain, None)
+    elsewhere = seen.variant.list_matching_units(one.gain, None)
     if any(judge_comment(one.comment, unit, name=one.name) for unit in elsewhere):
         return None
-    return None if None in beside else False
+    return None if None in verdicts else False
 
 
-@check(points=1)
-def feedforward(code: Code) -> str:
+@judged(1)
+def feedforward(seen: Seen) -> None:
     """The feedforward is of the class, or has the settings, that fit the mechanism."""
-    one = feedforward_of(code.facts, code.variant)
-    check_one_place(code.facts)
-    if one.kind == code.variant.made:
-        if one.kind in PLACES:
-            check_choices(one, code.variant)
-        check_compiles(code.facts.compile_errors, language=code.facts.language)
-        return READ_ONLY[code.facts.language].partition(":")[0] + "."
-    gravity = code.variant.analysis != "Simple" and one.kind == "SimpleMotorFeedforward"
-    raise WrongAnswer(
-        f"{one.kind} in line {one.line}",
-        hint=(
-            "This class has no argument for kG, but gravity pulls this mechanism down all the time."
-        )
-        if gravity
-        else "Which analysis type did the analyzer use? Each type has its own class.",
-        misconception="M-NO-KG-IN-SYSID" if gravity else "",
-    )
+    one, facts = seen.feedforwards[0], seen.facts
+    check_one_place(facts)
+    if one.kind != seen.variant.made:
+        gravity = seen.variant.analysis != "Simple" and one.kind == "SimpleMotorFeedforward"
+        hint = "Which analysis type did the analyzer use? Each type has its own class."
+        if gravity:
+            hint = (
+                "This class has no argument for kG, but gravity pulls this mechanism down all the "
+                "time."
+            )
+        misconception = "M-NO-KG-IN-SYSID" if gravity else ""
+        raise WrongAnswer(f"{one.kind} in line {one.line}", hint=hint, misconception=misconception)
+    check_settings(one, seen.variant)
+    check_compiles(facts.errors, language=facts.language)
+    check_stop(facts, "start", "periodic")
 
 
-@check(points=2)
-def order(code: Code) -> None:
+@judged(2)
+def order(seen: Seen) -> None:
     """Each gain is in the place where the feedforward expects it."""
-    one = feedforward_of(code.facts, code.variant)
-    check_order(one, code.facts, code.variant, points=2)
+    for one in seen.feedforwards:
+        check_order(one, seen, points=2)
 
 
-@check(points=2)
-def conversion(code: Code) -> None:
+@judged(2)
+def conversion(seen: Seen) -> None:
     """The feedforward gets kV and kA in the unit that the robot's code uses."""
-    one = feedforward_of(code.facts, code.variant)
     wrong = []
-    for gain in ("kV", "kA"):
-        try:
-            _converted(gain, one, code)
-        except WrongAnswer as why:
-            wrong.append(why)
+    for one in seen.feedforwards:
+        given = {seen.find_gain(v, place): v for place, v in one.gains.items() if v}
+        for gain in ("kV", "kA"):
+            try:
+                _check_converted(gain, one, given.get(gain, one.gains.get(gain)), seen)
+            except WrongAnswer as why:
+                wrong.append(why)
     if wrong:
-        wrong[0].earned = 2.0 - len(wrong)
+        wrong[0].earned = max(0.0, 2.0 - len(wrong))
         raise wrong[0]
 
 
-def _converted(gain: str, one: Feedforward, code: Code) -> None:
-    given = next(
-        (arg for arg in one.arguments.values() if arg.gain == gain), one.arguments.get(gain)
-    )
-    constant = code.facts.find_constant(gain)
-    if given is None and one.spread:
-        hint = "Write the arguments one by one."
-        raise WrongAnswer(f"the grader cannot see by reading what {gain} it gets", hint=hint)
-    if given is None:
-        raise WrongAnswer(
-            f"the feedforward in line {one.line} gets no {gain}", hint="Pass it, too."
-        )
-    if constant is None and given.value is None:
-        raise WrongAnswer(f"no constant {gain}", hint="Write it down first.")
-    if constant is not None and constant.value is not None and not _right(constant, code.variant):
-        raise WrongAnswer(_at(constant), hint=f"Correct the constant {gain} first.")
-    value = _known(given.value, given.text, one.line)
-    if near(value, code.variant.needed(gain)):
+def _check_converted(gain: str, one: Gains, given: float | None, seen: Seen) -> None:
+    at = f"{one.kind} in line {one.line}"
+    if given == 0 or gain not in one.gains:
+        raise WrongAnswer(f"{at} gets no {gain}", hint="Pass it, too.")
+    value = seen.get_value(given, f"{gain} of {at}")
+    if near(value, seen.variant.needed(gain)):
         return
-    slip = handed_slip(value, gain, code.variant)
-    seen = f"{given.text} in line {one.line}, which is {value:.4g}"
-    raise WrongAnswer(seen, hint=slip.says, misconception=slip.misconception)
+    constant = seen.facts.find_constant(gain)
+    if constant and constant.value is not None and not seen.variant.accepts(gain, constant.value):
+        raise WrongAnswer(_describe(constant), hint=f"Correct the constant {gain} first.")
+    slip = find_handed_slip(value, gain, seen.variant)
+    raise explain(f"{at} gets {gain} = {value:.4g}", slip)
 
 
-@check(points=1)
-def kp(code: Code) -> None:
+@judged(1)
+def kp(seen: Seen) -> None:
     """The constant kP fits the robot's loop, and its comment says what kind of number it is."""
-    constant = _constant("kP", code)
-    handed = code.facts.feedback
-    at = f"{constant.name} = {constant.text}"
-    value = _known(handed.value if handed else constant.value, at, constant.line)
+    constant = _get_constant("kP", seen)
     marked = bool(START.search(constant.comment))
-    if not near(value, code.variant.needed("kP")):
-        slip = feedback_slip(value, code.variant, text=constant.text)
-        seen = _at(constant) if constant.value is not None else at
-        earned = 0.5 if marked else 0.0
-        raise WrongAnswer(seen, hint=slip.says, misconception=slip.misconception, earned=earned)
+    earned = 0.5 if marked else 0.0
+    try:
+        judgments = list(list_feedbacks(seen))
+    except WrongAnswer as wrong:
+        wrong.earned = earned
+        raise
+    own = constant.value
+    if not judgments or (own is not None and not is_known(own, seen.variant)):
+        value = seen.get_value(own, _describe(constant))
+        judgments.insert(0, (_describe(constant), value, seen.variant))
+    for said, value, variant in judgments:
+        if not near(value, variant.needed("kP")):
+            slip = find_feedback_slip(value, variant, text=constant.text)
+            raise explain(said, slip, earned)
     if not marked:
         raise WrongAnswer(
             f'"{constant.comment[:50]}" next to kP'

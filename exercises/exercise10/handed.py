@@ -1,40 +1,90 @@
-"""What a feedforward is handed: which gain stands in which place."""
+"""What a feedforward, or a motor controller, really got: which gain is in which place."""
 
 import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
 
 from grader.check import NotReachedError, WrongAnswer
-from grader.robotcode.gain_constants import Argument, DeployFacts, Feedforward
+from grader.robotcode.bench.gains_run import CLASSES, CLOSED_LOOP, GainFacts, Gains
+from grader.routine_checks import check_compiles, check_stop
+from grader.wrong_number import WrongNumber
 
 from .key import FEED_FORWARD, PLACES, SLOT0, Variant, near
+from .slips import find_constant_slip, find_feedback_slip, name_slip
+
+GRAVITY = {"kCos": "kG"}  # what a Spark calls an arm's kG
+LOOK = ("Check the order of its arguments.", "Give each setting the constant of its own name.")
+RATIO = "SensorToMechanismRatio"
+SETTINGS = ("kCosRatio", RATIO, "RotorToSensorRatio")  # that are no gains
 
 
-def feedforward_of(facts: DeployFacts, variant: Variant) -> Feedforward:
-    """The feedforward in question: one of the right class before others.
+@dataclass(frozen=True)
+class Seen:
+    """What a check looks at: one run of the program, and the learner's mechanism."""
 
-    Raises:
-        WrongAnswer: none is made.
-        NotReachedError: there is nothing at all yet.
-    """
-    if not facts.feedforwards and not facts.constants:
-        raise NotReachedError("checked after you write the gains")
-    if not facts.feedforwards:
-        raise WrongAnswer(
-            "no feedforward is made",
-            hint="Make one of WPILib's three, and pass your constants to it. Or put them into the "
-            f"motor controller: {SLOT0} (Phoenix 6) or {FEED_FORWARD} (REVLib).",
-        )
-    right = [one for one in facts.feedforwards if one.kind in {variant.made, *PLACES}]
-    return (right or [*facts.feedforwards])[0]
+    facts: GainFacts
+    drawn: Variant
+
+    @cached_property
+    def variant(self) -> Variant:
+        """The mechanism, with its gains in the unit of the place where this code puts them."""
+        kinds = [one.kind for one in self.facts.feedforwards]
+        inside = [kind for kind in kinds if kind in PLACES]
+        return self.drawn.held_by(inside[0] if inside and len(inside) == len(kinds) else "")
+
+    @property
+    def feedforwards(self) -> list[Gains]:
+        """The feedforwards in question: those of the right class, else all.
+
+        Raises:
+            WrongAnswer: none is made.
+            NotReachedError: there is nothing at all yet.
+        """
+        made = self.facts.feedforwards
+        if not made:
+            check_compiles(self.facts.errors, language=self.facts.language)
+            check_stop(self.facts, "start", "periodic")
+            if not self.facts.constants:
+                raise NotReachedError("checked after you write the gains")
+            lost = [name for name in self.facts.unknown if re.search(r"[fF]eed[fF]orward", name)]
+            raise WrongAnswer(
+                f"the grader knows no {lost[0]}" if lost else "no feedforward is made",
+                hint="Make one of WPILib's three when the robot starts, and pass your constants to "
+                "it. Or put them into the motor controller: "
+                f"{SLOT0} (Phoenix 6) or {FEED_FORWARD} (REVLib).",
+            )
+        return [one for one in made if one.kind in {self.variant.made, *PLACES}] or [*made]
+
+    def find_gain(self, value: float, place: str) -> str:
+        """The gain that a number is, first that of its place; empty if it is none."""
+        known = {one.gain: one.value for one in self.facts.constants}
+        gains = sorted(self.variant.shown, key=lambda gain: gain != place)
+        exact = [gain for gain in gains if known.get(gain) == value]
+        alike = [gain for gain in gains if self.variant.accepts(gain, value)]
+        return next(iter(exact + alike), "")
+
+    def get_value(self, value: float | None, what: str) -> float:
+        """A number that the program holds.
+
+        Raises:
+            WrongAnswer: nobody can know it.
+        """
+        if value is None:
+            check_compiles(self.facts.errors, language=self.facts.language)
+            raise WrongAnswer(
+                f"the grader cannot know {what}",
+                hint="Write it as a number, or as a calculation with numbers and named constants.",
+            )
+        return value
 
 
-def place_of(facts: DeployFacts) -> str:
-    """The class of the motor controller that holds the gains; empty if WPILib's class does."""
-    kinds = [one.kind for one in facts.feedforwards]
-    inside = [kind for kind in kinds if kind in PLACES]
-    return inside[0] if inside and len(inside) == len(kinds) else ""
+def explain(seen: str, slip: WrongNumber, earned: float = 0.0) -> WrongAnswer:
+    """What is seen of a slip, in words."""
+    return WrongAnswer(seen, hint=slip.says, misconception=slip.misconception, earned=earned)
 
 
-def check_one_place(facts: DeployFacts) -> None:
+def check_one_place(facts: GainFacts) -> None:
     """Whether each gain works in one place: volts of the roboRIO and of a motor controller add up.
 
     Phoenix 6 and REVLib add what the code sends as a feedforward to what their own gains make of
@@ -47,154 +97,102 @@ def check_one_place(facts: DeployFacts) -> None:
     inside = [one for one in facts.feedforwards if one.kind in PLACES]
     for one in code:
         for other in inside:
-            held = {
-                GRAVITY.get(name, name) for name, arg in other.arguments.items() if arg.value != 0
-            }
-            twice = [gain for gain in one.arguments if gain in held]
+            held = {GRAVITY.get(name, name) for name, value in other.gains.items() if value != 0}
+            twice = [gain for gain, value in one.gains.items() if value != 0 and gain in held]
             if twice:
                 raise WrongAnswer(
-                    f"{', '.join(twice)} twice: in {one.kind}, line {one.line}, and in "
-                    f"{other.kind}, line {other.line}",
+                    f"{', '.join(twice)} twice: in {_at(one)}, and in {_at(other)}",
                     hint="This is a double feedforward: the motor controller adds its own volts to "
                     "those that your code sends. Choose one place.",
                 )
 
 
-def check_choices(one: Feedforward, variant: Variant) -> None:
-    """Whether gravity and the sign of kS are set for this mechanism in its motor controller.
+def _at(one: Gains) -> str:
+    return f"{one.kind} in line {one.line}"
+
+
+def check_settings(one: Gains, variant: Variant) -> None:
+    """Whether a motor controller's settings beside the gains fit the mechanism.
 
     Raises:
-        WrongAnswer: one is not.
+        WrongAnswer: one does not.
     """
-    arm = variant.analysis == "Arm"
-    if one.kind == FEED_FORWARD:
-        _check_spark(one, arm=arm, variant=variant)
-        return
-    ratio = one.arguments.get("SensorToMechanismRatio")
-    if ratio is not None and ratio.value is not None and not near(ratio.value, variant.ratio):
-        raise WrongAnswer(
-            f"SensorToMechanismRatio is {ratio.text}",
-            hint="The right value is the number of turns of the motor for one turn of the "
-            "mechanism: the gear_ratio of given.toml, not 1 and not its inverse.",
-            misconception="M-UNITS",
-        )
-    gravity = one.choices.get("GravityType", "elevatorstatic")  # Phoenix 6's default
-    if arm and gravity != "armcosine":
-        given = one.choices.get("GravityType")
-        raise WrongAnswer(
-            f"GravityType is {'Elevator_Static' if given else 'not set'} in {SLOT0}, "
-            f"line {one.line}",
-            hint="Without Arm_Cosine the motor controller adds kG at every angle as if the arm "
-            "were level. (Elevator_Static is the default.)",
-        )
-    if variant.analysis == "Elevator" and gravity == "armcosine":
-        raise WrongAnswer(
-            f"GravityType is Arm_Cosine in {SLOT0}, line {one.line}",
-            hint="An elevator weighs the same at every height: use Elevator_Static.",
-        )
-    if one.choices.get("StaticFeedforwardSign", "usevelocitysign") != "usevelocitysign":
-        raise WrongAnswer(
-            f"StaticFeedforwardSign is UseClosedLoopSign in {SLOT0}, line {one.line}",
-            hint="Then kS follows the sign of the error, and the mechanism may shake around the "
-            "target. Your mechanism follows a velocity: use UseVelocitySign, which is the default.",
-        )
+    arm, elevator = variant.analysis == "Arm", variant.analysis == "Elevator"
+    turns, ratio, rotor = (one.gains.get(name) for name in SETTINGS)
+    gravity, spark = f"GravityType {one.choices.get('GravityType')}", one.kind == FEED_FORWARD
+    sign = f"StaticFeedforwardSign {one.choices.get('StaticFeedforwardSign')}"
+    cosine = gravity if gravity.endswith("Arm_Cosine") else "kCos" if "kCos" in one.gains else ""
+    slip = seen = ""
+    if ratio is not None and not near(ratio, variant.ratio):
+        slip, seen = "ratio", f"{RATIO} = {ratio:g}"
+    elif ratio is None and rotor and near(rotor, variant.ratio):
+        slip, seen = "no-ratio", f"RotorToSensorRatio = {rotor:g} and no {RATIO}"
+    elif arm and gravity.endswith("Elevator_Static"):
+        slip, seen = "level", gravity
+    elif elevator and cosine:
+        slip, seen = "cosine", cosine
+    elif sign.endswith("UseClosedLoopSign"):
+        slip, seen = "closed-loop", sign
+    elif spark and arm and "kG" in one.gains:
+        slip, seen = "arm", "kG"
+    elif spark and arm and not (turns and near(turns, variant.turns_per_unit)):
+        slip, seen = "arm-turns", f"kCosRatio = {turns:g}" if turns else "no kCosRatio"
+    if slip:
+        raise explain(f"{_at(one)} has {seen}", name_slip(slip, "kG", variant))
 
 
-def _check_spark(one: Feedforward, *, arm: bool, variant: Variant) -> None:
-    """Whether a Spark gets gravity in the way that fits the mechanism."""
-    at = f"{FEED_FORWARD} in line {one.line}"
-    if arm and "kG" in one.arguments:
-        raise WrongAnswer(
-            f"{at} gets kG",
-            hint="A Spark adds kG at every angle. An arm's kG goes into kCos.",
-        )
-    if variant.analysis == "Elevator" and "kCos" in one.arguments:
-        raise WrongAnswer(
-            f"{at} gets kCos",
-            hint="kCos is for arms. An elevator weighs the same at every height: use kG.",
-        )
-    if not arm:
-        return
-    ratio = one.arguments.get("kCosRatio")
-    wanted = variant.turns_per_unit
-    if ratio is None or ratio.value is None or not near(ratio.value, wanted):
-        raise WrongAnswer(
-            f"{at} has {'no kCosRatio' if ratio is None else f'kCosRatio = {ratio.text}'}",
-            hint="kCosRatio converts the encoder's position into rotations of the arm, and the "
-            "Spark takes the cosine of this angle. How many rotations is one of your units?",
-            misconception="" if ratio is None else "M-UNITS",
-        )
-
-
-def check_order(one: Feedforward, facts: DeployFacts, variant: Variant, *, points: float) -> None:
-    """Whether each gain stands in its place.
+def check_order(one: Gains, seen: Seen, *, points: float) -> None:
+    """Whether each gain is in its place.
 
     Raises:
-        WrongAnswer: one does not, or is left out, or cannot be told.
+        WrongAnswer: one is not, or is left out, or cannot be known.
     """
-    places = _places(one, variant)
-    found = {
-        GRAVITY.get(place, place): _gain(arg, facts, variant)
-        for place, arg in one.arguments.items()
-        if place not in RATIOS
-    }
-    at = f"{re.sub(r'[A-Za-z_.]+[.](?=k)', '', one.text)} in line {one.line}"
-    for place, gain in found.items():
-        if gain and gain != place:
+    given = {GRAVITY.get(n, n): value for n, value in one.gains.items() if n not in SETTINGS}
+    places = seen.variant.gains if one.kind in PLACES else CLASSES[one.kind]
+    lacking = [place for place in places if given.get(place, 0.0) == 0.0]
+    for place, number in given.items():
+        value = seen.get_value(number, f"{place} of {_at(one)}")
+        gain = seen.find_gain(value, place)
+        if value and gain and gain != place:
             raise WrongAnswer(
-                at,
-                hint=f"{gain} is where {one.kind} expects {place}. {_look(one)}",
+                f"{_at(one)} gets {place} = {value:.4g}",
+                hint=f"{gain} is where {one.kind} expects {place}. {LOOK[one.kind in PLACES]}",
                 misconception="M-ARGORDER",
             )
-    for place, gain in found.items():
-        if not gain:
-            raise WrongAnswer(
-                f"the grader cannot see which gain {_given(one, place).text} is, "
-                f"in line {one.line}",
-                hint="Pass the constants by their names.",
-            )
-    if one.spread:
-        hint = "Write the arguments one by one."
-        raise WrongAnswer(f"the grader cannot see by reading which gains {at} gets", hint=hint)
-    lacking = [place for place in places if place not in found]
-    if lacking:
+        if value and not gain and place in seen.variant.gains and place in {"kS", "kG"}:
+            slip = find_constant_slip(value, place, seen.variant, text="")
+            raise explain(f"{_at(one)} gets {place} = {value:.4g}, not your {place}", slip)
+    constants = [seen.facts.find_constant(place) for place in lacking]
+    if lacking and not any(constant and constant.value == 0 for constant in constants):
         raise WrongAnswer(
-            f"{at} has no {' and no '.join(lacking)}",
+            f"{_at(one)} has no {' and no '.join(lacking)}",
             hint="A missing argument counts as 0.",
             earned=points / 2 if lacking == ["kA"] else 0.0,
         )
 
 
-RATIOS = ("kCosRatio", "SensorToMechanismRatio")  # settings that are no gains
-GRAVITY = {"kCos": "kG"}  # what a Spark calls an arm's kG
+def list_feedbacks(seen: Seen) -> Iterator[tuple[str, float, Variant]]:
+    """The loops that got something like the suggested kP: what is seen, kP, how the loop counts.
+
+    Raises:
+        WrongAnswer: one got kP in the place of another gain.
+    """
+    for loop in seen.facts.loops:
+        kind = FEED_FORWARD if loop.kind == CLOSED_LOOP else loop.kind
+        variant = seen.drawn.held_by(kind)
+        at = f"{loop.kind} in line {loop.line} gets"
+        value, *others = loop.gains.values()
+        for name, other in zip(("kI", "kD"), others, strict=True):
+            if other and not value and seen.find_gain(other, "kP") == "kP":
+                raise WrongAnswer(
+                    f"{at} {name} = {other:.4g}",
+                    hint=f"kP is where {loop.kind} expects {name}. {LOOK[False]}",
+                    misconception="M-ARGORDER",
+                )
+        if value and (near(value, variant.needed("kP")) or is_known(value, variant)):
+            yield f"{at} kP = {value:.4g}", value, variant
 
 
-def _places(one: Feedforward, variant: Variant) -> tuple[str, ...]:
-    if one.kind in PLACES:
-        return variant.gains
-    simple = one.kind == "SimpleMotorFeedforward"
-    return ("kS", "kV", "kA") if simple else ("kS", "kG", "kV", "kA")
-
-
-def _given(one: Feedforward, place: str) -> Argument:
-    """What a place is given, by the name that its class has for it."""
-    return one.arguments.get(place) or one.arguments["kCos"]
-
-
-def _look(one: Feedforward) -> str:
-    if one.kind in PLACES:
-        return "Give each setting the constant of its own name."
-    return "Check the order of its arguments."
-
-
-def _gain(arg: Argument, facts: DeployFacts, variant: Variant) -> str:
-    """The gain an argument is, by its name or else by its number."""
-    if arg.gain or arg.value is None:
-        return arg.gain
-    for one in facts.constants:
-        if one.value == arg.value:
-            return one.gain
-    for gain in variant.gains:
-        if near(arg.value, variant.shown[gain]) or near(arg.value, variant.needed(gain)):
-            return gain
-    return ""
+def is_known(kp: float, variant: Variant) -> bool:
+    """Whether a kP comes from the suggested one, rightly or by a known slip."""
+    return find_feedback_slip(kp, variant).code != "kP-other"

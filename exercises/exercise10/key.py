@@ -7,6 +7,9 @@ place counts in a unit of its own and has a loop with an output of its own (``Va
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
+from grader.robotcode.bench.gains_run import CLASSES as ORDER
+from grader.robotcode.bench.gains_run import FEED_FORWARD, SLOT0
+
 NEAR = 0.02  # [share] arithmetic, three digits: within 2 % or not
 FULL = 12.0  # [V] what a duty cycle of 1 stands for
 UNITS = {  # name as SysId has it -> symbol, and how many meters or radians one of it is
@@ -24,14 +27,7 @@ CLASSES = {
     "Elevator": "ElevatorFeedforward",
     "Arm": "ArmFeedforward",
 }
-ORDER = {  # class -> what it takes, in order
-    "SimpleMotorFeedforward": ("kS", "kV", "kA"),
-    "ElevatorFeedforward": ("kS", "kG", "kV", "kA"),
-    "ArmFeedforward": ("kS", "kG", "kV", "kA"),
-}
 
-
-SLOT0, FEED_FORWARD = "Slot0Configs", "FeedForwardConfig"
 PLACES = (SLOT0, FEED_FORWARD)  # of the gains inside a motor controller
 
 
@@ -72,7 +68,7 @@ class Variant:
         Args:
             kind: ``Slot0Configs``, ``FeedForwardConfig``, or a class of WPILib.
         """
-        if kind == SLOT0:
+        if kind == SLOT0 and (self.radius or self.shown_in not in LENGTHS):
             return replace(self, place=kind, coded_in=self.used_in, used_in="Rotations", duty=False)
         if kind == FEED_FORWARD:
             return replace(self, place=kind, coded_in=self.used_in, duty=True)
@@ -140,10 +136,6 @@ class Variant:
     def symbol(self, *, used: bool) -> str:
         """The unit of position: the robot's, or the analyzer's."""
         return UNITS[self.used_in if used else self.shown_in][0]
-
-    def unit(self, gain: str, *, used: bool) -> str:
-        """The unit of a gain, of the robot's kind or as the analyzer shows it."""
-        return self._unit(gain, self.used_in if used else self.shown_in)
 
     def list_matching_units(self, gain: str, value: float | None) -> list[str]:
         """The units that a gain of this value may have; any of this robot's if it is none of it.

@@ -5,10 +5,10 @@ from typing import TYPE_CHECKING
 
 from grader.check import NotReachedError, WrongAnswer
 from grader.consequence import Consequence, follow_profiles
-from grader.robotcode.gain_constants import DeployFacts, Feedforward
+from grader.robotcode.bench.gains_run import Gains
 
-from .handed import RATIOS, feedforward_of
-from .key import CLASSES, PLACES, SCALED, Variant, near
+from .handed import GRAVITY, SETTINGS, Seen
+from .key import CLASSES, SCALED, Variant, near
 
 if TYPE_CHECKING:
     from sim.feedback import Plant
@@ -22,24 +22,33 @@ SPEED = {"arm": 1.0, "elevator": 0.5}  # [rad/s, m/s]
 RISING, STEADY, STILL = 0.25, 0.75, 0.5  # [s]
 
 
-def outcome(facts: DeployFacts, variant: Variant) -> Consequence | None:
+def outcome(seen: Seen) -> Consequence | None:
     """What the feedforward would do; None where it is as it should be, or cannot be told."""
     from sim.feedback import Plant  # noqa: PLC0415 - numpy only where it is needed
     from sim.feedback.following import INFINITE, follow_profile  # noqa: PLC0415 - the same
 
+    variant = seen.variant
     try:
-        one = feedforward_of(facts, variant)
+        one = seen.feedforwards[0]
     except (WrongAnswer, NotReachedError):
         return None
-    gains = _gains(one, variant)
-    if gains is None or _right(one, gains, variant):
+    given = {GRAVITY.get(n, n): value for n, value in one.gains.items() if n not in SETTINGS}
+    if not all(value is not None and math.isfinite(value) for value in given.values()):
         return None
+    gains = {"kS": 0.0, "kV": 0.0, "kA": 0.0} | {
+        name: _in_code(name, value or 0.0, variant) for name, value in given.items()
+    }
     truth = {name: _in_code(name, variant.needed(name), variant) for name in variant.gains}
-    plant, believed = Plant(variant.analysis.lower(), truth), Plant(_type(one), gains)
+    kind = _find_type(one)
+    if kind == variant.analysis.lower() and all(
+        near(gains.get(name, 0.0), value) for name, value in truth.items()
+    ):
+        return None
+    plant, believed = Plant(variant.analysis.lower(), truth), Plant(kind, gains)
     followed = follow_profile(
         plant,
         believed,
-        _profile(plant, variant.kind),
+        _make_profile(plant, variant.kind),
         name=variant.kind,
         symbol=variant.coded_symbol,
         place=POSITIONS.get(variant.kind, "way"),
@@ -48,13 +57,13 @@ def outcome(facts: DeployFacts, variant: Variant) -> Consequence | None:
     return follow_profiles([followed])
 
 
-def _type(one: Feedforward) -> str:
+def _find_type(one: Gains) -> str:
     """How it takes gravity: ``simple``, ``elevator`` or ``arm``."""
     if one.kind in TYPES:
         return TYPES[one.kind]
-    if "kCos" in one.arguments or one.choices.get("GravityType") == "armcosine":
+    if "kCos" in one.gains or one.choices.get("GravityType") == "Arm_Cosine":
         return "arm"
-    return "elevator" if "kG" in one.arguments else "simple"
+    return "elevator" if one.gains.get("kG") else "simple"
 
 
 def _in_code(name: str, value: float, variant: Variant) -> float:
@@ -62,30 +71,7 @@ def _in_code(name: str, value: float, variant: Variant) -> float:
     return value * variant.coded(name) / variant.needed(name) if name in SCALED else value
 
 
-def _gains(one: Feedforward, variant: Variant) -> dict[str, float] | None:
-    """Place -> number; what is left out counts as 0. None where a number cannot be told."""
-    values = [argument.value for argument in one.arguments.values()]
-    known = one.kind in TYPES or one.kind in PLACES
-    if one.spread or not known or not all(v is not None for v in values):
-        return None
-    given = {
-        "kG" if name == "kCos" else name: _in_code(name, argument.value or 0.0, variant)
-        for name, argument in one.arguments.items()
-        if name not in RATIOS
-    }
-    gains = {"kS": 0.0, "kV": 0.0, "kA": 0.0} | given
-    return gains if given and all(map(math.isfinite, gains.values())) else None
-
-
-def _right(one: Feedforward, gains: dict[str, float], variant: Variant) -> bool:
-    """Whether it is the feedforward that the mechanism needs."""
-    return _type(one) == variant.analysis.lower() and all(
-        near(gains.get(name, 0.0), _in_code(name, variant.needed(name), variant))
-        for name in variant.gains
-    )
-
-
-def _profile(plant: "Plant", kind: str) -> "Profile":
+def _make_profile(plant: "Plant", kind: str) -> "Profile":
     from sim.feedback.profile import make_brisk_profile, make_return_profile  # noqa: PLC0415 - numpy, when needed
 
     if kind in SPEED:

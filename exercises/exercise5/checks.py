@@ -1,92 +1,87 @@
-"""Exercise 5: four tests on four buttons, held, explained and guarded. Read, and RobotPy run."""
+"""Exercise 5: four tests on four buttons, held, explained and guarded. Every button is pressed."""
 
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-from grader.check import NotReachedError, Status, WrongAnswer, check, run_checks
-from grader.robotcode import bench
-from grader.robotcode.bench import RunFacts, findings
-from grader.robotcode.bench.findings import RunFault, find_stop
-from grader.robotcode.binding_facts import BindingFacts
-from grader.robotcode.bindings import read_bindings
-from grader.submission import read_text
-from grader.sysid_routine_checks import READ as READ_ONLY
-from grader.sysid_routine_checks import check_compiles, check_spelling
-from sim.core.errors import UnreadableFile
+from grader.check import NotReachedError, WrongAnswer, check
+from grader.robotcode.bench.button_run import ButtonFacts, Press
+from grader.robotcode.bench.facts import TESTS
+from grader.robotcode.running import Runs, judge_runs, run_buttons
+from grader.routine_checks import ask_for_files, check_compiles, explain_stop
 
 from .explained import check_comment
-from .four import TESTS, all_of, missing, named, times
-from .guarded import HOLDS, check_guard
-from .holding import check_hold, held_share
-from .pressed import agreed, press
 
 FILES = ("RobotContainer.java", "robotcontainer.py")
-WRITE_IT = "Write Direction.kForward or Direction.kReverse there."
 READ = "checked after you bind a test"
+TIMEOUT = 10.0  # [s] of the routine in the file to fill in
+LATE = 1.5  # [s] a test may wait for its steering, or for a button to settle
+EARLY = 0.9  # [share] of the timeout that a held test has to run
+PRESSED = 1 / 3  # [share] of the points for a test that starts, but does not stop on release
+WAYS = (
+    "Use something that never happens in a match: test mode, a second button that you hold at"
+    " the same time, a switch on the dashboard, or a controller that is not plugged in."
+)
 
 
-def read(path: Path, *, student: str, run: bool = True) -> BindingFacts:  # noqa: ARG001 - one task for everyone
-    """What the file says about its buttons; in RobotPy, once that is right, what they do.
+def read(path: Path, *, student: str, run: bool = True) -> Runs:  # noqa: ARG001 - one task for everyone
+    """What the buttons of the program do.
 
     Args:
         path: the file.
         student: whose it is.
-        run: whether to run it, where it can be.
+        run: whether a learner's Python may be run; Java is interpreted by ourselves in any case.
 
     Raises:
         UnreadableFile: it cannot be read, or does not parse.
+        NotRunError: it is Python, which may not be run.
     """
-    read_text(path)
-    facts = read_bindings(path)
-    if facts.problems:
-        first = facts.problems[0]
-        raise UnreadableFile(
-            first.message,
-            where=f"{path}, line {first.line}",
-            advice="Fix that line first: code with a mistake like this does not compile.",
-        )
-    if facts.language == "python":
-        bench.refuse_tampering(path)
-    if not run or facts.language != "python" or not bench.is_robotpy_installed():
-        return facts
-    right = run_checks((factories, held, each_once, guard), facts)
-    return press(path, facts) if all(one.status is Status.PASSED for one in right) else facts
+    return run_buttons(path, run=run)
+
+
+def named(tests: Iterable[str]) -> str:
+    """Tests in words, in the order they are run: ``quasistatic reverse and dynamic forward``."""
+    return " and ".join(one.replace("-", " ") for one in sorted(set(tests), key=TESTS.index))
+
+
+def _missing(facts: ButtonFacts) -> list[str]:
+    """The tests that no button runs."""
+    return [one for one in TESTS if one not in {press.test for press in facts.presses}]
+
+
+def _reached(facts: ButtonFacts) -> None:
+    """Look no further where no button runs a test.
+
+    Raises:
+        NotReachedError: none does.
+    """
+    if not facts.presses:
+        raise NotReachedError(READ)
 
 
 @check(points=2)
-def factories(facts: BindingFacts) -> None:
+def factories(runs: Runs) -> str | None:
     """Public methods of the subsystem make the commands of all four tests."""
-    made = all_of(one.test for one in facts.factories)
-    public = all_of(one.test for one in facts.factories if one.public)
-    if public >= TESTS:
+    return judge_runs(runs, _factories)
+
+
+def _factories(facts: ButtonFacts) -> None:
+    made = {test for one in facts.factories for test in one.tests}
+    public = {test for one in facts.factories if one.public for test in one.tests}
+    if public >= set(TESTS):
         return
     earned = 2 * len(public) / len(TESTS)
-    check_spelling(facts.compile_errors, language=facts.language, earned=earned)
-    hidden = [one for one in facts.factories if not one.public and all_of([one.test]) - public]
+    check_compiles(facts.errors, language=facts.language, earned=earned)
+    hidden = [one for one in facts.factories if not one.public and set(one.tests) - public]
     if hidden:
         raise WrongAnswer(
-            f"other classes may not call {hidden[0].method}",
+            f"other classes may not call {hidden[0].method} (line {hidden[0].line})",
             hint="Make it public: in Java by that word, in Python by a name without a _ in front.",
             earned=earned,
         )
-    if not made and any(not test.read for one in facts.bindings for test in one.tests):
-        raise WrongAnswer(
-            f"the grader cannot see the methods that {facts.bindings[0].text} calls",
-            hint=(
-                "Put the subsystem's file into the same folder, or its class into this file, "
-                "and grade again."
-            ),
-        )
-    if any(not one.test.direction for one in facts.factories):
-        one = next(one for one in facts.factories if not one.test.direction)
-        raise WrongAnswer(
-            f"the grader cannot see the direction of {one.method} by reading",
-            hint=(
-                "Pass Direction.kForward or kReverse, or make the direction a parameter of the"
-                " method."
-            ),
-            earned=earned,
-        )
-    lacking = named(TESTS - public)
+    if facts.stop is not None and facts.stop.where == "start":
+        raise explain_stop(facts.stop, facts.language, earned)
+    ask_for_files(facts.unknown, earned)
+    lacking = named(set(TESTS) - public)
     raise WrongAnswer(
         f"no method makes {lacking}" if made else "no method makes the command of a test",
         hint="The routine makes the commands: quasistatic(direction) and dynamic(direction). "
@@ -96,59 +91,182 @@ def factories(facts: BindingFacts) -> None:
 
 
 @check(points=3)
-def held(facts: BindingFacts) -> str | None:
+def held(runs: Runs) -> str | None:
     """Each of the four tests runs only while its own button is held."""
-    bound(facts)
-    earned = round(3 * held_share(facts), 2)
-    for one in facts.bindings:
-        check_hold(one, facts, earned=earned)
-    if len(facts.bindings) >= len(TESTS):
-        check_compiles(facts.compile_errors, language=facts.language, earned=1)
-        if facts.language == "java" or not bench.is_robotpy_installed():
-            return READ_ONLY[facts.language]
-        return agreed(facts, _stops, points=3)
-    check_spelling(facts.compile_errors, language=facts.language, earned=earned)
-    _readable(facts, earned=earned)
-    hint = "Four tests, four buttons: two kinds, each forward and reverse."
-    raise WrongAnswer(f"no button runs {named(missing(facts))}", hint=hint, earned=earned)
+    return judge_runs(runs, _held) or runs[0].note
 
 
-def _stops(ran: RunFacts) -> RunFault | None:
-    """Where the run stopped, or a test that did not."""
-    return find_stop(ran, where="") or findings.check_release(ran)
+def _held(facts: ButtonFacts) -> None:
+    faults = {one.test: next(_list_faults(one, facts), None) for one in facts.presses}
+    share = 0.0
+    for one in facts.presses:
+        fault = faults[one.test]
+        share += 1.0 if fault is None else PRESSED if fault[0] else 0.0
+    earned = round(3 * share / len(TESTS), 2)
+    if facts.stop is not None:
+        check_compiles(facts.errors, language=facts.language, earned=earned)
+        raise explain_stop(facts.stop, facts.language, earned)
+    for mode, tests in facts.alone.items():
+        if tests:
+            raise WrongAnswer(
+                f"nobody presses anything, and in {mode} mode {named(tests)} runs",
+                hint="It runs as long as nobody presses the button, or from the start. It must run "
+                "while you hold the button: whileTrue().",
+            )
+    for _, seen, hint in (fault for fault in faults.values() if fault is not None):
+        check_compiles(facts.errors, language=facts.language, earned=earned)
+        raise WrongAnswer(seen, hint=hint, earned=earned)
+    lacking = _missing(facts)
+    if not lacking:
+        check_compiles(facts.errors, language=facts.language, earned=1)
+        return
+    check_compiles(facts.errors, language=facts.language, earned=earned)
+    _explain_missing(facts, lacking, earned)
+
+
+def _list_faults(one: Press, facts: ButtonFacts) -> Iterator[tuple[bool, str, str]]:
+    """What is wrong with how a test is held, the worst first.
+
+    Yields:
+        Whether it starts at all, what is seen, and the advice.
+    """
+    test, at = named([one.test]), f" ({one.text} in line {one.line})" if one.line else ""
+    others = [p for p in facts.presses if p.test != one.test and p.inputs == one.inputs]
+    if one.together and others:
+        lines = sorted({one.line, *(p.line for p in others)})
+        yield (
+            False,
+            (
+                f"lines {' and '.join(map(str, lines))} share the trigger: "
+                f"{' and '.join(one.inputs)} runs {named([one.test, *one.together])}"
+            ),
+            (
+                "Both tests would start at the same time and fight for the motors. Give each its "
+                "own button."
+            ),
+        )
+    if one.stayed:
+        yield _describe_stay(one, f"{test} goes on when the button is released{at}")
+    if one.how in {"onFalse", "whileFalse", "toggleOnFalse"}:
+        yield False, f"{test} starts when the button is released{at}", "Use whileTrue()."
+    if one.delay > LATE:
+        yield (
+            False,
+            f"{test} starts {one.delay:.1f} s after the button is pressed{at}",
+            "The test must start and stop with its button. Debounce for at most 0.5 s.",
+        )
+    if one.restarted:
+        yield (
+            True,
+            f"{test} begins again after its end while the button is held{at}",
+            (
+                "Then the routine's timeout protects nobody. Pass the test itself to whileTrue(), "
+                "without repeating it."
+            ),
+        )
+    if one.lasted < EARLY * TIMEOUT and _is_shorter(one, facts):
+        yield (
+            True,
+            f"{test} ends after {one.lasted:.2g} s although the button is held{at}",
+            (
+                "The test must run while you hold its button, up to the routine's own timeout. "
+                "Does another command of the same button, or a decorator, end it early?"
+            ),
+        )
+    if one.moves:
+        yield (
+            True,
+            f"after {test} the motor is still driven, with nobody touching anything{at}",
+            "When a test ends or its button is released, the mechanism has to stop.",
+        )
+
+
+def _describe_stay(one: Press, seen: str) -> tuple[bool, str, str]:
+    """Words for a test that goes on when its button is released."""
+    said = "Once started, the test runs to its timeout even after you release the button. "
+    if one.stopped or one.how.startswith("toggle"):
+        said = "You need a second press to stop it, and in a hurry nobody finds the button. "
+    elif one.how in {"whileTrue", ""}:  # no trigger holds the test itself
+        hint = "The button only starts another command, which then runs to its timeout. Pass the "
+        return True, seen, f"{hint}test itself to whileTrue()."
+    return True, seen, f"{said}It must stop when you let go: whileTrue()."
+
+
+def _is_shorter(one: Press, facts: ButtonFacts) -> bool:
+    """Whether a test ends before the others, or so soon that no timeout is meant."""
+    longest = max((press.lasted for press in facts.presses), default=0.0)
+    return one.lasted < 3.0 or one.lasted < EARLY * min(longest, TIMEOUT)  # [s] no ramp is so short
+
+
+def _explain_missing(facts: ButtonFacts, lacking: list[str], earned: float) -> None:
+    for name, line in facts.uncalled:
+        raise WrongAnswer(
+            f"nothing calls {name} in line {line}",
+            hint="Call it where the RobotContainer is made. Until then no button does anything.",
+            earned=earned,
+        )
+    for test, line in facts.released:
+        raise WrongAnswer(
+            f"{named([test])} starts when the button is let go (line {line})",
+            hint="Then it runs as long as nobody presses the button. It must run while you hold "
+            "the button: whileTrue().",
+            earned=earned,
+        )
+    for said, line in facts.elsewhere:
+        raise WrongAnswer(
+            f"{said}{f' (line {line})' if line else ''}",
+            hint="No button is held there, so nobody can release it. Bind the test to a button.",
+            earned=earned,
+        )
+    ask_for_files(facts.unknown, earned)
+    if not any(one.tests for one in facts.factories):
+        raise NotReachedError(READ)
+    if not facts.presses and not facts.bindings:
+        raise WrongAnswer(
+            "no button runs a test",
+            hint="Bind each of the four to a button. If you did: does the program reach that "
+            "line, or is there a return or a condition before it?",
+        )
+    bound = [line for line, _ in facts.bindings]
+    raise WrongAnswer(
+        f"no button runs {named(lacking)}",
+        hint="Four tests, four buttons: two kinds, each forward and reverse. Every button was "
+        "pressed alone and together with a second one, in test mode and in teleop"
+        + (f" (bindings in lines {', '.join(map(str, sorted(set(bound))))})." if bound else "."),
+        earned=earned,
+    )
 
 
 @check(points=1)
-def each_once(facts: BindingFacts) -> None:
+def each_once(runs: Runs) -> str | None:
     """Every test is there once: two kinds, two directions."""
-    reached(facts)
-    for one in facts.bindings:
-        if len(one.tests) > 1:
+    return judge_runs(runs, _each_once)
+
+
+def _each_once(facts: ButtonFacts) -> None:
+    _reached(facts)
+    for one in facts.presses:
+        if one.together and not any(
+            p.test in one.together and p.line != one.line for p in facts.presses
+        ):
             hint = "Such a command runs the tests one after the other. Give each its own button."
-            raise WrongAnswer(f"line {one.line} runs {named(all_of(one.tests))}", hint=hint)
-        if not all_of(one.tests) or one.tests[0].direction == "any":
+            raise WrongAnswer(f"line {one.line} runs {named([one.test, *one.together])}", hint=hint)
+    bound = {line for _, line in facts.made}
+    for test in TESTS:
+        lines = sorted({line for made, line in facts.made if made == test and line in bound})
+        if len(lines) > 1 and _missing(facts):
             raise WrongAnswer(
-                f"the grader cannot see the direction in line {one.line} by reading {one.text}",
-                hint=WRITE_IT,
+                f"{named([test])} twice: {' and '.join(f'line {line}' for line in lines)}",
+                hint="Did you copy a line and forget to change it? Check the kind and the "
+                "direction in both lines.",
             )
-    twice = [test for test in TESTS if len(times(facts, test)) > 1]
-    if twice:
-        first = min(twice, key=lambda test: times(facts, test)[0])
-        lines = " and ".join(f"line {line}" for line in times(facts, first))
-        hint = (
-            "Did you copy a line and forget to change it? Check the kind and the direction "
-            "in both lines."
-        )
-        raise WrongAnswer(f"{' '.join(first)} twice: {lines}", hint=hint)
-    lacking = missing(facts)
+    lacking = _missing(facts)
     if lacking:
-        only = {way for _, way in lacking} == {"reverse"}
+        only = {one.rpartition("-")[2] for one in lacking} == {"reverse"}
         raise WrongAnswer(
             f"{named(lacking)} missing",
-            hint=(
-                "You need the reverse runs: only both directions together show friction and "
-                "gravity."
-            )
+            hint="You need the reverse runs: only both directions together show friction and "
+            "gravity."
             if only
             else "Two kinds, each forward and reverse.",
             misconception="M-REVERSE-WASTE" if only else "",
@@ -156,76 +274,122 @@ def each_once(facts: BindingFacts) -> None:
 
 
 @check(points=2)
-def comments(facts: BindingFacts) -> None:
+def comments(runs: Runs) -> str | None:
     """A comment next to each binding says which test it is and what that measures."""
-    reached(facts)
+    return judge_runs(runs, _comments)
+
+
+def _comments(facts: ButtonFacts) -> None:
+    _reached(facts)
     wrong: list[WrongAnswer] = []
-    for one in facts.bindings:
+    for one in facts.presses:
         try:
             check_comment(one)
         except WrongAnswer as why:
             wrong.append(why)
     if wrong:
-        right = len(facts.bindings) - len(wrong)
-        wrong[0].earned = round(2 * right / max(len(facts.bindings), len(TESTS)), 2)
+        right = len(facts.presses) - len(wrong)
+        wrong[0].earned = round(2 * right / len(TESTS), 2)
         raise wrong[0]
 
 
 @check(points=2)
-def guard(facts: BindingFacts) -> str | None:
+def guard(runs: Runs) -> str | None:
     """No test can be started by accident in a match."""
-    reached(facts)
-    note = check_guard(facts, points=2)
-    if all(HOLDS.intersection(one.guards) for one in facts.bindings):
-        agreed(facts, findings.check_guard, points=2)
-    return note
+    return judge_runs(runs, _guard)
 
 
-def bound(facts: BindingFacts) -> None:
-    """Ask for bindings, where there are none.
-
-    Raises:
-        WrongAnswer: tests are started in another way, or cannot be read.
-        NotReachedError: there is nothing yet.
-    """
-    if facts.bindings:
-        return
-    check_spelling(facts.compile_errors, language=facts.language)
-    if facts.elsewhere:
-        text, line = facts.elsewhere[0]
-        raise WrongAnswer(
-            f"{text} in line {line}",
-            hint="No button is held there, so nobody can release it. Bind the test to a button.",
-        )
-    _readable(facts, earned=0.0)
-    if all_of(one.test for one in facts.factories) >= TESTS:
-        raise WrongAnswer(
-            "no button runs a test",
-            hint="Bind each of the four to a button. If you did: does the program reach that "
-            "line, or is there a return or a condition before it?",
-        )
-    reached(facts)
-
-
-def reached(facts: BindingFacts) -> None:
-    """Look no further where there are no bindings.
-
-    Raises:
-        NotReachedError: there are none.
-    """
-    if not facts.bindings:
-        raise NotReachedError(READ)
-
-
-def _readable(facts: BindingFacts, *, earned: float) -> None:
-    """Ask, where a test that is missing may be one that cannot be read."""
-    for first in facts.unread[:1]:
-        hint = "Write the test into the line that binds it, so that the grader can read it."
-        raise WrongAnswer(f"line {first.line}: {first.message}", hint=hint, earned=earned)
-    for one in facts.bindings:
-        if not all_of(one.tests):
+def _guard(facts: ButtonFacts) -> str | None:
+    if not facts.presses:
+        _check_asked_once(facts)
+    _reached(facts)
+    for said, line in facts.elsewhere:
+        if said.startswith(("autonomous", "the program")):
             raise WrongAnswer(
-                f"the grader cannot see the direction in line {one.line} by reading {one.text}",
-                hint=WRITE_IT,
-                earned=earned,
+                f"{said} (line {line})", hint=f"It would start in every match. {WAYS}"
             )
+    for mode in ("autonomous", "teleop"):
+        if facts.alone.get(mode) and not any(map(_joins, facts.presses)):
+            raise WrongAnswer(
+                f"in {mode} mode {named(facts.alone[mode])} runs although nobody presses anything",
+                hint=f"In a match it would run at once. {WAYS}",
+            )
+    joined = [one for one in facts.presses if _is_open(one) and _joins(one)]
+    if joined:
+        raise WrongAnswer(
+            f"the trigger in line {joined[0].line} joins two conditions with or",
+            hint="Then each of the two starts the test alone. Both must be true: join them with "
+            "and() (Python: and_()).",
+        )
+    inverted = [one for one in facts.presses if one.mode != "test"]
+    if inverted:
+        one = inverted[0]
+        raise WrongAnswer(
+            f"the guard of {one.text} in line {one.line} checks for another mode than test mode",
+            hint="Then the test can start in a match, but not in test mode. Check for test mode "
+            "itself.",
+        )
+    open_ = [one for one in facts.presses if _is_open(one)]
+    bound = len(facts.presses)
+    if not open_ and bound < len(TESTS):
+        hint = "The guard is right. It earns all its points when you have bound all four tests."
+        raise WrongAnswer(
+            f"{bound} of {len(TESTS)} tests bound", hint=hint, earned=2 * bound / len(TESTS)
+        )
+    if not open_:
+        apart = [one for one in facts.presses if one.opened and one.apart and len(one.inputs) == 1]
+        return (
+            "Unplug that controller before a match, so that nobody touches it." if apart else None
+        )
+    _explain_open(open_, facts, bound)
+    return None
+
+
+def _joins(one: Press) -> bool:
+    """Whether the line of a binding joins conditions with or."""
+    return ".or(" in one.text or ".or_(" in one.text
+
+
+def _is_open(one: Press) -> bool:
+    """Whether a match can bring what starts a test: one input, on a controller that drives."""
+    return bool(one.opened) and len(one.inputs) == 1 and not one.switch and not one.apart
+
+
+def _explain_open(open_: list[Press], facts: ButtonFacts, bound: int) -> None:
+    """Say why tests can start in a match.
+
+    Raises:
+        WrongAnswer: always.
+    """
+    first = open_[0]
+    seen = (
+        f"in {' and '.join(first.opened)}, {' and '.join(first.inputs)} alone starts "
+        f"{named([first.test])}: nothing guards {first.text} in line {first.line}"
+    )
+    for port, line in facts.shared:
+        if port in first.ports:
+            raise WrongAnswer(
+                f"two controllers are made with port {port} (line {line})",
+                hint=f"They are one and the same controller. {WAYS}",
+            )
+    guarded = bound - len(open_)
+    if guarded:
+        lines = ", ".join(str(one.line) for one in open_)
+        raise WrongAnswer(
+            f"{guarded} of {bound} bindings are guarded; not so: line {lines}",
+            hint="One test without a guard is enough for an accident. Guard all four in the same "
+            "way, and with another button than the test's own.",
+            earned=2 * guarded / len(TESTS),
+        )
+    _check_asked_once(facts)
+    raise WrongAnswer(seen, hint=WAYS)
+
+
+def _check_asked_once(facts: ButtonFacts) -> None:
+    """Raise ``WrongAnswer`` if test mode is asked for only while the program starts."""
+    if facts.asked_once:
+        raise WrongAnswer(
+            f"line {facts.asked_once} checks test mode only once, while the program starts",
+            hint="The robot is not in test mode then, and the answer never changes. Let the "
+            "trigger check it every time.",
+        )

@@ -3,7 +3,7 @@
 import re
 
 from grader.check import WrongAnswer
-from grader.robotcode.binding_facts import Binding
+from grader.robotcode.bench.button_run import Press
 
 NAMES = {"quasistatic": r"quasi.?static", "dynamic": r"dynamic"}
 TEST = {
@@ -19,27 +19,39 @@ PROPERTY = {
     ),
     "dynamic": re.compile(r"\bk_?A\b|accelerat|inertia|\bmass\b|\bheav", re.IGNORECASE),
 }
+WAY = {
+    "forward": re.compile(r"\bforwards?\b", re.IGNORECASE),
+    "reverse": re.compile(r"\breversed?\b|\bbackwards?\b", re.IGNORECASE),
+}
+ALL_GAINS = re.compile(r"\bkS\b.*\bkV\b.*\bkA\b", re.IGNORECASE)
 
 
-def check_comment(one: Binding) -> None:
+def check_comment(one: Press) -> None:
     """Whether the comment beside a binding names its test and its property.
 
     Raises:
         WrongAnswer: it does not.
     """
-    kind = one.tests[0].kind
+    kind, way = one.test.split("-")
     other = "dynamic" if kind == "quasistatic" else "quasistatic"
+    opposite = "reverse" if way == "forward" else "forward"
     said = one.comment
     if not said:
         raise WrongAnswer(
-            f"no comment next to {one.text} in line {one.line}",
+            f"no comment next to line {one.line}: {one.text}",
             hint="Write one above it or after it: which test, and what does it measure?",
         )
     seen = f'"{said[:60]}" next to line {one.line}'
-    opposite = re.match(rf"\W*{NAMES[other]}", said, re.IGNORECASE)
-    if opposite and not re.search(NAMES[kind], said, re.IGNORECASE):
+    if re.match(rf"\W*{NAMES[other]}", said, re.IGNORECASE) and not re.search(
+        NAMES[kind], said, re.IGNORECASE
+    ):
         raise WrongAnswer(seen, hint=f"This button runs the {kind} test.")
+    if WAY[opposite].search(said) and not WAY[way].search(said):
+        raise WrongAnswer(seen, hint=f"This button runs the {kind} test in {way}.")
     test, property_ = bool(TEST[kind].search(said)), bool(PROPERTY[kind].search(said))
+    if ALL_GAINS.search(said):
+        hint = "One test alone does not measure all three. What does this one measure?"
+        raise WrongAnswer(seen, hint=f"{hint} The ramp shows kS and kV, the step kA.")
     if test and property_:
         return
     if not test and TEST[other].search(said):

@@ -15,7 +15,7 @@ from grader.check import Check, NotReachedError, WrongAnswer, check
 from grader.choice_answer import read_choice
 from grader.course import find_course
 from grader.exercise import Exercise
-from grader.robotcode import read as read_routine
+from grader.robotcode.bench.facts import RoutineFacts
 from grader.student_files import format_log, write_student_files
 from grader.submission import read_answers, read_text
 from grader.variant import derive_student_seed
@@ -26,7 +26,6 @@ from .measured import ANALYSES, Measured, noted, of_bench, of_robot, team_of
 if TYPE_CHECKING:
     import numpy as np
 
-    from grader.robotcode.facts import RoutineFacts
     from sim.bench.mechanism import Mechanism
 
 HERE = Path(__file__).resolve().parent
@@ -48,8 +47,13 @@ MOTORS = ("krakenX60", "falcon500", "krakenX44")  # a TalonFX drives each of the
 SPREAD = {"load": (30.0, 65.0), "friction": (0.10, 0.45)}  # [kg], [V] light to heavy, new to worn
 REMEMBERED = 32  # learners whose logs are kept while this runs
 GOOD = 0.9  # simulated velocity R² below which something is wrong with the data
+COMMENT = re.compile(r"//[^\n]*|#[^\n]*|/\*.*?\*/", re.DOTALL)
 LITTLE = 12  # [characters] shorter than which nothing is said
 NEAR_BOUND = 1.5  # [%] that a verdict's bound is known to
+OWN_LOG = (
+    "Your routine has no log callback, and a logger of your own records its state. So the grader "
+    "did not check what is logged here: your own log, which is fitted below, shows it."
+)
 BELOW = -3.0  # [%] under theory that a good motor may still be
 
 
@@ -82,40 +86,49 @@ class Answers:
         return self.folder / name
 
     def _read(self, place: str, room: ModuleType) -> object:
-        asked = {"run": self.run} if room in {FOURTH, FIFTH} else {}
         try:
-            return room.read(self.find_file(place), student=self.student, **asked)
+            return room.read(self.find_file(place), student=self.student, run=self.run)
         except Refusal as refusal:
             raise NotReachedError(str(refusal)) from None
         except WrongAnswer as wrong:
             raise NotReachedError(f"language: {wrong.seen}. {wrong.hint}") from None
 
     @cached_property
-    def routine(self) -> object:
-        """As exercise 4 reads it."""
+    def routine(self) -> Any:  # noqa: ANN401 - of a module that is loaded by path
+        """As exercise 4 runs it."""
         return self._read("subsystem", FOURTH)
 
     @cached_property
     def bindings(self) -> object:
-        """As exercise 5 reads it."""
+        """As exercise 5 runs it."""
         return self._read("container", FIFTH)
+
+    @property
+    def log(self) -> str:
+        """The log of the learner's own robot, if they name one."""
+        log = self.given.get("log")
+        return log.strip() if isinstance(log, str) else ""
 
     @cached_property
     def measured(self) -> Measured:
         """The mechanism: with a robot, that of its log; without, the bench's drivetrain."""
-        log = self.given.get("log")
-        if isinstance(log, str) and log.strip():
-            return of_robot(self.folder / Path(log.replace("\\", "/")).name, self.given)
+        if self.log:
+            return of_robot(self.folder / Path(self.log.replace("\\", "/")).name, self.given)
         return of_bench(draw(self.student))
 
     @cached_property
     def constants(self) -> Any:  # noqa: ANN401 - of a module that is loaded by path
-        """As exercise 10 reads it, with this mechanism's gains for the analyzer's."""
+        """As exercise 10 runs it, with this mechanism's gains for the analyzer's."""
         code = self._read("constants", TENTH)
         one = self.measured
         shown = {name: noted(name, self.given, one) for name in one.key.asked}
         kind = ANALYSES[one.fit.type]
-        variant = TENTH.Variant("own", kind, shown, one.units, one.units, False)  # noqa: FBT003 - a loop in volts
+        parts = (
+            {}
+            if one.parts is None
+            else {"ratio": one.parts.ratio, "radius": one.parts.diameter / 2}
+        )
+        variant = TENTH.Variant("own", kind, shown, one.units, one.units, duty=False, **parts)
         return replace(code, variant=variant)  # type: ignore[type-var]  # loaded by path
 
     @cached_property
@@ -191,12 +204,19 @@ def _borrowed(room: ModuleType, part: str, *, step: str, leave: tuple[str, ...] 
             continue
 
         def look(answers: Answers, theirs: Check[Any] = one) -> str | None:
+            if room is FOURTH and theirs.id in {"log", "units"} and _logs_by_itself(answers):
+                return OWN_LOG
             return theirs.judge(getattr(answers, part))
 
         before = tuple(ours[first.id] for first in one.after)
         name = f"{step}-{one.id}"
         ours[one.id] = Check(name, one.description, one.points, before, look)
         globals()[name.replace("-", "_")] = ours[one.id]
+
+
+def _logs_by_itself(answers: Answers) -> bool:
+    """Whether a logger such as AdvantageKit's writes the log, which the learner hands in."""
+    return bool(answers.log) and all(one.own_log and not one.log for one in answers.routine)
 
 
 _borrowed(FOURTH, "routine", step="routine")
@@ -254,42 +274,40 @@ _borrowed(TENTH, "constants", step="constants")
 @check(points=2)
 def one_mechanism(answers: Answers) -> None:
     """Your files and your log are about one mechanism."""
-    facts = answers.routine.facts  # type: ignore[attr-defined]  # loaded by path
-    if not facts.routine_line:
+    facts: RoutineFacts = answers.routine[0]
+    if not facts.line:
         raise NotReachedError("checked after your subsystem makes a SysIdRoutine")
     _check_one_routine(answers, facts)
     _check_same_motion(answers.measured, facts)
 
 
-def _check_one_routine(answers: Answers, facts: "RoutineFacts") -> None:
+def _check_one_routine(answers: Answers, facts: RoutineFacts) -> None:
     """Whether the buttons start the routine of the subsystem's own file."""
     subsystem, container = (answers.find_file(place) for place in ("subsystem", "container"))
     try:
-        text, other = read_text(container), read_routine(container)
+        text = COMMENT.sub("", read_text(container))
     except Refusal as refusal:
         raise NotReachedError(str(refusal)) from None
     if subsystem == container:
         return
-    if other.routine_line:
+    own = f"the class {facts.name}"
+    if re.search(r"\bSysIdRoutine\s*\(", text):
         raise WrongAnswer(
             f"{subsystem.name} has a SysIdRoutine, and {container.name} has another one",
             hint=f"The buttons start the routine in {container.name}, so nobody runs the one in "
-            f"{subsystem.name}. Delete the class with the second routine, and use {_named(facts)}.",
+            f"{subsystem.name}. Delete the class with the second routine, and use {own}.",
         )
-    if not re.search(rf"\b{re.escape(facts.class_name)}\b", text):
+    if not re.search(rf"\b{re.escape(facts.name)}\b", text):
         raise WrongAnswer(
-            f"{container.name} does not use {_named(facts)}",
+            f"{container.name} does not use {own}",
             hint="The buttons must start the tests of the subsystem that has your SysIdRoutine.",
         )
 
 
-def _named(facts: "RoutineFacts") -> str:
-    return f"the class {facts.class_name}"
-
-
-def _check_same_motion(measured: Measured, facts: "RoutineFacts") -> None:
+def _check_same_motion(measured: Measured, facts: RoutineFacts) -> None:
     """Whether the code records what the log holds: meters, or turns of something."""
-    families = {one.family for one in facts.logged if one.family}
+    signals = [one for test in facts.tests.values() for one in test.signals.values()]
+    families = {one.family for several in signals for one in several.values() if one.family}
     expected = "linear" if measured.units == "Meters" else "angular"
     if families and expected not in families:
         found, held = ("turns", "meters") if expected == "linear" else ("meters", "turns")

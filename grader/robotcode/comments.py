@@ -6,8 +6,6 @@ import tokenize
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from grader.robotcode.ir import Module
-
 _JAVA = re.compile(
     r"(?P<line>//[^\n]*)|(?P<block>/\*.*?(?:\*/|\Z))"
     r'|"""(?:\\.|[^\\])*?(?:"""|\Z)'
@@ -33,11 +31,9 @@ class Comment:
     text: str
 
 
-def list_comments(module: Module) -> tuple[Comment, ...]:
+def list_comments(text: str, language: str) -> tuple[Comment, ...]:
     """All comments of a file, in order."""
-    text = module.source.decode("utf-8", errors="replace")
-    found = _in_java(text) if module.language == "java" else _in_python(text)
-    return tuple(found)
+    return tuple(_in_java(text) if language == "java" else _in_python(text))
 
 
 def _in_java(text: str) -> Iterator[Comment]:

@@ -78,7 +78,8 @@ def in_slot0(scale: str, *, sign: str = "UseVelocitySign") -> Callable[[str], st
                 if java
                 else f"with_{_snake(name)}({name}Value.{_snake(value).upper()})"
             )
-        return _instead(text, f"{'new ' * java}Slot0Configs()." + ".".join(settings))
+        made = f"{'new ' * java}Slot0Configs()." + ".".join(settings)
+        return bring(_instead(text, made), "ctre.phoenix6.configs", "ctre.phoenix6.signals")
 
     return edit_text
 
@@ -95,6 +96,7 @@ def also_in_slot0(text: str) -> str:
         if java
         else f"self.gains = {chain[0]}"
     )
+    text = bring(text, "ctre.phoenix6.configs", "ctre.phoenix6.signals")
     if java:
         return re.sub(
             r"^(?=  private final \w+Feedforward)", lambda _: line, text, flags=re.MULTILINE
@@ -112,9 +114,22 @@ def in_spark(order: dict[str, str]) -> Callable[[str], str]:
 
     def edit_text(text: str) -> str:
         chain = ".".join(f"{name}({HELD}{gain})" for name, gain in order.items())
-        return _instead(text, f"{'new ' * ('new ' in text)}FeedForwardConfig().{chain}")
+        made = f"{'new ' * ('new ' in text)}FeedForwardConfig().{chain}"
+        return bring(_instead(text, made), "revrobotics.spark.config")
 
     return edit_text
+
+
+def bring(text: str, *packages: str) -> str:
+    """Add the imports of a vendor's packages, as Java names them without ``com``."""
+    if "package " in text:
+        lines = "".join(f"import com.{one}.*;\n" for one in packages)
+        return re.sub(r"^(?=import )", lines, text, count=1, flags=re.MULTILINE)
+    modules = [
+        one.removeprefix("ctre.").replace("revrobotics.spark.config", "rev") for one in packages
+    ]
+    lines = "".join(f"from {one} import *\n" for one in modules)
+    return re.sub(r"^(?=from )", lines, text, count=1, flags=re.MULTILINE)
 
 
 HELD = "CharacterizationConstants."
@@ -295,11 +310,18 @@ MISTAKES = (
         "The number is right. Write in a comment",
     ),
     Mistake(
-        "a kP that only running the code could tell",
+        "a kP that only running the code can tell",
+        PYTHON,
+        valued("kP", lambda _: "max(77.0, 99.0)"),
+        "kp",
+        "not the suggested kP",
+    ),
+    Mistake(
+        "a kP out of a function that is not there",
         PYTHON,
         valued("kP", lambda _: "load_gain()"),
-        "kp",
-        "the grader cannot see the number by reading",
+        "named",
+        "the program stops when the robot's program starts",
     ),
     Mistake("no kA anywhere", PYTHON, changed(r"^    kA = .*\n", ""), "named", "no kA"),
     Mistake(

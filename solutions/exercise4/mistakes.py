@@ -43,7 +43,7 @@ MISTAKES = (
             (f"          {MECHANISM});\n", ""),
         ),
         "routine",
-        "no SysIdRoutine in this file",
+        "no SysIdRoutine is made",
     ),
     Mistake(
         "a ramp in volts",
@@ -98,16 +98,18 @@ MISTAKES = (
         "M-BIG-STEP",
     ),
     Mistake(
-        "a step that only running the code could tell",
+        "a step from a function that is not there",
         PYTHON,
         replace_text(("stepVoltage=3.5", "stepVoltage=load_step()")),
-        "step",
-        "the grader cannot see the step voltage by reading load_step()",
+        "routine",
+        "name 'load_step' is not defined",
     ),
     Mistake(
         "a timeout of one minute",
         JAVA,
-        replace_text(("Seconds.of(10)", "Minutes.of(1)")),
+        replace_text(
+            ("Seconds.of(10)", "edu.wpi.first.units.Units.Minutes.of(1)"),
+        ),
         "timeout",
         "60 s",
     ),
@@ -145,7 +147,7 @@ MISTAKES = (
         JAVA,
         replace_text(*COMMANDS_V3, ("SysIdRoutine.SysIdMechanism", "SysIdRoutine.Mechanism")),
         "assembled",
-        "SysIdRoutine of Commands v3 has no Mechanism. Did you mean SysIdMechanism?",
+        "SysIdRoutine has no Mechanism. Did you mean SysIdMechanism?",
     ),
     Mistake(
         "a share of the battery, Java",
@@ -224,7 +226,7 @@ MISTAKES = (
             (INIT, f"{ROUTINE_PYTHON.replace(DEEP, SHALLOW)}\n{INIT}"),
             ("    self.routine =", "    routine ="),
         ),
-        "assembled",
+        "routine",
         "the body of a class has no self",
     ),
     Mistake(
@@ -296,7 +298,7 @@ MISTAKES = (
             ("getMetersPerSecond(m_left)", "m_left.getVelocity().getValueAsDouble()"),
         ),
         "units",
-        "m_left reports rotations, and the log says Meters",
+        "m_left reports rotations, and the log says",
         "M-UNITS",
     ),
     Mistake(
@@ -402,20 +404,20 @@ MISTAKES = (
         JAVA,
         replace_text(("m_left.setVoltage", "m_left.setVolatge")),
         "drive",
-        "unknown method setVolatge. Did you mean setVoltage?",
+        "Did you mean setVoltage?",
     ),
     Mistake(
         "a misspelled method in Python",
         PYTHON,
         replace_text(("self.left.setVoltage", "self.left.setVolatge")),
-        "open-loop",
-        "unknown method setVolatge. Did you mean setVoltage?",
+        "drive",
+        "Did you mean setVoltage?",
     ),
     Mistake(
         "a misspelled signal",
         JAVA,
         replace_text(("linearVelocity(", "linearVelocty(")),
         "log",
-        "unknown method linearVelocty. Did you mean linearVelocity?",
+        "has no linearVelocty. Did you mean linearVelocity?",
     ),
 )

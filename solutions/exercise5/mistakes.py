@@ -58,6 +58,13 @@ MISTAKES = (
         "handed to the scheduler, and let go",
         JAVA,
         replace_text(
+            (
+                "import edu.wpi.first.wpilibj2.command.Command;",
+                (
+                    "import edu.wpi.first.wpilibj2.command.Command;\n"
+                    "import edu.wpi.first.wpilibj2.command.Commands;"
+                ),
+            ),
             ("m_subsystem.sysId", "Commands.runOnce(() -> m_subsystem.sysId"),
             ("Direction.kForward));", "Direction.kForward).schedule()));"),
             ("Direction.kReverse));", "Direction.kReverse).schedule()));"),
@@ -70,14 +77,14 @@ MISTAKES = (
         PYTHON,
         replace_text(("return self.routine.", "return SysIdRoutine.")),
         "held",
-        "SysIdRoutine is the class, and it has no motors: write self.routine.quasistatic(...)",
+        "SysIdRoutine is the class, and it has no motors",
     ),
     Mistake(
         "a test asked of the class, in Java",
         JAVA,
         replace_text(("return m_routine.", "return SysIdRoutine.")),
         "held",
-        "SysIdRoutine is the class, and it has no motors: write m_routine.quasistatic(...)",
+        "quasistatic() belongs to an object: SysIdRoutine is the class",
     ),
     Mistake(
         "the guard or the button",
@@ -267,20 +274,20 @@ MISTAKES = (
         JAVA,
         replace_text(("whileTrue", "whileTreu")),
         "held",
-        "unknown method whileTreu. Did you mean whileTrue?",
+        "Did you mean whileTrue?",
     ),
     Mistake(
         "a misspelled method of the routine",
         PYTHON,
         replace_text(("self.routine.dynamic", "self.routine.dynamik")),
         "factories",
-        "unknown method dynamik. Did you mean dynamic?",
+        "Did you mean dynamic?",
     ),
     Mistake(
         "a method that the subsystem spells otherwise",
         JAVA,
         replace_text(("m_subsystem.sysIdDynamic", "m_subsystem.sysIdDynamik")),
         "held",
-        "unknown method sysIdDynamik. Did you mean sysIdDynamic?",
+        "Did you mean sysIdDynamic?",
     ),
 )

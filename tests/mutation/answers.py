@@ -65,7 +65,7 @@ def _load(path: Path) -> ModuleType:
     return module
 
 
-def graded(name: str, file: str, text: str, folder: Path, *, run: bool = False) -> Grade:
+def graded(name: str, file: str, text: str, folder: Path) -> Grade:
     """Grade an answer of which one file has another text.
 
     Raises:
@@ -77,14 +77,14 @@ def graded(name: str, file: str, text: str, folder: Path, *, run: bool = False) 
         if part == first or part in one.companion_files:
             (folder / part).write_text(right, encoding="utf-8")
     (folder / file).write_text(text, encoding="utf-8")
-    return one.grade(folder / first, student=STUDENT, run=run)
+    return one.grade(folder / first, student=STUDENT)
 
 
-def judge(mutant: Mutant, folder: Path, *, run: bool = False) -> Verdict:
+def judge(mutant: Mutant, folder: Path) -> Verdict:
     """Grade a mutant: it is killed by a loss of points with advice of its own."""
     file = Path(mutant.file).name
     try:
-        grade = graded(mutant.exercise, file, mutant.text, folder, run=run)
+        grade = graded(mutant.exercise, file, mutant.text, folder)
     except Refusal as refusal:
         return Verdict(bool(refusal.advice), 0.0, str(refusal))
     if grade.status == "ungradable" and not grade.is_readable:

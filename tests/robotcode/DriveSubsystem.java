@@ -1,4 +1,7 @@
+import com.ctre.phoenix6.hardware.TalonFX;
 import edu.wpi.first.units.measure.*;
+import edu.wpi.first.wpilibj2.command.Command;
+import edu.wpi.first.wpilibj2.command.SubsystemBase;
 import edu.wpi.first.wpilibj2.command.sysid.SysIdRoutine;
 import static edu.wpi.first.units.Units.*;
 
@@ -33,6 +36,20 @@ public class DriveSubsystem extends SubsystemBase {
       this
     )
   );
+
+  // The lesson leaves these four out.
+  private double getLeftPositionMeters() {
+    return m_leftLeader.getPosition().getValueAsDouble() * 0.0472;
+  }
+  private double getRightPositionMeters() {
+    return m_rightLeader.getPosition().getValueAsDouble() * 0.0472;
+  }
+  private double getLeftVelocityMetersPerSecond() {
+    return m_leftLeader.getVelocity().getValueAsDouble() * 0.0472;
+  }
+  private double getRightVelocityMetersPerSecond() {
+    return m_rightLeader.getVelocity().getValueAsDouble() * 0.0472;
+  }
 
   // Expose the four test commands for binding in RobotContainer
   public Command sysIdQuasistaticForward() {

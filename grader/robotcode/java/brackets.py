@@ -6,7 +6,7 @@ closed is the commonest mistake, and counting finds it exactly.
 
 import re
 
-from grader.robotcode.facts import ParseProblem
+from grader.robotcode.problems import ParseProblem
 from sim.core.errors import UnreadableFile
 
 # The parser's memory grows with the square of how deep it is, or of how much it cannot make out.

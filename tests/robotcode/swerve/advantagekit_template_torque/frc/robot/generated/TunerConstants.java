@@ -1,5 +1,6 @@
 package frc.robot.generated;
 
+import com.ctre.phoenix6.swerve.SwerveModuleConstants;
 import com.ctre.phoenix6.swerve.SwerveModuleConstants.ClosedLoopOutputType;
 import com.ctre.phoenix6.swerve.SwerveModuleConstantsFactory;
 
@@ -12,4 +13,13 @@ public class TunerConstants {
       new SwerveModuleConstantsFactory<Object, Object, Object>()
           .withSteerMotorClosedLoopOutput(kSteerClosedLoopOutput)
           .withDriveMotorClosedLoopOutput(kDriveClosedLoopOutput);
+
+  public static final SwerveModuleConstants<?, ?, ?> FrontLeft =
+      ConstantCreator.createModuleConstants(1, 2, 3, 0.0, 0.3, 0.3, false, false, false);
+  public static final SwerveModuleConstants<?, ?, ?> FrontRight =
+      ConstantCreator.createModuleConstants(4, 5, 6, 0.0, 0.3, 0.3, false, false, false);
+  public static final SwerveModuleConstants<?, ?, ?> BackLeft =
+      ConstantCreator.createModuleConstants(7, 8, 9, 0.0, 0.3, 0.3, false, false, false);
+  public static final SwerveModuleConstants<?, ?, ?> BackRight =
+      ConstantCreator.createModuleConstants(10, 11, 12, 0.0, 0.3, 0.3, false, false, false);
 }

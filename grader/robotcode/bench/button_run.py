@@ -1,0 +1,550 @@
+"""Presses what a driver would, in every mode of a match and out of it, and tells which tests ran.
+
+A test of SysId that a program makes is known from its SysIdRoutine. Each input is pressed alone,
+then with a second one held, then with a switch on the dashboard turned; what starts a test is held
+to the test's end, and let go.
+"""
+
+import itertools
+import math
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field
+from typing import Any, Protocol
+
+from grader.robotcode.bench.facts import TESTS, Stop
+from grader.robotcode.bench.routine_run import StoppedError, Subject, find_scheduler, is_subsystem
+from grader.robotcode.bench.simulation import Simulation, walk_fields
+from grader.robotcode.library.base import Unknown
+from grader.robotcode.library.world import PERIOD, WORLD, Joystick
+from grader.robotcode.problems import ParseProblem
+
+Input = tuple[int, str, int]  # port, ``button`` or ``axis`` or ``pov``, number
+SHORTEST, LONGEST = 32, 84  # loops that an input is held: all, and where a command waits
+AFTER = 4  # loops that are watched after it
+HELD = 640  # loops that a test is held to see its end, and what comes then
+ALONE = 1550  # loops of a match in which nobody presses anything: 31 s
+MATCH = ("teleop", "autonomous")
+STATES = (  # what else a match can bring: alliance, every sensor, battery [V]
+    ("Blue", False, 12.5),
+    ("Red", True, 10.5),
+)
+HATS = (0, 90, 180, 270)  # [deg]
+EVERY = [("button", number) for number in range(1, 11)] + [("pov", angle) for angle in HATS]
+MOVING = 0.05  # [V] that a motor gets if it is driven
+
+
+class ButtonSubject(Subject, Protocol):
+    """A program with buttons."""
+
+    def list_factories(self) -> list["Factory"]:
+        """The methods that give commands, with what they make."""
+
+    def comment_at(self, line: int) -> str:
+        """The comments on a statement and above it."""
+
+    def text_at(self, line: int) -> str:
+        """The first line of the statement."""
+
+    def owner_at(self, line: int) -> str:
+        """The class in which a line stands."""
+
+    def find_uncalled(self) -> list[tuple[str, int]]:
+        """Methods with bindings that nothing calls."""
+
+    def autonomous(self) -> Any:
+        """The command of autonomous; None if there is none."""
+
+
+@dataclass(frozen=True)
+class Factory:
+    """A method that makes commands of tests.
+
+    Args:
+        owner, method: where it is.
+        public: whether other classes may call it.
+        line: of its declaration.
+        tests: what it made.
+    """
+
+    owner: str
+    method: str
+    public: bool
+    line: int
+    tests: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Press:
+    """What a driver does to run a test, and what comes of it.
+
+    Args:
+        test: by its name.
+        inputs: what is held, in words.
+        ports: of the controllers.
+        switch: what has to be turned on a dashboard first; empty if nothing.
+        mode: in which it was found.
+        line: of the binding; 0 if no trigger started it.
+        how: the method that bound it.
+        text, comment: of that line.
+        delay: [s] until the test began.
+        lasted: [s] until it ended by itself; infinite if it was still running.
+        restarted: whether it began again while the input was held.
+        stayed: whether it went on when the input was let go.
+        stopped: whether a second press ended it, if it went on.
+        moves: whether a motor is driven after the test, with nobody touching anything.
+        together: what else of the tests ran.
+        opened: the modes of a match in which the same input started it: with what else is so then.
+        apart: whether its controller serves nothing but tests, beside another one.
+    """
+
+    test: str
+    inputs: tuple[str, ...]
+    ports: tuple[int, ...]
+    switch: str
+    mode: str
+    line: int = 0
+    how: str = ""
+    text: str = ""
+    comment: str = ""
+    delay: float = 0.0
+    lasted: float = math.inf
+    restarted: bool = False
+    stayed: bool = False
+    stopped: bool = False
+    moves: bool = False
+    together: tuple[str, ...] = ()
+    opened: tuple[str, ...] = ()
+    apart: bool = False
+
+
+@dataclass(frozen=True)
+class ButtonFacts:
+    """What the buttons of a program do.
+
+    Args:
+        language, name, season, errors, unknown, stop: as in RoutineFacts.
+        routines: how many SysIdRoutines there are.
+        factories: methods that make tests.
+        made: every test that was made, and the line where the container asked for it.
+        presses: for each test, what runs it.
+        bindings: lines where a trigger got a command, with their method.
+        released: tests that start when an input is let go, and the line of the binding.
+        alone: mode -> tests that run although nobody presses anything.
+        elsewhere: tests that a dashboard or autonomous starts, and where.
+        uncalled: methods with bindings that nothing calls.
+        shared: ports on which two controllers are made, and the line of the second.
+        asked_once: the line that asks for test mode only while the program starts; 0 if none does.
+        note: how it was run.
+    """
+
+    language: str
+    name: str
+    season: int = 2026
+    errors: tuple[ParseProblem, ...] = ()
+    unknown: dict[str, int] = field(default_factory=dict)
+    constants: dict[str, float] = field(default_factory=dict)
+    stop: Stop | None = None
+    routines: int = 0
+    factories: tuple[Factory, ...] = ()
+    made: tuple[tuple[str, int], ...] = ()
+    presses: tuple[Press, ...] = ()
+    bindings: tuple[tuple[int, str], ...] = ()
+    released: tuple[tuple[str, int], ...] = ()
+    alone: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    elsewhere: tuple[tuple[str, int], ...] = ()
+    uncalled: tuple[tuple[str, int], ...] = ()
+    shared: tuple[tuple[int, int], ...] = ()
+    asked_once: int = 0
+    note: str = ""
+
+
+class ButtonBench:
+    """A program whose buttons are pressed.
+
+    Args:
+        subject: the program.
+    """
+
+    def __init__(self, subject: ButtonSubject) -> None:
+        self.subject = subject
+        self.where = "start"
+        self.held: set[Input] = set()
+        self.switch: tuple[str, Any] | None = None
+        self.released: dict[str, int] = {}
+
+    def guard(self, run: Callable[[], Any]) -> Any:
+        """Run a part of the program.
+
+        Raises:
+            StoppedError: it raised an error, or does not come back.
+        """
+        try:
+            return run()
+        except StoppedError:
+            raise
+        except BaseException as error:
+            if isinstance(error, KeyboardInterrupt | MemoryError):
+                raise
+            outcome, said, line, kind = self.subject.explain(error)
+            raise StoppedError(Stop(outcome, self.where, said, line, "", kind)) from error
+
+    def run(self) -> ButtonFacts:
+        """Start the program, press everything, and tell what happened."""
+        facts: dict[str, Any] = {"language": self.subject.language, "name": self.subject.name}
+        try:
+            self.guard(self.subject.start)
+            self.simulation = Simulation({}, {}, self.subject.refill)
+            self.simulation.jammed = True  # so that no end of travel ends a test
+            self.scheduler = find_scheduler()
+            facts |= self._look()
+            facts["alone"] = {mode: self._watch_alone(mode) for mode in ("test", *MATCH)}
+            facts["presses"] = tuple(self._find_presses())
+        except StoppedError as stopped:
+            facts["stop"] = stopped.stop
+        facts |= self._look_last()
+        return ButtonFacts(season=self.subject.season, **facts, **self.subject.describe())
+
+    # -- what there is ----------------------------------------------------------------------
+
+    def _look(self) -> dict[str, Any]:
+        made = list(WORLD.singletons.get("tests", []))
+        factories = self.guard(self.subject.list_factories)
+        ports: dict[Any, int] = {}  # a number may be unknown
+        shared = []
+        for one in WORLD.singletons.get("controllers", []):
+            if one._port in ports and isinstance(one._port, int):
+                shared.append((one._port, int(one._line)))
+            ports.setdefault(one._port, int(one._line))
+        WORLD.joysticks = {port: Joystick() for port in ports if isinstance(port, int)}
+        return {
+            "factories": tuple(factories),
+            "made": tuple((test, self._asked_at(lines)) for test, _, lines in made),
+            "elsewhere": tuple(self._find_elsewhere()),
+            "shared": tuple(shared),
+        }
+
+    def _look_last(self) -> dict[str, Any]:
+        return {
+            "routines": len(WORLD.singletons.get("routines", [])),
+            "released": tuple(self.released.items()),
+            "bindings": tuple((int(b.line), b.how) for b in WORLD.singletons.get("bindings", [])),
+            "uncalled": tuple(self.subject.find_uncalled()),
+            "asked_once": next(
+                (int(at) for at, last in WORLD.singletons.get("asked", {}).items() if last == 0), 0
+            ),
+        }
+
+    def _asked_at(self, lines: list[int]) -> int:
+        """The line of the container that asked for a test: the first out of the routine's class."""
+        if not lines:
+            return 0
+        owner = self.subject.owner_at(lines[0])
+        return int(
+            next(
+                (line for line in lines if self.subject.owner_at(line) != owner),
+                lines[-1 if len(lines) == 1 else 1],
+            )
+        )
+
+    def _find_elsewhere(self) -> Iterator[tuple[str, int]]:
+        """Tests that a click on a dashboard, or autonomous, starts."""
+        for one in WORLD.singletons.get("sendables", []):
+            for test in find_tests(one):
+                yield f"a dashboard starts {test.replace('-', ' ')}", _line_of(one)
+        for one in WORLD.singletons.get("choosers", []):
+            for option in one._options.values():
+                for test in find_tests(option):
+                    yield f"a chooser offers {test.replace('-', ' ')}", _line_of(one)
+        for kind, one, _, line in self.scheduler._events:
+            for test in find_tests(one) if kind == "ask" else ():
+                yield f"the program starts {test.replace('-', ' ')} by itself", int(line)
+        command = self.guard(self.subject.autonomous)
+        for test in find_tests(command) if command is not None else ():
+            yield f"autonomous runs {test.replace('-', ' ')}", _line_of(command)
+
+    # -- pressing ---------------------------------------------------------------------------
+
+    def _set_mode(self, mode: str, state: tuple[str, bool, float] = STATES[0]) -> None:
+        self.guard(self.scheduler.cancelAll)
+        WORLD.singletons["running"] = {}
+        WORLD.mode, WORLD.fms = mode, mode in MATCH
+        WORLD.alliance, sensors, WORLD.battery = state
+        devices: list[Any] = list(WORLD.devices)
+        for one in devices:
+            if hasattr(one, "_value") and isinstance(one._value, bool):
+                one._value = sensors
+        self._turn(None)
+        self._loops(2)
+
+    def _turn(self, switch: tuple[str, Any] | None) -> None:
+        """Turn a switch on the dashboard; the one before goes back."""
+        if self.switch is not None:
+            path, before = self.switch
+            if before is None:
+                WORLD.network.pop(path, None)
+            else:
+                WORLD.network[path] = before
+        self.switch = None
+        if switch is not None:
+            self.switch = (switch[0], WORLD.network.get(switch[0]))
+            WORLD.network[switch[0]] = switch[1]
+
+    def _hold(self, inputs: Iterable[Input], *, on: bool) -> None:
+        for port, kind, number in inputs:
+            stick = WORLD.joysticks.setdefault(port, Joystick())
+            if kind == "button":
+                (stick.buttons.add if on else stick.buttons.discard)(number)
+            elif kind == "pov":
+                stick.pov = number if on else -1
+            else:
+                stick.axes[number] = 1.0 if on else 0.0
+
+    def _loop(self) -> frozenset[str]:
+        """One loop; the tests that ran in it."""
+        WORLD.singletons["running"] = {}
+        self.where = "periodic"
+        self.guard(lambda: self.simulation.run_loop(self.scheduler.run))
+        states = WORLD.singletons["running"].values()
+        return frozenset(state for state in states if state != "none")
+
+    def _loops(self, count: int) -> frozenset[str]:
+        return frozenset().union(*(self._loop() for _ in range(count)))
+
+    def _watch_alone(self, mode: str) -> tuple[str, ...]:
+        """The tests that run in a mode although nobody presses anything."""
+        self._set_mode(mode)
+        if mode == "autonomous":
+            command = self.guard(self.subject.autonomous)
+            if command is not None and not isinstance(command, Unknown):
+                self.guard(lambda: self.scheduler.schedule(command))
+        count = ALONE if mode == "teleop" else ALONE // 3
+        return tuple(sorted(self._loops(count)))
+
+    def _press(self, inputs: tuple[Input, ...]) -> frozenset[str]:
+        """Hold some inputs for a moment; the tests that ran meanwhile."""
+        before = set(self._running())
+        seen = len(self.scheduler._events)
+        for one in inputs:
+            self._hold([one], on=True)
+            self._loops(1)
+        found: frozenset[str] = frozenset()
+        for count in range(LONGEST):
+            found |= self._loop()
+            waits = any(find_tests(one) for one in self._running() if one not in before)
+            if found or (count > SHORTEST and not waits):
+                break
+        events = self.scheduler._events[seen:]
+        if found:
+            self.guard(self.scheduler.cancelAll)
+        started = {
+            test for kind, one, *_ in events if kind == "schedule" for test in find_tests(one)
+        }
+        self._let_go(inputs)
+        return found | started if len(started) > 1 else found
+
+    def _let_go(self, inputs: tuple[Input, ...]) -> None:
+        self._hold(inputs, on=False)
+        for test in self._loops(2) & self._loops(2):
+            line = next(
+                (
+                    int(b.line)
+                    for b in WORLD.singletons.get("bindings", [])
+                    if test in find_tests(b.command)
+                ),
+                0,
+            )
+            self.released.setdefault(test, line)
+        self.guard(self.scheduler.cancelAll)
+        self._loops(1)
+
+    def _running(self) -> list[Any]:
+        return list(getattr(self.scheduler, "_scheduled", ()))
+
+    def _inputs(self) -> list[Input]:
+        """What a program looks at, else what every controller has."""
+        found = [
+            (one._port, kind, number)
+            for one in WORLD.singletons.get("controllers", [])
+            for kind, number in one._used
+            if isinstance(one._port, int)
+        ]
+        hats = {port for port, kind, _ in found if kind == "pov"}
+        found += [(port, "pov", angle) for port in hats for angle in HATS]
+        every = [(port, *one) for port in WORLD.joysticks for one in EVERY]
+        return list(dict.fromkeys(found)) or every
+
+    def _switches(self) -> list[tuple[str, Any]]:
+        """What a person can turn on a dashboard."""
+        found: list[tuple[str, Any]] = []
+        for path, one in WORLD.singletons.get("switches", {}).items():
+            now = WORLD.network.get(path, next(iter(one.defaults), False))
+            if one.defaults:
+                found.append((path, not now))
+        for one in WORLD.singletons.get("choosers", []):
+            if one._path:
+                found += [(f"{one._path}/selected", option) for option in one._options]
+        return found
+
+    def _find_presses(self) -> Iterator[Press]:
+        found: dict[str, tuple[tuple[Input, ...], tuple[str, Any] | None, str, frozenset[str]]] = {}
+        for mode in ("test", "teleop"):
+            self._search(mode, None, found)
+            for switch in self._switches():  # those that were asked for meanwhile
+                self._search(mode, switch, found)
+        for test in TESTS:
+            if test in found:
+                yield self._measure(test, *found[test])
+
+    def _search(self, mode: str, switch: tuple[str, Any] | None, found: dict[str, Any]) -> None:
+        """Look for what starts tests, in a mode and with a switch turned."""
+        if not set(TESTS) - set(found):
+            return
+        self._set_mode(mode)
+        self._turn(switch)
+        inputs = self._inputs()
+        singles: list[Input] = []
+        for count in (1, 2):
+            for pressed in itertools.combinations(inputs, count):
+                if set(pressed) & set(singles):
+                    continue
+                if count > 1 and len(set(TESTS) - set(found)) == 0:
+                    return
+                tests = self._press(pressed)
+                if tests and count == 1:
+                    singles.append(pressed[0])
+                for test in tests:
+                    found.setdefault(test, (pressed, switch, mode, tests))
+
+    def _measure(
+        self,
+        test: str,
+        inputs: tuple[Input, ...],
+        switch: tuple[str, Any] | None,
+        mode: str,
+        tests: frozenset[str],
+    ) -> Press:
+        """Hold what starts a test to its end, let it go in the middle, and try it in a match."""
+        self._set_mode(mode)
+        self._turn(switch)
+        self._hold(inputs, on=True)
+        ran, driven = [], []
+        for _ in range(HELD):
+            ran.append(test in self._loop())
+            driven.append(self._is_driven())
+        line, how = self._find_binding(test)
+        first = ran.index(True) if True in ran else HELD
+        end = next((k for k in range(first, HELD) if not ran[k]), HELD)
+        self._hold(inputs, on=False)
+        self._loops(AFTER)
+        moves = self._is_driven() or (not any(ran[end:]) and any(driven[end + AFTER :]))
+        self.guard(self.scheduler.cancelAll)
+        self._loops(2)
+        stayed, stopped, moved = self._release(inputs, test)
+        opened = tuple(self._try_match(test, inputs))
+        asked = next(
+            (
+                self._asked_at(lines)
+                for t, _, lines in WORLD.singletons.get("tests", [])
+                if t == test
+            ),
+            0,
+        )
+        return Press(
+            test,
+            tuple(f"{kind} {number} of controller {port}" for port, kind, number in inputs),
+            tuple(dict.fromkeys(port for port, _, _ in inputs)),
+            switch[0] if switch else "",
+            mode,
+            line,
+            how,
+            self.subject.text_at(line),
+            self._comment(asked, line),
+            delay=first * PERIOD,
+            lasted=(end - first) * PERIOD if end < HELD else math.inf,
+            restarted=any(ran[end:]),
+            stayed=stayed,
+            stopped=stopped,
+            moves=moves or moved,
+            together=tuple(sorted(tests - {test})),
+            opened=opened,
+            apart=self._is_apart(inputs),
+        )
+
+    def _release(self, inputs: tuple[Input, ...], test: str) -> tuple[bool, bool, bool]:
+        """Whether a test goes on when its input is let go, ends by a second press, moves motors."""
+        self._hold(inputs, on=True)
+        self._loops(SHORTEST if test in self._loops(SHORTEST) else LONGEST)
+        self._hold(inputs, on=False)
+        self._loops(2)
+        stayed = test in self._loops(AFTER)
+        moves = not stayed and self._is_driven()
+        stopped = False
+        if stayed:
+            self._hold(inputs, on=True)
+            self._loops(AFTER)
+            self._hold(inputs, on=False)
+            stopped = test not in self._loops(AFTER)
+        self.guard(self.scheduler.cancelAll)
+        return stayed, stopped, moves
+
+    def _is_driven(self) -> bool:
+        """Whether a motor gets a voltage."""
+        got = [one._applied for one in self.simulation.motors]
+        return any(abs(one) > MOVING for one in got if not isinstance(one, Unknown))
+
+    def _try_match(self, test: str, inputs: tuple[Input, ...]) -> Iterator[str]:
+        """The states of a match in which the same inputs, or one of them, start a test."""
+        for mode in MATCH:
+            for state in STATES:
+                self._set_mode(mode, state)
+                if test in self._press(inputs):
+                    yield mode
+                    break
+
+    def _find_binding(self, test: str) -> tuple[int, str]:
+        """The line and the method that bound a test to what is held."""
+        running = [one for one in self._running() if test in find_tests(one)]
+        line = int(running[0]._scheduled_line) if running else 0
+        bindings = WORLD.singletons.get("bindings", [])
+        exact = [b for b in bindings if test in find_tests(b.command)]
+        near = (
+            [b for b in exact if int(b.line) == line]
+            or exact
+            or [b for b in bindings if int(b.line) == line]
+        )
+        return (int(near[0].line), near[0].how) if near else (line, "")
+
+    def _comment(self, asked: int, line: int) -> str:
+        return self.subject.comment_at(asked) or self.subject.comment_at(line)
+
+    def _is_apart(self, inputs: tuple[Input, ...]) -> bool:
+        """Whether the controller of some inputs serves nothing else, and is not the only one."""
+        ports = {port for port, _, _ in inputs}
+        others = [one for one in WORLD.singletons.get("controllers", []) if one._port not in ports]
+        own = {one for one in WORLD.singletons.get("controllers", []) if one._port in ports}
+        used = {(one._port, *key) for one in own for key in one._used}
+        return (bool(others) or bool(ports - {0})) and used <= self.test_inputs()
+
+    def test_inputs(self) -> set[Input]:
+        """The inputs whose triggers belong to bindings of tests."""
+        lines = {int(b.line) for b in WORLD.singletons.get("bindings", []) if find_tests(b.command)}
+        return {
+            (one._port, *key)
+            for one in WORLD.singletons.get("controllers", [])
+            for key, line in one._used.items()
+            if int(line) in lines or not lines
+        }
+
+
+def find_tests(command: Any) -> list[str]:
+    """The tests of SysId that a command runs, itself or in what it is made of."""
+    made = {id(one): test for test, one, _ in WORLD.singletons.get("tests", [])}
+    if id(command) in made:
+        return [made[id(command)]]
+    parts = walk_fields(command, leave=is_subsystem)
+    return [made[id(one)] for _, _, one in parts if id(one) in made]
+
+
+def _line_of(thing: Any) -> int:
+    line = getattr(thing, "_line", 0)
+    return int(line) if isinstance(line, int) else 0

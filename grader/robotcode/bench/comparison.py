@@ -1,0 +1,204 @@
+"""Holds what a motor got against what was asked, and what was logged against what was true."""
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from grader.robotcode.bench.facts import Driven, Sent, Signal
+from grader.robotcode.library.base import Unknown
+
+if TYPE_CHECKING:
+    from grader.robotcode.bench.routine_run import Row
+
+CLOSE = 1e-3  # [V] what two voltages may differ in that are the same
+JUMP = 0.5  # [share of its range] by which a position changes where its sensor begins anew
+ENDS = 2  # loops in which a program may settle
+TRUE = 2e-3  # [share of a signal's range] that a logged value may be off
+HICCUP = 0.995  # [share of a voltage] below which a motor was limited
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def compare_motor(name: str, rows: Sequence["Row"], sent: tuple[Sent, ...]) -> Driven:
+    """What a motor got in a test."""
+    unknown = next(
+        (r.applied[name].unknown_text for r in rows if isinstance(r.applied[name], Unknown)), ""
+    )
+    if unknown or not rows:
+        return Driven(loops=len(rows), unknown=unknown, sent=sent)
+    got = [float(row.applied[name]) for row in rows]
+    asked = [row.asked for row in rows]
+    limits = [row.limits.get(name, 1.0) for row in rows]
+    off = [k for k in range(len(rows)) if abs(got[k] - asked[k] * limits[k]) > CLOSE]
+    late = [k for k in range(1, len(rows)) if abs(got[k] - asked[k - 1] * limits[k]) > CLOSE]
+    at = (rows[off[0]].time, asked[off[0]], got[off[0]]) if off else (0.0, 0.0, 0.0)
+    if off:  # where it differs most tells most
+        worst = max(off, key=lambda k: abs(got[k] - asked[k]))
+        at = (rows[worst].time, asked[worst], got[worst])
+    free = [(g, a) for g, a, limit in zip(got, asked, limits, strict=True) if limit == 1.0]
+    large = [g / a for g, a in free if abs(a) > 0.5]  # noqa: PLR2004 - [V]
+    differences = [g - a for g, a in free]
+    ratio = large[-1] if large and max(large) - min(large) < 0.02 else None  # noqa: PLR2004 - as PWM's steps
+    offset = (
+        differences[-1] if differences and max(differences) - min(differences) < CLOSE else None
+    )
+    return Driven(
+        len(rows), len(off), at, ratio, offset,
+        late=len(off) > ENDS and not late,
+        never=all(abs(g) < CLOSE for g in got),
+        flipped=any(name in row.flipped for row in rows),
+        sent=sent,
+        cut=_find_cut(name, rows, off, got),
+    )  # fmt: skip
+
+
+def _find_cut(name: str, rows: Sequence["Row"], off: list[int], got: list[float]) -> float | None:
+    """The position from which on a motor got nothing."""
+    if not off or len(off) <= ENDS or name not in rows[off[0]].truth:
+        return None
+    tail = off == list(range(off[0], len(rows))) and all(abs(got[k]) < CLOSE for k in off)
+    return rows[off[0]].truth[name][1] if tail else None
+
+
+def compare_signal(name: str, signal: str, rows: Sequence["Row"]) -> Signal:
+    """One signal of the log, held against everything that it could be."""
+    found = [
+        (k, [e for e in row.entries if str(e.motor) == name and e.signal == signal])
+        for k, row in enumerate(rows)
+    ]
+    listed = [(k, entries) for k, entries in found if entries]
+    last = listed[-1][1][-1]
+    made: dict[str, Any] = {
+        "loops": len(listed),
+        "line": int(last.line),
+        "unit": last.unit,
+        "family": last.family,
+        "twice": any(len(entries) > 1 for _, entries in listed),
+    }
+    pairs = [(k, entries[-1].value) for k, entries in listed]
+    unknown = next((v.unknown_text for _, v in pairs if isinstance(v, Unknown)), "")
+    if unknown:
+        return Signal(unknown=unknown, **made)
+    if not all(_is_number(v) for _, v in pairs):
+        return Signal(**made)
+    values = [float(v) for _, v in pairs]
+    made["idle"] = not any(abs(speed) > TRUE for row in rows for _, _, speed in row.truth.values())
+    made["values"] = (values[0], values[-1])
+    made["still"] = max(values) - min(values) <= 1e-9 * max(1.0, abs(values[0]))  # rounding
+    if signal == "voltage":
+        return _compare_voltage([(k, float(v)) for k, v in pairs], rows, made)
+    return _compare_motion([(k, float(v)) for k, v in pairs], rows, made, signal)
+
+
+def _compare_voltage(
+    pairs: list[tuple[int, float]], rows: Sequence["Row"], made: dict[str, Any]
+) -> Signal:
+    battery = all(abs(v - rows[k].battery) < 2 * CLOSE for k, v in pairs)
+    asked = all(abs(v - rows[k].asked) < CLOSE for k, v in pairs)
+    limited = any(min(rows[k].limits.values(), default=1.0) < HICCUP for k, _ in pairs)
+    exact: list[str] = []
+    near: dict[str, tuple[float, bool]] = {}  # motor -> factor, and whether only the sign is lost
+    for motor in rows[0].truth:
+        for lag in (0, 1):
+            truth = [
+                (rows[k - lag].truth[motor][0], v)
+                for k, v in pairs
+                if k >= lag and rows[k - lag].truth
+            ]
+            truth = [(t, v) for t, v in truth if _is_number(t)]
+            if not truth or all(abs(t) < CLOSE for t, _ in truth):
+                continue
+            large = [v / t for t, v in truth if abs(t) > 0.5]  # noqa: PLR2004 - [V]
+            if max(abs(t - v) for t, v in truth) < CLOSE:
+                exact.append(motor)
+                break
+            if max(abs(abs(t) - v) for t, v in truth) < CLOSE:
+                near.setdefault(motor, (1.0, True))
+            elif large and max(large) - min(large) < 0.01 * abs(large[0]):  # of a share
+                near.setdefault(motor, (large[-1], False))
+    made |= {"asked": asked and limited and not exact, "battery": battery}
+    owners = tuple(exact or near)
+    if not owners:
+        return Signal(**made)
+    factor, absolute = (1.0, False) if exact else near[owners[0]]
+    return Signal(
+        follows=f"voltage {owners[0]}", owners=owners, scale=factor, absolute=absolute, **made
+    )
+
+
+def _compare_motion(
+    pairs: list[tuple[int, float]], rows: Sequence["Row"], made: dict[str, Any], signal: str
+) -> Signal:
+    if signal == "position":
+        pairs = _unwrap(pairs)
+    best: tuple[float, str, float, float, bool] = (TRUE, "", 0.0, 0.0, False)
+    order = {"position": (1, 2), "velocity": (2, 1)}.get(signal, (1, 2))
+    for part in order:
+        for motor in rows[0].truth:
+            for lag in (0, 1):
+                truth = [
+                    (rows[k - lag].truth[motor][part], v)
+                    for k, v in pairs
+                    if k >= lag and rows[k - lag].truth
+                ]
+                error, slope, offset = _fit_line(truth)
+                if error < best[0] * 0.99:
+                    best = (
+                        error,
+                        f"{('', 'position', 'velocity')[part]} {motor}",
+                        slope,
+                        offset,
+                        False,
+                    )
+                error, slope, offset = _fit_line([(abs(t), v) for t, v in truth])
+                if slope and error < best[0] * 0.5 and min(t for t, _ in truth) < 0:
+                    best = (
+                        error,
+                        f"{('', 'position', 'velocity')[part]} {motor}",
+                        slope,
+                        offset,
+                        True,
+                    )
+        if best[1]:
+            break
+    if not best[1] or made["still"]:
+        return Signal(**made)
+    owners = (best[1].partition(" ")[2],)
+    return Signal(
+        follows=best[1], owners=owners, scale=best[2], offset=best[3], absolute=best[4], **made
+    )
+
+
+def _unwrap(pairs: list[tuple[int, float]]) -> list[tuple[int, float]]:
+    """A position without the jumps of an absolute sensor, which begins anew each rotation."""
+    span = max(v for _, v in pairs) - min(v for _, v in pairs)
+    added, before, step = 0.0, pairs[0][1], 0.0
+    found = [pairs[0]]
+    for k, value in pairs[1:]:
+        change = value - before
+        if abs(change) > JUMP * span and abs(step) < JUMP * span and change * step < 0:
+            added -= change - step
+        else:
+            step = change
+        before = value
+        found.append((k, value + added))
+    return found
+
+
+def _fit_line(pairs: Sequence[tuple[float, float]]) -> tuple[float, float, float]:
+    """The worst residual over the range of ``y``, slope and intercept of the best line."""
+    count = len(pairs)
+    if count < 3:  # noqa: PLR2004 - two points are always on a line
+        return math.inf, 0.0, 0.0
+    mean_x = sum(x for x, _ in pairs) / count
+    mean_y = sum(y for _, y in pairs) / count
+    square = sum((x - mean_x) ** 2 for x, _ in pairs)
+    span = max(y for _, y in pairs) - min(y for _, y in pairs)
+    if square <= 0.0 or span <= 0.0:
+        return math.inf, 0.0, 0.0
+    slope = sum((x - mean_x) * (y - mean_y) for x, y in pairs) / square
+    offset = mean_y - slope * mean_x
+    worst = max(abs(y - slope * x - offset) for x, y in pairs)
+    return worst / span, slope, offset

@@ -1,0 +1,346 @@
+"""A Java program on the bench: its class is made as a robot's program would make it."""
+
+import enum
+import itertools
+import re
+import sys
+from collections.abc import Collection, Iterator
+from pathlib import Path
+from typing import Any
+
+from grader.robotcode.bench.button_run import Factory
+from grader.robotcode.bench.facts import Outcome
+from grader.robotcode.bench.simulation import walk_fields
+from grader.robotcode.comments import find_comments_near, list_comments
+from grader.robotcode.java import type_names, values
+from grader.robotcode.java.classes import DECLARATIONS, PRIMITIVES, JavaClass, Method
+from grader.robotcode.java.lang import Exited
+from grader.robotcode.java.program import Program
+from grader.robotcode.java.run import allow_deep_calls
+from grader.robotcode.java.runtime import STATE, EndlessError
+from grader.robotcode.java.scope import text
+from grader.robotcode.java.syntax import At
+from grader.robotcode.library.base import NoSuchMember, Unknown, WrongArgument
+from grader.robotcode.library.commands import IllegalCommandUse
+from grader.robotcode.library.world import WORLD
+
+START_STEPS = 100_000  # calls and turns of loops until the robot's class is made
+TESTING = frozenset({"SysIdRoutine", "Command"})  # types of what starts a test
+DEEP = 3  # constructors within constructors that are given what they ask for
+
+
+class JavaSubject:
+    """A Java program, and the one of its classes that is looked at.
+
+    Args:
+        path: the file in hand.
+        wanted: text that tells the class from others of the file.
+
+    Raises:
+        UnreadableFile: it is no readable source text.
+    """
+
+    language = "java"
+
+    def __init__(self, path: Path, wanted: str = "SysIdRoutine") -> None:
+        allow_deep_calls()
+        WORLD.where = lambda: STATE.at
+        WORLD.stack = list_calls
+        STATE.refill()
+        self.program = Program(path)
+        self.java: Any = self._choose(wanted)  # None if the file has no class
+        self.name = self.java.name if self.java is not None else path.stem
+        self.instance: Any = None
+
+    @property
+    def season(self) -> int:
+        """The season of WPILib whose packages are imported."""
+        return (
+            2027
+            if any(one.full.startswith("org.wpilib.") for one in self.program.unit.imports)
+            else 2026
+        )
+
+    def _choose(self, wanted: str) -> JavaClass | None:
+        classes = list(self.program.unit.classes.values())
+        if not classes:
+            return None
+        public = next((one for one in classes if one.name == self.program.path.stem), classes[0])
+        if not wanted or wanted in (public.node.text or b"").decode():
+            return public
+        return next((one for one in classes if wanted in (one.node.text or b"").decode()), public)
+
+    def compile(self) -> None:
+        """Compile the file in hand, so that what a compiler refuses is known."""
+        self.program.compile_all()
+
+    def start(self) -> None:
+        """Make the class, with its constructor or by its own ``getInstance``."""
+        STATE.refill(START_STEPS)
+        self.compile()
+        if self.java is None:
+            return
+        _ = self.java.cls
+        if self.java.constructors and all(one.kinds for one in self.java.constructors):
+            self.instance = self._made_by_program(self.java.name)
+            if self.instance is not None:
+                return
+        made = [
+            one for one in self.java.methods
+            if one.static and not one.kinds and one.returns == self.java.name
+        ]  # fmt: skip
+        private = all("private" in one.modifiers for one in self.java.constructors)
+        if made and private and self.java.constructors:
+            self.java.initialize()
+            self.instance = made[0].run(None)
+        elif "abstract" in self.java.modifiers:
+            self.instance = self._make_one_of(self.java, 0)
+        else:
+            self.instance = self.make(self.java)
+
+    def _made_by_program(self, name: str) -> Any:
+        """The object of a class that another class of the program makes, as a container does."""
+        for java in self._all_classes():
+            source = (java.node.text or b"").decode()
+            if java.outer is None and java.name != name and re.search(rf"\bnew {name}\(", source):
+                _ = java.cls
+                if not java.constructors or any(not one.kinds for one in java.constructors):
+                    holder = java.make(())
+                    found = (one for _, _, one in walk_fields(holder) if type(one).__name__ == name)
+                    return next(found, None)
+        return None
+
+    def make(self, java: JavaClass, depth: int = 0) -> Any:
+        """An object of a class; its constructor gets what a robot's program would give it."""
+        _ = java.cls
+        best: Method | None = min(java.constructors, key=lambda one: len(one.kinds), default=None)
+        args = [
+            self._argument(kind, java, depth) for kind in (best.kinds if best is not None else ())
+        ]
+        env = (
+            None if java.static or java.outer is None else [self.make(java.outer, depth + 1), None]
+        )
+        return java.make(args, (), env)
+
+    def _argument(self, kind: str, java: JavaClass, depth: int) -> Any:
+        if kind in PRIMITIVES:
+            return values.cast(kind, 1) if kind != "boolean" else False
+        if kind == "String":
+            return "name"
+        if kind.endswith("[]"):
+            return values.Array([], kind[:-2])
+        found = self.program.resolve(kind, java)
+        if isinstance(found, JavaClass) and depth < DEEP:
+            return self._make_one_of(found, depth)
+        if isinstance(found, type):
+            return self._library_object(found)
+        return Unknown(kind)
+
+    def _make_one_of(self, java: JavaClass, depth: int) -> Any:
+        if java.form == "enum":
+            java.initialize()
+            return next(iter(java.statics.values()), None)
+        if java.form == "class" and "abstract" not in java.modifiers:
+            return self.make(java, depth + 1)
+        children = [
+            one for one in self._all_classes() if one is not java and java in one.ancestors()
+        ]
+        children = [
+            one for one in children if one.form == "class" and "abstract" not in one.modifiers
+        ]
+        children.sort(key=lambda one: bool(re.search(r"Sim|Replay|Mock", one.name)))
+        if children or java.form != "class":
+            return self.make(children[0], depth + 1) if children else Unknown(java.name)
+        java.modifiers -= {"abstract"}  # what it has itself can be looked at
+        return self.make(java, depth + 1)
+
+    def _all_classes(self) -> list[JavaClass]:
+        waiting = [one for unit in self.program.all_units() for one in unit.classes.values()]
+        found = []
+        while waiting:
+            one = waiting.pop(0)
+            found.append(one)
+            waiting += one.nested.values()
+        return found
+
+    @staticmethod
+    def _library_object(kind: type) -> Any:
+        for args in ((), (1,), (len(WORLD.devices) + 1,)):
+            try:
+                return kind(*args)
+            except (TypeError, ValueError):
+                continue
+        return Unknown(kind.__name__)
+
+    def find_routines(self) -> list[Any]:
+        """The routines that a method makes when somebody asks for one, or for a test."""
+        before = len(WORLD.singletons.get("routines", []))
+        for one in self.java.methods if self.java is not None else ():
+            told = one.returns in TESTING and "private" not in one.modifiers
+            if told and all(kind.rpartition(".")[2] == "Direction" for kind in one.kinds):
+                args = [self._direction(kind) for kind in one.kinds]
+                one.run(None if one.static else self.instance, *args)
+        made: list[Any] = WORLD.singletons.get("routines", [])
+        return made[before:]
+
+    def _direction(self, kind: str) -> Any:
+        found = self.program.resolve(kind, self.java)
+        return next(iter(found)) if isinstance(found, enum.EnumMeta) else Unknown(kind)
+
+    @staticmethod
+    def refill() -> None:
+        """Give the program the steps of one more loop."""
+        STATE.refill()
+
+    @staticmethod
+    def explain(error: BaseException) -> tuple[Outcome, str, int, str]:
+        """How an error ended the program."""
+        line = int(STATE.at)
+        if isinstance(error, EndlessError):
+            return Outcome.ENDLESS, "the code here runs without end", line, "endless"
+        if isinstance(error, values.Throwable):
+            return Outcome.CRASHED, values.to_string(error), line, type_names.type_name(type(error))
+        if isinstance(error, RecursionError):
+            return Outcome.CRASHED, "java.lang.StackOverflowError", line, "StackOverflowError"
+        if isinstance(error, Exited):
+            return Outcome.CRASHED, "System.exit() ends the program", line, "exit"
+        if isinstance(error, WrongArgument | NoSuchMember | IllegalCommandUse):
+            return Outcome.CRASHED, str(error), line, type(error).__name__
+        raise error  # ours, and no fault of the learner's
+
+    def describe(self) -> dict[str, Any]:
+        """What is known of the text."""
+        unknown = {n: int(at) for n, at in (WORLD.undecided | self.program.unknown).items()}
+        return {
+            "errors": tuple(self.program.errors.values()),
+            "unknown": unknown,
+            "constants": dict(self._constants()),
+        }
+
+    def _constants(self) -> Any:
+        for java in self._all_classes():
+            for one in java.fields.values() if "cls" in java.__dict__ else ():
+                value = java.statics.get(one.key) if one.static else None
+                if isinstance(value, int | float) and not isinstance(value, bool):
+                    yield one.name, float(value)
+
+    # -- buttons ----------------------------------------------------------------------------
+
+    def list_factories(self) -> list[Factory]:
+        """The methods that give commands, with the tests that they made when they were called."""
+        found = []
+        for java, instance in self._instances().items():
+            for one in java.methods:
+                if "Command" not in one.returns and one.returns not in {"", "var"}:
+                    continue
+                tests = tuple(self._call_factory(one, instance))
+                if tests:
+                    public = "public" in one.modifiers or java.form == "interface"
+                    found.append(Factory(java.name, one.name, public, int(one.at), tests))
+        return found
+
+    def _instances(self) -> dict[JavaClass, Any]:
+        found: dict[JavaClass, Any] = {}
+        for _, _, one in walk_fields(self.instance):
+            java = getattr(type(one), "java", None)
+            if java is not None:
+                found.setdefault(java, one)
+        return found
+
+    def _call_factory(self, method: Method, instance: Any) -> Iterator[str]:
+        """The tests that a method makes, for each value of its parameters."""
+        choices = []
+        for kind in method.kinds:
+            values_ = self._choices(kind, method.owner)
+            if not values_:
+                return
+            choices.append(values_)
+        for args in itertools.product(*choices):
+            before = len(WORLD.singletons.get("tests", []))
+            try:
+                method.run(None if method.static else instance, *args)
+            except (values.Throwable, TypeError, ValueError, AttributeError):
+                continue
+            yield from (test for test, _, _ in WORLD.singletons.get("tests", [])[before:])
+
+    def _choices(self, kind: str, scope: JavaClass) -> list[Any]:
+        """What a factory's parameter may be given: the constants of an enum, or true and false."""
+        found = self.program.resolve(kind, scope)
+        if isinstance(found, JavaClass) and found.form == "enum":
+            found.initialize()
+            return [found.statics[f".{name}"] for name, _ in found.constants]
+        if isinstance(found, type) and issubclass(found, enum.Enum):
+            return list(found)
+        return [True, False] if kind == "boolean" else []
+
+    def autonomous(self) -> Any:
+        """The command of autonomous; None if there is none."""
+        methods = self.java.methods if self.java is not None else ()
+        method = next(
+            (m for m in methods if m.name == "getAutonomousCommand" and not m.kinds), None
+        )
+        return method.run(self.instance) if method is not None else None
+
+    def owner_at(self, line: int) -> str:
+        """The class in which a line stands."""
+        node = self._node_at(line, DECLARATIONS)
+        return text(node.child_by_field_name("name")) if node is not None else ""
+
+    def _node_at(self, line: int, kinds: Collection[str]) -> Any:
+        """The smallest node of some kinds on a line of the file in hand."""
+        found: Any = None
+        waiting: list[Any] = [self.program.main.root]
+        while waiting:
+            node = waiting.pop()
+            if node.start_point[0] <= line - 1 <= node.end_point[0]:
+                found = node if node.type in kinds else found
+                waiting += node.children
+        return found
+
+    def text_at(self, line: int) -> str:
+        """The code on a line."""
+        lines = self.program.main.text.split("\n")
+        return lines[line - 1].strip() if 0 < line <= len(lines) else ""
+
+    def comment_at(self, line: int) -> str:
+        """The comments on a line and above it, or else on its whole statement."""
+        comments = list_comments(self.program.main.text, "java")
+        node = self._node_at(
+            line,
+            {
+                "expression_statement",
+                "field_declaration",
+                "local_variable_declaration",
+                "return_statement",
+            },
+        )
+        near = find_comments_near(comments, line, line)
+        if near or node is None:
+            return near
+        return find_comments_near(comments, node.start_point[0] + 1, node.end_point[0] + 1)
+
+    def find_uncalled(self) -> list[tuple[str, int]]:
+        """Methods with bindings that nothing calls."""
+        whole = self.program.main.text
+        found = []
+        for java in self._all_classes():
+            for one in java.methods if "cls" in java.__dict__ else ():
+                binds = re.search(
+                    r"\.(while|on|toggleOn)(True|False)\(", (one.node.text or b"").decode()
+                )
+                if binds and len(re.findall(rf"\b{one.name}\b", whole)) == 1:
+                    found.append((one.name, int(one.at)))
+        return found
+
+
+def list_calls() -> list[int]:
+    """The lines of the calls that led here, the innermost first, from Python's own frames."""
+    found: list[int] = []
+    frame: Any = sys._getframe(1)
+    while frame is not None:
+        if frame.f_globals.get("__package__") == "grader.robotcode.java":
+            at = frame.f_locals.get("at")
+            if isinstance(at, At) and (not found or found[-1] != int(at)):
+                found.append(int(at))
+        frame = frame.f_back
+    return found

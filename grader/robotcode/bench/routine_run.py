@@ -1,0 +1,378 @@
+"""Runs the four tests of a program's SysIdRoutine, and writes down what it did.
+
+Works on whatever stands for the robot: the fakes, or WPILib's own simulation.
+"""
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from typing import Any, Protocol
+
+from grader.robotcode.bench.comparison import compare_motor, compare_signal
+from grader.robotcode.bench.facts import (
+    TESTS,
+    DeviceFacts,
+    Outcome,
+    RoutineFacts,
+    Sent,
+    Setting,
+    Stop,
+    TestRun,
+)
+from grader.robotcode.bench.simulation import (
+    BATTERY,
+    SAGGED,
+    Mount,
+    Simulation,
+    number_of,
+    walk_fields,
+)
+from grader.robotcode.library.base import Unknown
+from grader.robotcode.library.devices import LogEntry, Motor
+from grader.robotcode.library.world import PERIOD, WORLD
+
+REST = 0.6  # [s] before every test; the first one until the robot knows that it is enabled
+LONGEST = 14.0  # [s] a test that was left alone so long has no timeout worth the name
+HICCUP = (0.8, 1.2)  # [s] of a dynamic test in which something else takes current
+
+
+class Subject(Protocol):
+    """A program on the bench."""
+
+    language: str
+    name: str
+    season: int
+    instance: Any
+
+    def start(self) -> None:
+        """Make the robot's class."""
+
+    def explain(self, error: BaseException) -> tuple[Outcome, str, int, str]:
+        """How an error ended the program: outcome, words, line, name of the error."""
+
+    def refill(self) -> None:
+        """Give it the steps of one more loop."""
+
+    def describe(self) -> dict[str, Any]:
+        """What is known of its text: errors, unknown, constants."""
+
+    def find_routines(self) -> list[Any]:
+        """The routines that its methods make only when somebody asks."""
+
+
+@dataclass
+class Row:
+    """One loop of a test.
+
+    Args:
+        time: [s] since the test began.
+        asked: voltage that the test asked for [V].
+        applied: voltage of each motor [V] when the callbacks were over.
+        truth: voltage, position and velocity of each motor as the log callback found them.
+        entries: what the log callback wrote.
+    """
+
+    time: float
+    asked: float
+    truth: dict[str, tuple[Any, float, float]] = field(default_factory=dict)
+    applied: dict[str, Any] = field(default_factory=dict)
+    entries: list[LogEntry] = field(default_factory=list)
+    flipped: set[str] = field(default_factory=set)
+    battery: float = BATTERY
+    limits: dict[str, float] = field(default_factory=dict)  # share of it that gets through
+    logged: bool = False
+
+
+class StoppedError(Exception):
+    """The program came to an end that nobody wanted."""
+
+    def __init__(self, stop: Stop) -> None:
+        super().__init__(stop.said)
+        self.stop = stop
+
+
+class RoutineBench:
+    """A program with its routine, and what it does in the tests.
+
+    Args:
+        subject: the program.
+        mounts: how the task's motors are built in, by the number of their port.
+    """
+
+    def __init__(self, subject: Subject, mounts: dict[Any, Mount]) -> None:
+        self.subject, self.mounts = subject, mounts
+        self.where, self.test = "start", ""
+        self.row: Row | None = None
+        self.sent: dict[str, dict[Sent, None]] = {}
+
+    def guard(self, run: Callable[[], Any]) -> Any:
+        """Run a part of the program.
+
+        Raises:
+            StoppedError: it raised an error, or does not come back.
+        """
+        try:
+            return run()
+        except StoppedError:
+            raise
+        except BaseException as error:
+            if isinstance(error, KeyboardInterrupt | MemoryError):
+                raise
+            outcome, said, line, kind = self.subject.explain(error)
+            raise StoppedError(Stop(outcome, self.where, said, line, self.test, kind)) from error
+
+    def run(self) -> RoutineFacts:
+        """Start the program, run all four tests, and tell what happened."""
+        facts: dict[str, Any] = {"language": self.subject.language, "name": self.subject.name}
+        try:
+            self.guard(self.subject.start)
+            facts |= self._look()
+            if "drive" in facts:
+                facts["tests"] = dict(self._tests(facts))
+        except StoppedError as stopped:
+            facts["stop"] = stopped.stop
+        facts["devices"] = self._devices()
+        return RoutineFacts(season=self.subject.season, **facts, **self.subject.describe())
+
+    # -- what there is ----------------------------------------------------------------------
+
+    def _look(self) -> dict[str, Any]:
+        """Find the routine, its settings and its devices."""
+        ways = list(walk_fields(self.subject.instance))
+        held = {id(one) for _, _, one in ways}
+        made = WORLD.singletons.get("routines", [])
+        kept = [one for one in made if id(one) in held]
+        if not kept:
+            kept = self.guard(self.subject.find_routines)
+            made = WORLD.singletons.get("routines", [])
+        if not kept:  # others in the program may have made some of their own
+            made = [one for one in made if one._mechanism._subsystem is self.subject.instance]
+        names: dict[int, str] = {}
+        for name, way, one in ways:
+            names.setdefault(id(one), way if [n for n, _, _ in ways].count(name) > 1 else name)
+        self.simulation = Simulation(names, self.mounts, self.subject.refill)
+        self.at_start = {id(one): one._inverted for one in self.simulation.motors}
+        found: dict[str, Any] = {"is_subsystem": is_subsystem(self.subject.instance)}
+        if not made:
+            return found
+        self.routine = max(kept or made, key=lambda one: (one._mechanism._log is not None, 0))
+        config, mechanism = self.routine._config, self.routine._mechanism
+        for name in ("ramp", "step", "timeout"):
+            found[name] = _read_setting(config, name)
+        if isinstance(mechanism, Unknown):
+            return found | {"line": int(self.routine._line), "kept": bool(kept)}
+        own = mechanism._subsystem is self.subject.instance
+        return found | {
+            "line": int(self.routine._line),
+            "kept": bool(kept),
+            "requires": "none" if mechanism._forgotten else "own" if own else "other",
+            "swapped": self.routine._swapped,
+            "drive": mechanism._drive is not None,
+            "log": mechanism._log is not None,
+            "own_log": config.recordState is not None,
+        }
+
+    def _devices(self) -> tuple[DeviceFacts, ...]:
+        if not hasattr(self, "simulation"):
+            return ()
+        found = []
+        for one in WORLD.devices:
+            motor = isinstance(one, Motor)
+            leader = self.simulation.leaders.get(id(one)) if motor else None
+            lost = motor and one._leader is not None and leader is None
+            turner = self.simulation.turned_by.get(id(one))
+            number = number_of(one)
+            found.append(
+                DeviceFacts(
+                    self.simulation.name(one),
+                    type(one).__name__,
+                    motor,
+                    " ".join(map(str, one._port)),
+                    None if number is None else float(number),
+                    int(one._line),
+                    "?" if lost else self.simulation.name(leader) if leader is not None else "",
+                    bool(getattr(one, "_inverted", False)),
+                    isinstance(one, Motor) and self.simulation.direction(one) < 0,
+                    motor and number in self.mounts,
+                    self.simulation.name(turner) if turner is not None else "",
+                    _find_gearing(one),
+                )
+            )
+        return tuple(found)
+
+    # -- the tests --------------------------------------------------------------------------
+
+    def _tests(self, facts: dict[str, Any]) -> Iterator[tuple[str, TestRun]]:
+        self._wrap_callbacks()
+        self.scheduler = find_scheduler()
+        for test in TESTS:
+            WORLD.mode, WORLD.battery, self.simulation.hiccup = "test", BATTERY, False
+            self._rest()
+            try:
+                yield test, self._hold(test)
+            except StoppedError as stopped:
+                facts["stop"] = stopped.stop
+                return
+
+    def _wrap_callbacks(self) -> None:
+        mechanism = self.routine._mechanism
+        drive, log = mechanism._drive, mechanism._log
+
+        def drive_callback(voltage: Any) -> None:
+            self._note_commands("periodic")
+            self.where = "drive"
+            if self.row is not None:
+                self.row.asked = _in_volts(voltage)
+            WORLD.battery = BATTERY  # it sags once the motors have their shares of it
+            drive(voltage)
+            self._note_commands("drive")
+            self._hiccup()
+            self.simulation.settle()
+            self._note_truth()  # where there is no log callback
+            self.where = "command"
+
+        def log_callback(record: Any) -> None:
+            WORLD.logged.clear()
+            self.where = "log"
+            self._note_truth()
+            if self.row is not None:
+                self.row.logged = True
+            log(record)
+            self._note_commands("log")
+            if self.row is not None:
+                self.row.entries = [e for e in WORLD.logged if e.signal != "state"]
+            self.where = "command"
+
+        if drive is not None:
+            mechanism._drive = drive_callback
+        if log is not None:
+            mechanism._log = log_callback
+
+    def _note_truth(self) -> None:
+        if self.row is not None:
+            self.row.truth = {
+                self.simulation.name(one): (one._applied, *one._rotor())
+                for one in self.simulation.motors
+            }
+
+    def _hiccup(self) -> None:
+        """Let less voltage through for a moment, so that what was asked and what came differ."""
+        row = self.row
+        now = (
+            row is not None and self.test.startswith("dynamic") and HICCUP[0] < row.time < HICCUP[1]
+        )
+        self.simulation.hiccup = now
+        WORLD.battery = SAGGED if now else BATTERY
+
+    def _note_commands(self, phase: str) -> None:
+        for one in self.simulation.motors:
+            sent = self.sent.setdefault(self.simulation.name(one), {})
+            for command in one._commands:
+                sent.setdefault(Sent(command.kind, command.method, int(command.line), phase))
+            one._commands.clear()
+
+    def _rest(self) -> None:
+        self.test, self.row, self.where = "", None, "periodic"
+        for _ in range(round(REST / PERIOD)):
+            self.guard(lambda: self.simulation.run_loop(self.scheduler.run))
+        for one in self.simulation.motors:  # carried back to where it began
+            one._shaft.position = one._shaft.velocity = 0.0
+
+    def _hold(self, test: str) -> TestRun:
+        """Hold down the button of a test, until it ends or has shown enough."""
+        self.test, self.sent = test, {}
+        kind, way = test.split("-")
+        direction = find_direction(self.routine, way)
+        self.where = "command"
+        command = self.guard(lambda: getattr(self.routine, kind)(direction))
+        self.guard(lambda: self.scheduler.schedule(command))
+        rows: list[Row] = []
+        blocked, began, lasted = WORLD.blocked, WORLD.time, math.inf
+        before = {id(one): one._inverted for one in self.simulation.motors}
+        for _ in range(round(LONGEST / PERIOD)):
+            self.row = Row(WORLD.time - began, math.nan)
+            self.where = "periodic"
+            self.guard(lambda: self.simulation.run_loop(self.scheduler.run))
+            self._note_commands("other")
+            row, self.row = self.row, None
+            if not self.scheduler.isScheduled(command):
+                lasted = row.time
+                break
+            if not math.isnan(row.asked):
+                row.battery = WORLD.battery
+                for one in self.simulation.motors:
+                    name = self.simulation.name(one)
+                    row.applied[name] = one._applied
+                    row.limits[name] = self.simulation.find_limit(one)
+                    if one._inverted != before[id(one)]:
+                        row.flipped.add(name)
+                rows.append(row)
+        else:
+            self.scheduler.cancel(command)
+        return self._sum_up(rows, lasted, WORLD.blocked - blocked)
+
+    def _sum_up(self, rows: list[Row], lasted: float, blocked: float) -> TestRun:
+        motors = {
+            self.simulation.name(one): compare_motor(
+                self.simulation.name(one), rows, tuple(self.sent.get(self.simulation.name(one), ()))
+            )
+            for one in self.simulation.motors
+        }
+        logged = [row for row in rows if row.logged]
+        pairs: dict[str, dict[str, None]] = {}
+        for row in logged:
+            for entry in row.entries:
+                pairs.setdefault(str(entry.motor), {})[entry.signal] = None
+        signals = {
+            name: {signal: compare_signal(name, signal, logged) for signal in listed}
+            for name, listed in pairs.items()
+        }
+        return TestRun(lasted, len(rows), len(logged), motors, signals, blocked)
+
+
+def find_scheduler() -> Any:
+    """The scheduler that runs the program's commands."""
+    from grader.robotcode.library.commands import CommandScheduler  # noqa: PLC0415 - not for WPILib's own
+
+    return WORLD.singletons.get("scheduler v3") or CommandScheduler()
+
+
+def find_direction(routine: Any, way: str) -> Any:
+    """The constant of a routine's Direction."""
+    ways = type(routine).Direction
+    name = f"k{way.capitalize()}"
+    return getattr(ways, name) if hasattr(ways, name) else getattr(ways, way.upper())
+
+
+def is_subsystem(thing: Any) -> bool:
+    """Whether an object is a subsystem, or a mechanism of Commands v3."""
+    return any(base.__name__ in {"Subsystem", "Mechanism"} for base in type(thing).__mro__)
+
+
+def _in_volts(voltage: Any) -> float:
+    value = getattr(voltage, "_base", voltage)
+    return float(value) if isinstance(value, int | float) else math.nan
+
+
+def _read_setting(config: Any, name: str) -> Setting:
+    if isinstance(config, Unknown):
+        return Setting(text=config.unknown_text)
+    given = config._given.get(name, "default")
+    value = getattr(config, f"_{name}")
+    known = isinstance(value, int | float) and not isinstance(value, bool)
+    default = isinstance(given, str) and given == "default"
+    text = given.unknown_text if isinstance(given, Unknown) else "" if default else str(given)
+    problem = config._problems.get(name, "")
+    return Setting(
+        float(value) if known and not problem else None,
+        default,
+        text,
+        int(config._line),
+        problem,
+        "M-UNITS" if problem else "",
+    )
+
+
+def _find_gearing(device: Any) -> float:
+    value = getattr(device, "_gearing", 1.0)
+    return float(value) if isinstance(value, int | float) and value else 1.0

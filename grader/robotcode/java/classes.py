@@ -1,0 +1,609 @@
+"""Java classes as Python classes: fields, methods with their overloads, constructors, their order.
+
+A Java class is compiled to a Python class, so that fakes see what a learner overrides. Instances
+keep their Java fields in ``__dict__`` under names that begin with a point.
+"""
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from tree_sitter import Node
+
+from grader.robotcode.java import runtime, streams, type_names, values
+from grader.robotcode.java.scope import (
+    MISSING,
+    RESULT,
+    THIS,
+    Env,
+    Frame,
+    child,
+    kind_of,
+    named,
+    text,
+)
+from grader.robotcode.java.syntax import At
+from grader.robotcode.java.values import NullPointerException, Throwable
+from grader.robotcode.library.base import Fake, NoSuchMember, Unknown, WrongArgument
+
+if TYPE_CHECKING:
+    from grader.robotcode.java.program import Unit
+    from grader.robotcode.java.scope import Field, Run
+
+NUMBERS = ("byte", "short", "int", "long", "float", "double")  # each widens to those after it
+BOXES = {
+    "Byte": "byte", "Short": "short", "Integer": "int", "Long": "long", "Float": "float",
+    "Double": "double", "Boolean": "boolean", "Character": "char",
+}  # fmt: skip
+PRIMITIVES = frozenset(BOXES.values())
+BOXING, ANYTHING = 50.0, 20.0  # what it costs an overload to box, or to take just any object
+DECLARATIONS = {
+    "class_declaration": "class",
+    "interface_declaration": "interface",
+    "enum_declaration": "enum",
+    "record_declaration": "record",
+    "annotation_type_declaration": "annotation",
+}
+
+
+class JavaObject:
+    """Base of the classes that a program declares and that extend nothing else."""
+
+    def __call__(self, *args: Any) -> Any:
+        """Call it as the functional interface that it implements."""
+        for name in streams.FUNCTIONAL:
+            if runtime.find_attribute(type(self), name) is not None:
+                return getattr(self, runtime.python_name(name))(*args)
+        raise WrongArgument(f"a {type(self).__name__} is no function")
+
+    def __eq__(self, other: object) -> bool:
+        return values.equals(self, other)
+
+    def __hash__(self) -> int:
+        return values.hash_code(self)
+
+
+@dataclass
+class Method:
+    """A method or constructor.
+
+    Args:
+        names, kinds: its parameters.
+        varargs: whether the last one takes any number of values.
+        run: takes ``this`` and the values, as many as there are parameters.
+    """
+
+    owner: "JavaClass"
+    name: str
+    names: list[str]
+    kinds: list[str]
+    varargs: bool
+    modifiers: frozenset[str]
+    returns: str
+    at: At
+    node: Node
+    run: Callable[..., Any] = field(default=lambda *_: None)
+    abstract: bool = False
+
+    @cached_property
+    def static(self) -> bool:
+        """Whether it has no ``this``."""
+        return "static" in self.modifiers
+
+    @cached_property
+    def exact(self) -> list[type | None]:
+        """The types whose values a parameter holds as they are; None where it has to be seen."""
+        return [values.TYPES.get(one) for one in self.kinds]
+
+    def cost(self, args: Sequence[Any], kinds: Sequence[str], *, spread: bool) -> float:
+        """How far the arguments have to be converted; infinite if they do not fit."""
+        wanted = list(self.kinds)
+        if spread:
+            if not self.varargs or len(args) < len(wanted) - 1:
+                return math.inf
+            last = wanted.pop().removesuffix("[]")
+            wanted += [last] * (len(args) - len(wanted))
+        if len(wanted) != len(args):
+            return math.inf
+        told = [*kinds, *[""] * len(args)]
+        return sum(self.owner.cost(k, a, t) for k, a, t in zip(wanted, args, told, strict=False))
+
+    def bind(self, args: Sequence[Any], *, spread: bool) -> list[Any]:
+        """The arguments as the parameters hold them."""
+        given = list(args)
+        if spread:
+            fixed = len(self.kinds) - 1
+            kind = self.kinds[-1].removesuffix("[]")
+            rest = [self.owner.convert(kind, one) for one in given[fixed:]]
+            given = [*given[:fixed], values.Array(rest, kind)]
+        convert = self.owner.convert
+        return [
+            one if type(one) is exact else convert(kind, one)
+            for kind, exact, one in zip(self.kinds, self.exact, given, strict=True)
+        ]
+
+
+class Overloads:
+    """All methods of one name in a class and above it.
+
+    Args:
+        name: the name.
+        methods: those of Java, the nearest class first.
+        inherited: a library's method of this name, or None.
+    """
+
+    def __init__(self, name: str, methods: list[Method], inherited: Any) -> None:
+        self.name, self.methods, self.inherited = name, methods, inherited
+        alone = len(methods) == 1 and inherited is None and not methods[0].varargs
+        self.only = methods[0] if alone else None
+
+    @property
+    def abstract(self) -> bool:
+        """Whether none of them has a body."""
+        return all(one.abstract for one in self.methods)
+
+    def choose(self, args: Sequence[Any], kinds: Sequence[str]) -> tuple[Method | None, bool]:
+        """The overload that takes some arguments, and whether its last parameter collects them."""
+        if self.only is not None and len(args) == len(self.only.kinds):
+            return self.only, False
+        for spread in (False, True):
+            costs = [one.cost(args, kinds, spread=spread) for one in self.methods]
+            best = min(costs)
+            if best < math.inf:
+                return self.methods[costs.index(best)], spread
+        return None, False
+
+    def call(self, this: Any, args: Sequence[Any], kinds: Sequence[str]) -> Any:
+        """Call the one that fits.
+
+        Raises:
+            WrongArgument: none does.
+        """
+        if not args and self.only is not None and not self.only.kinds:
+            return self.only.run(this)
+        method, spread = self.choose(args, kinds)
+        if method is None:
+            if self.inherited is not None:
+                return self.inherited(this, *args)
+            wanted = " or ".join(f"({', '.join(one.kinds)})" for one in self.methods)
+            raise WrongArgument(f"{self.name}{wanted} does not take what it is called with")
+        return method.run(this, *method.bind(args, spread=spread))
+
+
+class JavaClass:
+    """A class, interface, enum or record of the program.
+
+    Args:
+        name: its own name; empty of an anonymous class.
+        node: its declaration, or the expression that makes an anonymous one.
+        unit: the file.
+        outer: the class around it.
+        frame: the variables around a local or anonymous class.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        node: Node,
+        unit: "Unit",
+        *,
+        outer: "JavaClass | None" = None,
+        frame: Frame | None = None,
+    ) -> None:
+        self.name, self.node, self.unit, self.outer, self.frame = name, node, unit, outer, frame
+        self.form = DECLARATIONS.get(node.type, "class")
+        self.at = unit.source.at(node)
+        self.modifiers = modifiers_of(node)
+        nested = outer is not None and frame is None
+        self.static = (
+            outer is None
+            or self.form != "class"
+            or "static" in self.modifiers
+            or (nested and outer.form in {"interface", "annotation"})
+        ) and frame is None
+        self.env_key = f"${name}{id(self)}"
+        self.statics: dict[str, Any] = {}
+        self.nested: dict[str, JavaClass] = {}
+        self.fields: dict[str, Field] = {}
+        self.methods: list[Method] = []
+        self.constructors: list[Method] = []
+        self.overrides: list[Method] = []
+        self.on_class: list[Run] = []  # static initializers, in order
+        self.on_instance: list[Run] = []
+        self.constants: list[tuple[str, Node]] = []  # of an enum
+        self.components: list[tuple[str, str]] = []  # of a record: name and kind
+        self.variables = self._type_parameters(node)
+        self.state = "new"
+        self.parent: Any = None  # a JavaClass, a library's class, or None
+        self.interfaces: list[Any] = []
+        self.members = self._find_body()
+        for member in self.members:
+            if member.type in DECLARATIONS:
+                inner = text(member.child_by_field_name("name"))
+                self.nested[inner] = JavaClass(inner, member, unit, outer=self)
+
+    def _find_body(self) -> list[Node]:
+        body = self.node.child_by_field_name("body") or child(self.node, "class_body")
+        if body is None:
+            return []
+        found = list(named(body))
+        for part in [one for one in found if one.type == "enum_body_declarations"]:
+            found.remove(part)
+            found += list(named(part))
+        return found
+
+    @staticmethod
+    def _type_parameters(node: Node) -> set[str]:
+        found = child(node, "type_parameters")
+        return {text(next(named(one))) for one in named(found)} if found is not None else set()
+
+    @property
+    def full_name(self) -> str:
+        """As Java's getName has it."""
+        if self.outer is not None:
+            return f"{self.outer.full_name}${self.name}"
+        return f"{self.unit.package}.{self.name}".lstrip(".")
+
+    @cached_property
+    def cls(self) -> type:
+        """The Python class; making it compiles what is in the Java class."""
+        from grader.robotcode.java.members import (  # noqa: PLC0415 - they need each other
+            compile_members,
+            declare_members,
+        )
+
+        self.state = "making"
+        self._find_parents()
+        bases = [python_class(one) for one in (self.parent, *self.interfaces) if one is not None]
+        bases = [one for one in bases if isinstance(one, type)]
+        if self.form == "enum":
+            bases.insert(0, values.JavaEnum)
+        if (
+            all(issubclass(one, Throwable) is False and one.__module__ == __name__ for one in bases)
+            or not bases
+        ):
+            bases.append(JavaObject)
+        bases = [
+            one for i, one in enumerate(bases)
+            if not any(other is not one and issubclass(other, one) for other in bases)
+            and one not in bases[:i]
+        ]  # fmt: skip
+        content = {"java": self, "fake_complete": False} if self.lombok else {"java": self}
+        made = _make_type(self.name or "Anonymous", tuple(bases), content)
+        self.__dict__["cls"] = made
+        self.state = "new"
+        declare_members(self)
+        self._install()
+        self._check_overrides()
+        compile_members(self)
+        return made
+
+    @property
+    def lombok(self) -> bool:
+        """Whether Lombok may write methods of it that stand nowhere."""
+        return any(one.full.startswith("lombok.") for one in self.unit.imports)
+
+    def _check_overrides(self) -> None:
+        """Write down each ``@Override`` of a method that nothing above has."""
+        for one in self.overrides:
+            attribute = runtime.python_name(one.name)
+            above = [base for base in self.cls.__mro__[1:] if base.__module__ != "builtins"]
+            known = any(
+                attribute in base.__dict__ or one.name in getattr(base, "fake_others", ())
+                for base in above
+            )
+            library = [base for base in above if issubclass(base, Fake) and base is not Fake]
+            sure = all(
+                getattr(base, "fake_complete", False)
+                for base in library
+                if base.__module__ != __name__ and "java" not in base.__dict__
+            )
+            if any(isinstance(p, Unknown) for p in self._all_parents()):
+                sure = False
+            if (
+                not known
+                and sure
+                and one.name not in runtime.OBJECT_METHODS
+                and self.form != "record"
+            ):
+                names = [n for base in above for n in dir(base) if not n.startswith("_")]
+                near = type_names.did_you_mean(one.name, names)
+                self.unit.program.error(
+                    f"@Override: nothing above {self.name} has a method {one.name}(){near}", one.at
+                )
+
+    def _all_parents(self) -> Iterator[Any]:
+        for one in self.ancestors():
+            yield from (one.parent, *one.interfaces)
+
+    def _find_parents(self) -> None:
+        node = self.node
+        if node.type == "object_creation_expression":
+            base = self.resolve_node(node.child_by_field_name("type"))
+            if isinstance(base, JavaClass) and base.form == "interface":
+                self.interfaces = [base]
+            else:
+                self.parent = base
+            return
+        above = node.child_by_field_name("superclass")
+        if above is not None:
+            self.parent = self.resolve_node(next(named(above)))
+        if self.form == "enum_constant":
+            self.parent = self.outer
+        for part in (child(node, "super_interfaces"), child(node, "extends_interfaces")):
+            for one in named(next(named(part))) if part is not None else ():
+                self.interfaces.append(self.resolve_node(one))
+        for one in (self.parent, *self.interfaces):
+            if isinstance(one, JavaClass) and one.state == "making" and "cls" not in vars(one):
+                self.unit.program.error(f"cyclic inheritance: {one.name} is above itself", self.at)
+                self.parent, self.interfaces = None, []
+
+    def resolve_node(self, node: Node | None) -> Any:
+        """The class that a type names, or None; what cannot be found has been written down."""
+        return self.unit.program.resolve_or_report(kind_of(node), self, self.unit.source.at(node))
+
+    def _install(self) -> None:
+        """Hang the methods into the Python class, with those of the same name above."""
+        by_name: dict[str, list[Method]] = {}
+        for one in self.methods:
+            by_name.setdefault(one.name, []).append(one)
+        for name, mine in by_name.items():
+            attribute = runtime.python_name(name)
+            above, inherited = list(mine), None
+            for base in self.cls.__mro__[1:]:
+                found = base.__dict__.get(attribute) if base.__module__ != "builtins" else None
+                if hasattr(found, "overloads"):
+                    mine_kinds = [one.kinds for one in above]
+                    above += [o for o in found.overloads.methods if o.kinds not in mine_kinds]
+                    inherited = inherited or found.overloads.inherited
+                elif found is not None and inherited is None:
+                    inherited = found.__func__ if hasattr(found, "__func__") else found
+            concrete = [one for one in above if not one.abstract]
+            counts = {len(one.kinds) for one in concrete}
+            abstract = [one for one in above if one.abstract and len(one.kinds) not in counts]
+            overloads = Overloads(name, concrete + abstract, inherited)
+            setattr(
+                self.cls, attribute, _make_function(overloads, static=all(m.static for m in mine))
+            )
+
+    def list_constants(self) -> list[Any]:
+        """All constants of an enum, in their order."""
+        if self.form == "enum_constant":
+            return self.parent.list_constants()
+        self.initialize()
+        return [self.statics[f".{name}"] for name, _ in self.constants]
+
+    def ancestors(self) -> Iterator["JavaClass"]:
+        """This class and the Java classes and interfaces above it, the nearest first."""
+        _ = self.cls
+        yield self
+        for one in (self.parent, *self.interfaces):
+            if isinstance(one, JavaClass):
+                yield from one.ancestors()
+
+    def find_field(self, name: str) -> "tuple[JavaClass, Field] | None":
+        """A field of this class or of one above it."""
+        for one in self.ancestors():
+            if name in one.fields:
+                return one, one.fields[name]
+        return None
+
+    def find_nested(self, name: str) -> Any:
+        """A class declared in this one or in one above it; None if there is none."""
+        if "cls" not in self.__dict__:
+            return self.nested.get(name)
+        for one in self.ancestors():
+            if name in one.nested:
+                return one.nested[name]
+        base = self.library_base
+        found = runtime.find_attribute(base, name) if base is not None else None
+        return found if isinstance(found, type) else None
+
+    @property
+    def library_base(self) -> Any:
+        """The nearest class above that is a library's; None if there is none."""
+        one: Any = self
+        while isinstance(one, JavaClass):
+            _ = one.cls
+            one = one.parent
+        return one
+
+    def cost(self, kind: str, value: Any, static: str) -> float:
+        """How far a value has to be converted for a parameter; infinite if it cannot be."""
+        given = static or type_names.kind_of(value)
+        if isinstance(value, Unknown):
+            return 1.0
+        if kind in PRIMITIVES:
+            boxed = BOXING if given in BOXES else 0.0
+            given = BOXES.get(given, given)
+            if given == kind:
+                return boxed
+            if given == "char" and kind in NUMBERS[2:]:
+                return boxed + NUMBERS.index(kind)
+            if given not in NUMBERS or kind not in NUMBERS:
+                return math.inf
+            steps = NUMBERS.index(kind) - NUMBERS.index(given)
+            return boxed + steps if steps > 0 else math.inf
+        if kind.endswith("[]"):
+            if static in {"", "null"} or static.endswith("[]"):
+                return _array_cost(kind, value)
+            return math.inf
+        if given == kind:
+            return 0.0
+        if kind in BOXES:
+            fits = value is None or BOXES[kind] == BOXES.get(given, given)
+            return BOXING if fits else math.inf
+        if kind in self.variables or kind == "Object":
+            return ANYTHING + (BOXING if given in PRIMITIVES else 0.0)
+        if static and static not in PRIMITIVES and kind == "String":
+            return math.inf if static != "null" and value is not None else 1.0
+        found = self.unit.program.resolve(kind, self)
+        if found is None or isinstance(found, Unknown):
+            return ANYTHING
+        cls = python_class(found)
+        depth = len(cls.__mro__) if isinstance(cls, type) else 0
+        if value is None:
+            return 1.0 / (1 + depth)
+        if isinstance(value, runtime.Function):
+            return 2.0 if _takes_function(found) and _fits_shape(found, value) else math.inf
+        if isinstance(value, cls):
+            return 1.0 + len(type(value).__mro__) - depth
+        if type_names.is_instance(value, kind):
+            return BOXING + 1.0
+        return 3.0 if callable(value) and _takes_function(found) else math.inf
+
+    def convert(self, kind: str, value: Any) -> Any:
+        """A value as a variable of a type holds it."""
+        if kind in PRIMITIVES:
+            if value is None:
+                raise NullPointerException(f"null cannot become a {kind}")
+            return values.convert(kind, value)
+        if isinstance(value, runtime.Function) and value.interface is None and kind:
+            found = self.unit.program.resolve(kind, self)
+            if isinstance(found, JavaClass | type):
+                value.interface = python_class(found)
+        return value
+
+    # -- running ----------------------------------------------------------------------------
+
+    def initialize(self) -> None:
+        """Run the static initializers, once, as Java does at the first use."""
+        if self.state == "failed":
+            raise values.NoClassDefFoundError(f"Could not initialize class {self.full_name}")
+        if self.state != "new":
+            return
+        _ = self.cls
+        self.state = "ready"
+        if isinstance(self.parent, JavaClass):
+            self.parent.initialize()
+        env: Env = [None] * 2
+        try:
+            for run in self.on_class:
+                run(env)
+        except values.JavaException as problem:
+            self.state = "failed"
+            raise values.ExceptionInInitializerError(None, problem) from problem
+
+    def make(self, args: Sequence[Any], kinds: Sequence[str] = (), env: Env | None = None) -> Any:
+        """Make an instance.
+
+        Args:
+            args: of the constructor.
+            kinds: their static types.
+            env: the variables around the class, where it needs them.
+        """
+        self.initialize()
+        if "abstract" in self.modifiers or self.form in {"interface", "annotation"}:
+            raise WrongArgument(f"{self.name} is abstract; no object can be made of it")
+        made = self.cls.__new__(self.cls)
+        self.prepare(made, env)
+        self.construct(made, args, kinds)
+        return made
+
+    def prepare(self, made: Any, env: Env | None) -> None:
+        """Give a new instance its fields, all with the values that Java begins with."""
+        for one in reversed([a for a in self.ancestors() if a.form != "interface"]):
+            for declared in one.fields.values():
+                if not declared.static:
+                    made.__dict__[declared.key] = values.default_value(declared.kind)
+            if env is not None:
+                made.__dict__[one.env_key] = env
+
+    def construct(self, made: Any, args: Sequence[Any], kinds: Sequence[str] = ()) -> None:
+        """Run the constructor that fits, on an instance."""
+        if not self.constructors:
+            self.construct_parent(made, args if not self.name else (), kinds)
+            self.run_initializers(made)
+            return
+        Overloads(f"new {self.name}", self.constructors, None).call(made, args, kinds)
+
+    def construct_parent(self, made: Any, args: Sequence[Any], kinds: Sequence[str] = ()) -> None:
+        """Run the constructor of the class above."""
+        base = self.parent
+        if isinstance(base, JavaClass):
+            base.construct(made, args, kinds)
+        elif (isinstance(base, type) and issubclass(base, Fake | Throwable | list | dict)) or (
+            isinstance(base, type) and base is not object
+        ):
+            base.__init__(made, *args)
+
+    def run_initializers(self, made: Any) -> None:
+        """Run the initializers of fields, and the blocks among them, in the text's order."""
+        env: Env = [made, None]
+        for run in self.on_instance:
+            run(env)
+
+
+def _array_cost(kind: str, value: Any) -> float:
+    if not isinstance(value, values.Array):
+        return 1.0 if value is None else math.inf
+    inner = kind[:-2]
+    same = inner == value.kind or {inner, value.kind}.isdisjoint(PRIMITIVES)
+    return (0.0 if inner == value.kind else 1.0) if same else math.inf
+
+
+def modifiers_of(node: Node) -> frozenset[str]:
+    """The modifiers of a declaration: ``private``, ``static``, ``@Override``."""
+    found = child(node, "modifiers")
+    return frozenset(text(one) for one in found.children) if found is not None else frozenset()
+
+
+def python_class(one: Any) -> Any:
+    """The Python class of a class, be it the program's or a library's."""
+    return one.cls if isinstance(one, JavaClass) else one
+
+
+def _takes_function(found: Any) -> bool:
+    """Whether a lambda may stand for a value of this type."""
+    if isinstance(found, JavaClass):
+        return found.form == "interface"
+    if found.__name__ in streams.FUNCTIONAL_INTERFACES:
+        return True
+    return any("__call__" in vars(base) for base in found.__mro__)
+
+
+def _fits_shape(found: Any, function: runtime.Function) -> bool:
+    """Whether a lambda takes, and gives, as many values as an interface says."""
+    if isinstance(found, JavaClass):
+        methods = [one for up in found.ancestors() for one in up.methods if one.abstract]
+        if len(methods) != 1:
+            return True
+        arity, gives = len(methods[0].kinds), methods[0].returns != "void"
+    elif found.__name__ in streams.FUNCTIONAL_INTERFACES:
+        arity, gives = streams.shape_of(found.__name__)
+    else:
+        return True
+    return function.arity in {-1, arity} and function.gives in {None, gives}
+
+
+def _make_type(name: str, bases: tuple[type, ...], content: dict[str, Any]) -> type:
+    """A Python class; where the bases contradict each other, without the later ones."""
+    while True:
+        try:
+            kind = type(bases[0]) if bases else type
+            for one in bases:
+                kind = type(one) if issubclass(type(one), kind) else kind
+            return kind(name, bases, dict(content))
+        except TypeError:
+            if len(bases) <= 1:
+                raise
+            bases = bases[:-1]
+
+
+def _make_function(overloads: Overloads, *, static: bool) -> Any:
+    """What a fake, or Java, finds under the method's name."""
+
+    def call(this: Any, *args: Any) -> Any:
+        return overloads.call(this, args, ())
+
+    def call_static(*args: Any) -> Any:
+        return overloads.call(None, args, ())
+
+    made: Any = staticmethod(call_static) if static else call
+    made.overloads = overloads
+    return made
+
+
+__all__ = ["MISSING", "RESULT", "THIS", "JavaClass", "Method", "NoSuchMember", "Overloads"]

@@ -1,0 +1,1213 @@
+"""Java expressions, compiled to Python functions of the local variables."""
+
+import difflib
+import functools
+import inspect
+import operator
+import types
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from tree_sitter import Node
+
+from grader.robotcode.java import lang, runtime, type_names, values
+from grader.robotcode.java.checks import (
+    ANNOTATED,
+    TypeChecker,
+    is_sure,
+    join_codes,
+    member_names,
+    promoted,
+    unknown_name,
+)
+from grader.robotcode.java.classes import BOXES, PRIMITIVES, JavaClass, python_class
+from grader.robotcode.java.literals import read_character, read_number, read_string
+from grader.robotcode.java.program import packages_of
+from grader.robotcode.java.runtime import STATE, Function
+from grader.robotcode.java.scope import (
+    MISSING,
+    RESULT,
+    THIS,
+    Arguments,
+    Code,
+    Env,
+    Field,
+    Frame,
+    Local,
+    Run,
+    child,
+    kind_of,
+    named,
+    text,
+)
+from grader.robotcode.java.syntax import At
+from grader.robotcode.java.values import Array, ClassCastException
+from grader.robotcode.library.base import Fake, NoSuchMember, Unknown, WrongArgument
+
+NEARLY = 0.84  # how much of two names has to agree, from 0 to 1
+UNITS, UNITS_2027 = "edu.wpi.first.units.Units", "org.wpilib.units.Units"
+ENUM_STATICS = frozenset({"values", "valueOf"})
+LONGEST_TEXT = 60  # [characters] of code that is cited
+ARITHMETIC: dict[str, tuple[Callable[..., Any], Callable[..., Any] | None]] = {
+    # sign -> in Java's arithmetic, and the same for two doubles
+    "+": (values.add, operator.add),
+    "-": (values.subtract, operator.sub),
+    "*": (values.multiply, operator.mul),
+    "/": (values.divide, None),
+    "%": (values.remainder, None),
+    "<<": (values.shift_left, None),
+    ">>": (values.shift_right, None),
+    ">>>": (values.shift_unsigned, None),
+    "&": (values.bit_and, None),
+    "|": (values.bit_or, None),
+    "^": (values.bit_xor, None),
+}
+COMPARISONS = {
+    "<": (values.less, operator.lt),
+    "<=": (values.less_equal, operator.le),
+    ">": (values.greater, operator.gt),
+    ">=": (values.greater_equal, operator.ge),
+}
+
+
+class ExpressionCompiler(TypeChecker):
+    """Compiles the expressions of one method, lambda or initializer.
+
+    Args:
+        owner: the class that it belongs to.
+        frame: its local variables.
+    """
+
+    def __init__(self, owner: JavaClass, frame: Frame) -> None:
+        super().__init__(owner, frame)
+        # Of the switch expressions around: the slot for the value, and what may be put into it.
+        self.yields: list[tuple[int, list[Code]]] = []
+        self.in_constructor = False
+
+    # -- help -------------------------------------------------------------------------------
+
+    def refuse(self, message: str, node: Node) -> Code:
+        """Write an error down; the value is unknown, so that the rest can be looked at, too."""
+        self.program.error(message, self.at(node))
+        unknown = Unknown(text(node)[:LONGEST_TEXT])
+        return Code(lambda _env: unknown)
+
+    def compile(self, node: Node) -> Code:
+        """Compile an expression."""
+        method = getattr(self, f"_{node.type}", None)
+        if method is None or node.is_missing:
+            return self.refuse("this cannot stand here", node)
+        return method(node)
+
+    def coerce(self, code: Code, kind: str, node: Node) -> Run:
+        """Compile the conversion of an assignment, or write down that Java refuses it."""
+        refusal = self.why_not(kind, code)
+        if refusal:
+            return self.refuse(refusal, node).run
+        run, owner = code.run, self.owner
+        if kind in PRIMITIVES:
+            if code.constant is not MISSING:
+                value = values.cast(kind, code.constant)
+                return lambda _env: value
+            if kind == code.kind:
+                return run
+        elif kind in {"", "String", code.kind}:
+            return run
+        return lambda env: owner.convert(kind, run(env))
+
+    # -- literals ---------------------------------------------------------------------------
+
+    def _number(self, node: Node) -> Code:
+        found = read_number(text(node))
+        if found is None:
+            return self.refuse(f"{text(node)[:LONGEST_TEXT]} is too large a number", node)
+        return _constant(*found)
+
+    _decimal_integer_literal = _hex_integer_literal = _octal_integer_literal = _number
+    _binary_integer_literal = _decimal_floating_point_literal = _number
+    _hex_floating_point_literal = _number
+
+    def _character_literal(self, node: Node) -> Code:
+        return _constant(read_character(text(node)), "char")
+
+    def _string_literal(self, node: Node) -> Code:
+        return _constant(read_string(text(node)), "String")
+
+    def _true(self, _node: Node) -> Code:
+        return _constant(True, "boolean")
+
+    def _false(self, _node: Node) -> Code:
+        return _constant(False, "boolean")
+
+    def _null_literal(self, _node: Node) -> Code:
+        return Code(lambda _env: None, "null")
+
+    def _class_literal(self, node: Node) -> Code:
+        kind = kind_of(next(named(node)))
+        found = self.find_type(next(named(node)))
+        value = lang.class_named(kind, found.cls if isinstance(found, JavaClass) else found)
+        return Code(lambda _env: value, "Class")
+
+    def _parenthesized_expression(self, node: Node) -> Code:
+        return self.compile(next(named(node)))
+
+    # -- names ------------------------------------------------------------------------------
+
+    def _this(self, node: Node) -> Code:
+        if self.frame.static:
+            return self.refuse("there is no this in a static method", node)
+        return Code(lambda env: env[THIS], self.owner.name)
+
+    def _reach(self, keys: Sequence[str]) -> Callable[[Env], Env]:
+        """What leads from the variables of a method to those around its class."""
+        if not keys:
+            return lambda env: env
+        if len(keys) == 1:
+            key = keys[0]
+            return lambda env: env[THIS].__dict__[key]
+
+        def run(env: Env) -> Env:
+            for key in keys:
+                env = env[THIS].__dict__[key]
+            return env
+
+        return run
+
+    def _levels(self) -> Any:
+        """The frames from here outward, each with the keys that lead there."""
+        frame: Frame | None = self.frame
+        keys: list[str] = []
+        while frame is not None:
+            yield frame, tuple(keys)
+            keys.append(frame.owner.env_key)
+            frame = frame.outer
+
+    def find_variable(self, name: str) -> tuple[Any, ...] | None:
+        """What a simple name stands for, or None.
+
+        Returns:
+            ``("local", keys, Local)``, ``("field", keys, owner, Field)``, or ``("library", keys)``
+            for a field of a library's class.
+        """
+        for frame, keys in self._levels():
+            local = frame.find(name)
+            if local is not None:
+                return "local", keys, local
+            found = frame.owner.find_field(name)
+            if found is not None:
+                return "field", keys, *found
+            base = frame.owner.library_base
+            if (
+                isinstance(base, type)
+                and not name.startswith("_")
+                and (
+                    runtime.find_attribute(base, name) is not None
+                    or name in getattr(base, "__annotations__", ())
+                )
+            ):
+                return "library", keys
+        one = self.owner.outer
+        while one is not None:
+            found = one.find_field(name)
+            if found is not None and found[1].static:
+                return "field", (), *found
+            one = one.outer
+        return None
+
+    def _identifier(self, node: Node) -> Code:
+        name = text(node)
+        found = self.find_variable(name)
+        if found is None:
+            return self._imported(name) or self._unknown_name(name, node)
+        if found[0] == "local":
+            return self._local(found[1], found[2], node)
+        if found[0] == "library":
+            reach = self._reach(found[1])
+            return Code(lambda env: runtime.get_field(reach(env)[THIS], name))
+        _, keys, owner, one = found
+        below = owner is self.owner and not keys and 0 <= self.frame.field_rank <= one.rank
+        if below and one.static == self.frame.static:
+            return self.refuse(f"illegal forward reference: {name} is declared below", node)
+        return self._field_code(keys, owner, one, node)
+
+    def _local(self, keys: Sequence[str], local: Local, node: Node) -> Code:
+        slot = local.slot
+        if keys or local.depth < self.frame.depth:
+            local.captured = local.captured or self.at(node)
+        if local.constant is not MISSING:
+            return _constant(local.constant, local.kind)
+        if not keys:
+            return Code(lambda env: env[slot], local.kind)
+        reach = self._reach(keys)
+        return Code(lambda env: reach(env)[slot], local.kind)
+
+    def _field_code(self, keys: Sequence[str], owner: JavaClass, one: Field, node: Node) -> Code:
+        key, kind = one.key, self.seen_from_here(owner, one.kind)
+        if one.constant is not MISSING:
+            return Code(lambda _env, value=one.constant: value, kind, one.constant)
+        if one.static:
+
+            def run_static(_env: Env) -> Any:
+                if owner.state != "ready":
+                    owner.initialize()
+                return owner.statics[key]
+
+            return Code(run_static, kind)
+        level = next((f for f, k in self._levels() if tuple(k) == tuple(keys)), self.frame)
+        if level.static:
+            return self.refuse(
+                f"{one.name} belongs to an object, and this is a static method", node
+            )
+        if not keys:
+            return Code(lambda env: env[THIS].__dict__[key], kind)
+        reach = self._reach(keys)
+        return Code(lambda env: reach(env)[THIS].__dict__[key], kind)
+
+    def _imported(self, name: str) -> Code | None:
+        """A field that a static import brings."""
+        for one in self.owner.unit.imports:
+            if not one.static or not (one.star or one.name == name):
+                continue
+            full = one.full if one.star else one.full.rpartition(".")[0]
+            cls = self.program.load(full)
+            if cls is None:
+                self.program.unknown.setdefault(full, one.at)
+                return _constant_of(Unknown(name))
+            code = self._static_member(cls, name)
+            if code is not None:
+                return code
+        return None
+
+    def _static_member(self, cls: Any, name: str) -> Code | None:
+        """A static field of a class; None if it has none of this name."""
+        if isinstance(cls, JavaClass):
+            found = cls.find_field(name)
+            if found is not None:
+                return self._field_code((), *found, cls.node) if found[1].static else None
+            cls = cls.library_base
+        if isinstance(cls, type) and runtime.find_attribute(cls, name) is None:
+            return (
+                None
+                if not isinstance(cls, type(Fake)) or cls.fake_complete
+                else Code(lambda _e: runtime.get_static(cls, name))
+            )
+        if cls is None:
+            return None
+        found = None if isinstance(cls, Unknown) else runtime.find_attribute(cls, name)
+        if isinstance(found, types.FunctionType | staticmethod | classmethod):
+            return None
+        kind = ANNOTATED.get(type(found), type(found).__name__ if found is not None else "")
+        kind = cls.__name__ if name in {"TRUE", "FALSE"} else kind
+        if found is None or isinstance(found, property | Unknown):
+            return Code(lambda _env: runtime.get_static(cls, name), kind)
+        value = runtime.get_static(cls, name)  # the fakes' static fields are constants
+        return Code(lambda _env: value, kind)
+
+    def _unknown_name(self, name: str, node: Node) -> Code:
+        unit = self._find_unit(name)
+        if unit:
+            return self.refuse(unit, node)
+        if packages_of(name):
+            self.program.resolve_or_report(name, self.owner, self.at(node), self.frame)
+            return self.refuse(f"{name} is a class and no value", node)
+        if name[:1].isupper() and self.resolve(name) is None and not name.isupper():
+            found = self.program.resolve_or_report(name, self.owner, self.at(node), self.frame)
+            return Code(lambda _env: found)
+        seen = [one.name for frame, _ in self._levels() for one in frame.every]
+        for frame, _ in self._levels():
+            seen += [one for owner in frame.owner.ancestors() for one in owner.fields]
+        return self.refuse(unknown_name("name", name, seen, ""), node)
+
+    def _find_unit(self, name: str) -> str:
+        """What to say of a unit that is not imported, or not quite a unit's name."""
+        units = self.program.load(UNITS)
+        season = any(one.full.startswith("org.wpilib.") for one in self.owner.unit.imports)
+        home = UNITS_2027 if season else UNITS
+        if self._static_member(units, name):
+            return f"{name} is not imported. Write at the top: import static {home}.{name};"
+        near = difflib.get_close_matches(name, [*vars(units)], 1, NEARLY)
+        return f"unknown name {name}. Did you mean {near[0]}?" if near else ""
+
+    def class_of(self, node: Node) -> Any:
+        """The class that an expression names, where it names one; else None."""
+        if node.type not in {
+            "identifier",
+            "field_access",
+            "scoped_identifier",
+            "type_identifier",
+            "generic_type",
+            "array_type",
+            "scoped_type_identifier",
+        }:
+            return None
+        name = kind_of(node)
+        first = name.partition(".")[0]
+        if node.type in {"identifier", "field_access"}:
+            if any(
+                one.type not in {"identifier", "."} and one.type != "field_access"
+                for one in node.children
+            ):
+                return None
+            if self.find_variable(first) is not None:
+                return None
+        found = self.resolve(name)
+        unsaid = found is None and name[:1].isupper() and "." not in name
+        if unsaid and self._imported(name) is None and not self._find_unit(name):
+            found = self.program.resolve_or_report(name, self.owner, self.at(node), self.frame)
+        return found
+
+    def _field_access(self, node: Node) -> Code:
+        object_, name = node.child_by_field_name("object"), text(node.child_by_field_name("field"))
+        if name == "this":
+            return self._outer_this(object_)
+        if object_.type == "super":
+            return Code(lambda env: runtime.get_field(env[THIS], name))
+        cls = self.class_of(object_)
+        if cls is not None:
+            if isinstance(cls, Unknown):
+                return Code(lambda _env: runtime.get_static(cls, name))
+            code = self._static_member(cls, name)
+            if code is not None:
+                return code
+            return self.refuse(self.unknown_field(cls, name), node)
+        whole = self.class_of(node)
+        if whole is not None:
+            return Code(lambda _env: whole)
+        return self._field_of(self.compile(object_), name, node)
+
+    def _field_of(self, value: Code, name: str, node: Node) -> Code:
+        run, at = value.run, self.at(node)
+        found = self.resolve(value.kind) if value.kind and not value.kind.endswith("[]") else None
+        if name == "length" and value.kind.endswith("[]"):
+            return Code(lambda env: runtime.get_field(run(env), "length"), "int")
+        if isinstance(found, JavaClass):
+            there = found.find_field(name)
+            if there is None and found.library_base is None:
+                return self.refuse(self.unknown_field(found, name), node)
+            if there is not None and there[1].static:
+                return self._field_code((), *there, node)
+            if there is not None:
+                key, kind = there[1].key, self.seen_from_here(there[0], there[1].kind)
+
+                def run_field(env: Env) -> Any:
+                    one = run(env)
+                    try:
+                        return one.__dict__[key]
+                    except (AttributeError, KeyError):
+                        STATE.at = at
+                        return runtime.get_field(one, name)
+
+                return Code(run_field, kind)
+
+        def run_any(env: Env) -> Any:
+            one = run(env)
+            STATE.at = at
+            return runtime.get_field(one, name)
+
+        return Code(run_any)
+
+    def _outer_this(self, node: Node) -> Code:
+        wanted = self.class_of(node)
+        for frame, keys in self._levels():
+            if frame.owner is wanted:
+                return Code(_this_of(self._reach(keys)), frame.owner.name)
+        return self.refuse(f"there is no {text(node)}.this here", node)
+
+    # -- arithmetic -------------------------------------------------------------------------
+
+    def _binary_expression(self, node: Node) -> Code:
+        sign = text(node.child_by_field_name("operator"))
+        left = self.compile(node.child_by_field_name("left"))
+        right = self.compile(node.child_by_field_name("right"))
+        return self.operate(sign, left, right, node)
+
+    def operate(self, sign: str, left: Code, right: Code, node: Node) -> Code:
+        """Compile an operator of two values."""
+        a, b = left.run, right.run
+        kinds = BOXES.get(left.kind, left.kind), BOXES.get(right.kind, right.kind)
+        if sign in {"&&", "||"}:
+            for one in kinds:
+                if one and one != "boolean" and (one in PRIMITIVES or one == "String"):
+                    return self.refuse(
+                        f"{sign} joins conditions, and here stands a value of type {one}", node
+                    )
+            run = (
+                (lambda env: a(env) and b(env)) if sign == "&&" else (lambda env: a(env) or b(env))
+            )
+            return Code(run, "boolean")
+        if sign in {"==", "!="}:
+            same = values.same
+            if sign == "==":
+                return Code(lambda env: same(a(env), b(env)), "boolean")
+
+            def differ(env: Env) -> Any:
+                equal = same(a(env), b(env))
+                return equal if isinstance(equal, Unknown) else not equal
+
+            return Code(differ, "boolean")
+        text_sum = sign == "+" and "String" in kinds
+        if not text_sum and any(
+            one in {"String", "null", "void"} or (one == "boolean" and sign not in "&|^")
+            for one in kinds
+        ):
+            return self.refuse(f"bad operand types for {sign}: {' and '.join(kinds)}", node)
+        exact, fast = ((*ARITHMETIC, *()) and ARITHMETIC.get(sign)) or COMPARISONS[sign]
+        doubles = "double" in kinds and all(
+            one in {"double", "int", "short", "byte"} for one in kinds
+        )
+        at = self.at(node)
+        if doubles and fast is not None:
+            run = lambda env: fast(a(env), b(env))
+        elif sign in "/%":
+
+            def run(env: Env) -> Any:
+                one, other = a(env), b(env)
+                STATE.at = at
+                return exact(one, other)
+        else:
+            run = lambda env: exact(a(env), b(env))
+        kind = "boolean" if sign in COMPARISONS else promoted(sign, *kinds)
+        if (
+            left.constant is not MISSING
+            and right.constant is not MISSING
+            and not (sign in "/%" and not right.constant)
+        ):
+            value = exact(left.constant, right.constant)
+            return Code(lambda _env: value, kind, value)
+        return Code(run, kind)
+
+    def _unary_expression(self, node: Node) -> Code:
+        sign = text(node.child_by_field_name("operator"))
+        operand = node.child_by_field_name("operand")
+        if sign == "-" and operand.type == "decimal_integer_literal":
+            found = read_number("-" + text(operand))
+            if found is not None:
+                return _constant(*found)
+        one = self.compile(operand)
+        run = one.run
+        if sign == "!":
+
+            def negate(env: Env) -> Any:
+                value = run(env)
+                return value if isinstance(value, Unknown) else not value
+
+            return Code(negate, "boolean")
+        change = {
+            "-": values.negate,
+            "+": lambda v: values.add(v, 0) if isinstance(v, str) else v,
+            "~": values.complement,
+        }[sign]
+        kind = promoted("+", one.kind, "int") if one.kind else ""
+        if one.constant is not MISSING:
+            value = change(one.constant)
+            return Code(lambda _env: value, kind, value)
+        return Code(lambda env: change(run(env)), kind)
+
+    def _ternary_expression(self, node: Node) -> Code:
+        condition = self.condition(node.child_by_field_name("condition"))
+        yes = self.compile(node.child_by_field_name("consequence"))
+        no = self.compile(node.child_by_field_name("alternative"))
+        kind = join_codes([yes, no])
+        a, b = yes.run, no.run
+        return Code(lambda env: a(env) if condition(env) else b(env), kind)
+
+    def condition(self, node: Node) -> Run:
+        """Compile a condition."""
+        code = self.compile(node)
+        if (
+            code.kind
+            and BOXES.get(code.kind, code.kind) != "boolean"
+            and not self._is_open(code.kind)
+        ):
+            return self.refuse(
+                f"a condition has to be true or false, and this is of type {code.kind}", node
+            ).run
+        return code.run
+
+    def _instanceof_expression(self, node: Node) -> Code:
+        left = self.compile(node.child_by_field_name("left")).run
+        right, name = node.child_by_field_name("right"), node.child_by_field_name("name")
+        kind = kind_of(right)
+        cls = self.find_type(right)
+        local = self.frame.declare(text(name), kind) if name is not None else None
+
+        def run(env: Env) -> Any:
+            value = left(env)
+            found = is_instance(value, kind, cls)
+            if local is not None and found:
+                env[local.slot] = value
+            return found
+
+        return Code(run, "boolean")
+
+    def _cast_expression(self, node: Node) -> Code:
+        kind = self.erased(kind_of(node.child_by_field_name("type")))
+        code = self.compile(node.child_by_field_name("value"))
+        run, at, owner = code.run, self.at(node), self.owner
+        if kind in PRIMITIVES:
+            if code.kind == "String" or (
+                code.kind in PRIMITIVES and (code.kind == "boolean") != (kind == "boolean")
+            ):
+                return self.refuse(
+                    f"incompatible types: {code.kind} cannot be converted to {kind}", node
+                )
+            if code.constant is not MISSING:
+                return _constant(values.cast(kind, code.constant), kind)
+            return Code(lambda env: values.cast(kind, run(env)), kind)
+        if kind == "String" and code.kind in PRIMITIVES:
+            return self.refuse(
+                f"incompatible types: {code.kind} cannot be converted to String", node
+            )
+        cls = self.find_type(node.child_by_field_name("type")) if kind else None
+
+        def cast(env: Env) -> Any:
+            value = run(env)
+            if cls is None or value is None or isinstance(value, Unknown | Function):
+                return owner.convert(kind, value)
+            if not is_instance(value, kind, cls):
+                STATE.at = at
+                raise ClassCastException(
+                    f"class {type_names.class_name(value)} cannot be cast to class {kind}"
+                )
+            return value
+
+        return Code(cast, kind)
+
+    # -- assignment -------------------------------------------------------------------------
+
+    def target(
+        self, node: Node
+    ) -> tuple[str, Run, Callable[[Any, Env], Any], Callable[[Any, Env, Any], None]]:
+        """What can be assigned: its type, what finds it once, reads it and sets it."""
+        if node.type == "parenthesized_expression":
+            return self.target(next(named(node)))
+        if node.type == "identifier":
+            return self._named_target(node)
+        if node.type == "array_access":
+            return self._array_target(node)
+        if node.type == "field_access":
+            return self._field_target(node)
+        stop = self.refuse("this cannot be assigned to", node).run
+        return "", stop, lambda _ref, _env: None, lambda _ref, _env, _value: None
+
+    def _named_target(self, node: Node) -> Any:
+        name = text(node)
+        found = self.find_variable(name)
+        if found is None or found[0] == "library":
+            stop = self._identifier(node).run if found is None else (lambda env: env[THIS])
+            return (
+                "",
+                stop,
+                lambda ref, _e: runtime.get_field(ref, name),
+                lambda ref, _e, v: runtime.set_field(ref, name, v),
+            )
+        if found[0] == "local":
+            local: Local = found[2]
+            local.assigned += 1
+            if found[1] or local.depth < self.frame.depth:
+                self.refuse(
+                    f"{name} cannot be changed in a lambda or class: it must be effectively final",
+                    node,
+                )
+            if local.final and local.valued:
+                self.refuse(f"cannot assign a value to final variable {name}", node)
+            slot = local.slot
+
+            def set_local(_ref: Any, env: Env, value: Any) -> None:
+                env[slot] = value
+
+            return local.kind, lambda _env: None, lambda _ref, env: env[slot], set_local
+        _, keys, owner, one = found
+        self._check_final(owner, one, node)
+        code = self._field_code(keys, owner, one, node) if self.frame.field_rank < 0 else None
+        return self._held(owner, one, None if one.static else self._reach(keys), code)
+
+    def _held(
+        self, owner: JavaClass, one: Field, reach: Callable[[Env], Env] | None, _code: Code | None
+    ) -> Any:
+        key, kind = one.key, self.seen_from_here(owner, one.kind)
+        if reach is None:
+
+            def prepare(_env: Env) -> Any:
+                owner.initialize()
+                return owner.statics
+        else:
+
+            def prepare(env: Env) -> Any:
+                return reach(env)[THIS].__dict__
+
+        def set_field(ref: Any, _env: Env, value: Any) -> None:
+            ref[key] = value
+
+        return kind, prepare, lambda ref, _env: ref[key], set_field
+
+    def _check_final(self, owner: JavaClass, one: Field, node: Node) -> None:
+        one.assigned.append(self.at(node))
+        if one.final and not (owner is self.owner and self.in_constructor and one.value is None):
+            self.refuse(f"cannot assign a value to final variable {one.name}", node)
+
+    def _field_target(self, node: Node) -> Any:
+        object_, name = node.child_by_field_name("object"), text(node.child_by_field_name("field"))
+        cls = self.class_of(object_) if object_.type not in {"this", "super"} else None
+        if isinstance(cls, JavaClass):
+            found = cls.find_field(name)
+            if found is not None and found[1].static:
+                self._check_final(*found, node)
+                return self._held(*found, None, None)
+        if isinstance(cls, type | Unknown):
+            return (
+                "",
+                lambda _env: cls,
+                lambda ref, _e: runtime.get_static(ref, name),
+                lambda ref, _e, v: runtime.set_field(ref, name, v),
+            )
+        value = self.compile(object_)
+        known = self.resolve(value.kind) if value.kind else None
+        found = known.find_field(name) if isinstance(known, JavaClass) else None
+        if found is None and isinstance(known, JavaClass) and known.library_base is None:
+            self.refuse(self.unknown_field(known, name), node)
+        kind = ""
+        if found is not None:
+            kind = self.seen_from_here(found[0], found[1].kind)
+            self._check_final(*found, node) if object_.type == "this" else found[1].assigned.append(
+                self.at(node)
+            )
+            if found[1].static:
+                return self._held(*found, None, None)
+            name = found[1].key[1:]
+        return (
+            kind,
+            value.run,
+            lambda ref, _e: runtime.get_field(ref, name),
+            lambda ref, _e, v: runtime.set_field(ref, name, v),
+        )
+
+    def _array_target(self, node: Node) -> Any:
+        array = self.compile(node.child_by_field_name("array"))
+        index = self.compile(node.child_by_field_name("index")).run
+        run, at = array.run, self.at(node)
+        kind = array.kind[:-2] if array.kind.endswith("[]") else ""
+
+        def prepare(env: Env) -> Any:
+            return run(env), index(env)
+
+        def read(ref: Any, _env: Env) -> Any:
+            STATE.at = at
+            return type_names.array_get(*ref)
+
+        def write(ref: Any, _env: Env, value: Any) -> None:
+            STATE.at = at
+            type_names.array_set(ref[0], ref[1], value)
+
+        return kind, prepare, read, write
+
+    def _assignment_expression(self, node: Node) -> Code:
+        left, right = node.child_by_field_name("left"), node.child_by_field_name("right")
+        sign = text(node.child_by_field_name("operator"))
+        if sign == "=":
+            kind, prepare, _, write = self.target(left)
+            value = self.coerce(self.compile(right), kind, node)
+
+            def assign(env: Env) -> Any:
+                ref = prepare(env)
+                new = value(env)
+                write(ref, env, new)
+                return new
+
+            return Code(assign, kind)
+        return self._compound(left, sign[:-1], self.compile(right), node, after=True)
+
+    def _update_expression(self, node: Node) -> Code:
+        target = next(named(node))
+        sign = "+" if any(one.type == "++" for one in node.children) else "-"
+        after = node.children[0].type in {"++", "--"}
+        return self._compound(target, sign, _constant(1, "int"), node, after=after)
+
+    def _compound(self, target: Node, sign: str, right: Code, node: Node, *, after: bool) -> Code:
+        kind, prepare, read, write = self.target(target)
+        slot = self.frame.declare(f"{node.start_byte} old", kind).slot
+        old = Code(lambda env: env[slot], kind)
+        operated = self.operate(sign, old, right, node)
+        box = BOXES.get(kind, kind)
+        narrow = box in PRIMITIVES and operated.kind != box
+
+        def run(env: Env) -> Any:
+            ref = prepare(env)
+            before = env[slot] = read(ref, env)
+            new = operated.run(env)
+            if narrow:
+                new = values.cast(box, new)
+            write(ref, env, new)
+            return new if after else before
+
+        return Code(run, kind)
+
+    # -- arrays -----------------------------------------------------------------------------
+
+    def _array_access(self, node: Node) -> Code:
+        kind, prepare, read, _ = self._array_target(node)
+        return Code(lambda env: read(prepare(env), env), kind)
+
+    def _array_creation_expression(self, node: Node) -> Code:
+        kind = kind_of(node.child_by_field_name("type"))
+        self.find_type(node.child_by_field_name("type"))
+        sizes = [
+            self.coerce(self.compile(next(named(one))), "int", one)
+            for one in node.children
+            if one.type == "dimensions_expr"
+        ]
+        empty = sum(text(one).count("[") for one in node.children if one.type == "dimensions")
+        value = node.child_by_field_name("value")
+        if value is not None:
+            return self.array_of(value, kind + "[]" * empty)
+        whole = kind + "[]" * (len(sizes) + empty)
+        return Code(lambda env: type_names.make_array(whole, [size(env) for size in sizes]), whole)
+
+    def array_of(self, node: Node, kind: str) -> Code:
+        """Compile ``{1, 2}`` as an array of a type."""
+        inner = kind.removesuffix("[]")
+        runs = [
+            self.array_of(one, inner).run
+            if one.type == "array_initializer"
+            else self.coerce(self.compile(one), self.erased(inner), one)
+            for one in named(node)
+        ]
+        return Code(lambda env: Array([run(env) for run in runs], inner), kind)
+
+    # -- calls ------------------------------------------------------------------------------
+
+    def arguments(self, node: Node | None) -> Arguments:
+        """Compile arguments."""
+        codes = [self.compile(one) for one in named(node)] if node is not None else []
+        runs = [one.run for one in codes]
+        if not runs:
+            return Arguments(lambda _env: [], codes)
+        if len(runs) == 1:
+            first = runs[0]
+            return Arguments(lambda env: [first(env)], codes)
+        return Arguments(lambda env: [run(env) for run in runs], codes)
+
+    def _method_invocation(self, node: Node) -> Code:
+        object_, name = node.child_by_field_name("object"), text(node.child_by_field_name("name"))
+        args = self.arguments(node.child_by_field_name("arguments"))
+        if any(one.type == "super" for one in node.children):
+            return self._super_call(object_, name, args, node)
+        if object_ is None:
+            return self._own_call(name, args, node)
+        cls = self.class_of(object_)
+        if cls is not None:
+            return self._static_call(cls, name, args, node)
+        value = self.compile(object_)
+        if value.kind in PRIMITIVES:
+            return self.refuse(
+                f"a value of type {value.kind} has no methods, so .{name}() cannot follow it", node
+            )
+        holder = str if value.kind == "String" else self.class_of_kind(value.kind)
+        if holder is None or value.kind in BOXES:
+            return Code(self.call(value.run, name, args, node))
+        found = runtime.find_attribute(python_class(holder), name)
+        refusal = self.unknown_method(holder, name) or self.misfit(found, args.codes)
+        if refusal:
+            return self.refuse(refusal, node)
+        if found is not None and _is_static(found):
+            return self._static_call(holder, name, args, node)
+        return Code(self.call(value.run, name, args, node), self.result_in(holder, name))
+
+    def call(self, value: Run, name: str, args: Arguments, node: Node) -> Run:
+        """Compile a call of a method on whatever a value is then."""
+        at, arguments, kinds = self.at(node), args.run, args.kinds
+        callers: dict[type, runtime.Call] = {}
+
+        def run(env: Env) -> Any:
+            one = value(env)
+            given = arguments(env)
+            STATE.at = at
+            kind = type(one)
+            try:
+                caller = callers.get(kind)
+                if caller is None:
+                    caller = callers[kind] = runtime.find_caller(kind, name, kinds)
+                return caller(one, given)
+            except (NoSuchMember, WrongArgument) as problem:
+                return self.mismatch(problem, at, name)
+
+        return run
+
+    def mismatch(self, problem: Exception, at: At, name: str) -> Unknown:
+        """Write down a call that javac would have refused; what it gives is unknown."""
+        self.program.error(str(problem), at, name)
+        return Unknown(f"{name}()")
+
+    def _own_call(self, name: str, args: Arguments, node: Node) -> Code:
+        """A call without anything in front of it: of this object, one around it, or an import."""
+        for frame, keys in self._levels():
+            owner = frame.owner
+            found = runtime.find_attribute(owner.cls, name)
+            if found is None and name not in getattr(owner.cls, "fake_others", ()):
+                continue
+            refusal = self.misfit(found, args.codes)
+            if refusal:
+                return self.refuse(refusal, node)
+            if found is not None and _is_static(found):
+                return self._static_call(owner, name, args, node)
+            if frame.static:
+                return self.refuse(
+                    f"{name}() belongs to an object, and this is a static method", node
+                )
+            return self._call_from(self._reach(keys), owner, name, args, node)
+        one: JavaClass | None = self.owner
+        while one is not None:
+            found = runtime.find_attribute(one.cls, name)
+            if found is not None or (one.form == "enum" and name in ENUM_STATICS):
+                return self._static_call(one, name, args, node)
+            one = one.outer
+        for imported in self.owner.unit.imports:
+            if imported.static and (imported.star or imported.name == name):
+                full = imported.full if imported.star else imported.full.rpartition(".")[0]
+                cls = self.program.load(full)
+                if cls is None:
+                    self.program.unknown.setdefault(full, imported.at)
+                    return Code(lambda _env: Unknown(name))
+                if not imported.star or runtime.find_attribute(python_class(cls), name) is not None:
+                    return self._static_call(cls, name, args, node)
+        if self.frame.static:
+            return self.refuse(unknown_name("method", name, member_names(self.owner), ""), node)
+        base = self.owner.library_base
+        if isinstance(base, Unknown) or not is_sure(self.owner):
+            unknown = Unknown(name)
+            return Code(
+                lambda env: getattr(env[THIS], runtime.python_name(name), unknown)(*args.run(env))
+            )
+        names = [one for frame, _ in self._levels() for one in member_names(frame.owner)]
+        if name in runtime.OBJECT_METHODS:
+            return Code(self.call(lambda env: env[THIS], name, args, node))
+        return self.refuse(unknown_name("method", name, names, ""), node)
+
+    def _call_from(
+        self, reach: Callable[[Env], Env], owner: JavaClass, name: str, args: Arguments, node: Node
+    ) -> Code:
+        """A call of a method of the object whose variables something leads to."""
+        result = self.result_in(owner, name)
+        overloads = getattr(runtime.find_attribute(owner.cls, name), "overloads", None)
+        if overloads is not None and all("private" in one.modifiers for one in overloads.methods):
+            run = self._call_overloads(overloads, args, node, lambda env: reach(env)[THIS])
+            return Code(run, result)
+        return Code(self.call(lambda env: reach(env)[THIS], name, args, node), result)
+
+    def _call_overloads(
+        self, overloads: Any, args: Arguments, node: Node, this: Run = lambda _env: None
+    ) -> Run:
+        at, arguments, kinds = self.at(node), args.run, args.kinds
+
+        def run(env: Env) -> Any:
+            given = arguments(env)
+            STATE.at = at
+            return overloads.call(this(env), given, kinds)
+
+        return run
+
+    def _static_call(self, cls: Any, name: str, args: Arguments, node: Node) -> Code:
+        at, arguments = self.at(node), args.run
+        if isinstance(cls, JavaClass) and cls.form == "enum" and name in ENUM_STATICS:
+            kind = self.name_here(cls, cls.name) + "[]" * (name == "values")
+            return Code(lambda env: enum_static(cls, name, arguments(env)), kind)
+        if not isinstance(cls, Unknown):
+            found = runtime.find_attribute(python_class(cls), name)
+            refusal = self.unknown_method(cls, name) or self.misfit(found, args.codes)
+            if not refusal and found is not None and not _is_static(found, surely=True):
+                label = cls.name if isinstance(cls, JavaClass) else cls.__name__
+                refusal = f"{name}() belongs to an object: {label} is the class, not one of those"
+            if refusal:
+                return self.refuse(refusal, node)
+            overloads = getattr(found, "overloads", None)
+            if overloads is not None and isinstance(cls, JavaClass):
+                call = self._call_overloads(overloads, args, node)
+
+                def run_own(env: Env) -> Any:
+                    cls.initialize()
+                    return call(env)
+
+                return Code(run_own, self.result_in(cls, name))
+        library = cls.cls if isinstance(cls, JavaClass) else cls
+
+        def run(env: Env) -> Any:
+            given = arguments(env)
+            STATE.at = at
+            try:
+                return runtime.call_static(library, name, given)
+            except (NoSuchMember, WrongArgument) as problem:
+                return self.mismatch(problem, at, name)
+
+        return Code(run, self.result_in(cls, name))
+
+    def _super_call(self, object_: Node | None, name: str, args: Arguments, node: Node) -> Code:
+        owner = self.owner
+        above: Any = owner.parent
+        if object_ is not None and object_.type != "super":
+            above = self.class_of(object_)
+        for one in [above] if above is not None else owner.interfaces:
+            cls = python_class(one)
+            found = runtime.find_attribute(cls, name) if isinstance(cls, type) else None
+            refusal = self.misfit(found, args.codes)
+            if refusal:
+                return self.refuse(refusal, node)
+            overloads = getattr(found, "overloads", None)
+            if overloads is not None:
+                run = self._call_overloads(overloads, args, node, lambda env: env[THIS])
+                return Code(run, self.result_in(one, name))
+            if found is not None:
+                run = lambda env, found=found: found(env[THIS], *args.run(env))
+                return Code(run, self.result_in(one, name))
+        if name in runtime.OBJECT_METHODS:
+            return Code(lambda env: runtime.OBJECT_METHODS[name](env[THIS], *args.run(env)))
+        return Code(lambda _env: Unknown(f"super.{name}"))
+
+    def _object_creation_expression(self, node: Node) -> Code:
+        kind = kind_of(node.child_by_field_name("type"))
+        args = self.arguments(node.child_by_field_name("arguments"))
+        at, arguments, kinds = self.at(node), args.run, args.kinds
+        outer = None
+        if node.children[0].type != "new":
+            outer = self.compile(node.children[0])
+            holder = self.resolve(outer.kind)
+            cls = holder.find_nested(kind) if isinstance(holder, JavaClass) else None
+            if cls is None:
+                return self.refuse(f"cannot find symbol: there is no class {kind} here", node)
+            kind = f"{outer.kind}.{kind}"
+        elif child(node, "class_body") is not None:
+            cls = JavaClass("", node, self.owner.unit, outer=self.owner, frame=self.frame)
+            _ = cls.cls
+        else:
+            cls = self.find_type(node.child_by_field_name("type"))
+        if isinstance(cls, JavaClass):
+            if cls.name and ("abstract" in cls.modifiers or cls.form in {"interface", "enum"}):
+                what = "an enum" if cls.form == "enum" else "abstract"
+                return self.refuse(f"{cls.name} is {what}: new cannot make one of it", node)
+            refusal = self.misfit_new(cls, args.codes)
+            if refusal:
+                return self.refuse(refusal, node)
+            around = self._environment(cls, outer.run if outer is not None else None)
+
+            def make(env: Env) -> Any:
+                given = arguments(env)
+                STATE.at = at
+                return cls.make(given, kinds, around(env) if around else None)
+
+            return Code(make, kind if cls.name else "")
+
+        if cls is None:  # a type variable
+            return self.refuse(f"new cannot make one of {kind}", node)
+        refusal = self.misfit_new(cls, args.codes)
+        if refusal:
+            return self.refuse(refusal, node)
+
+        def make_library(env: Env) -> Any:
+            given = arguments(env)
+            STATE.at = at
+            try:
+                return cls(*given)
+            except (NoSuchMember, WrongArgument) as problem:
+                return self.mismatch(problem, at, f"new {kind}")
+
+        return Code(make_library, kind if isinstance(cls, type) else "")
+
+    def _environment(self, cls: JavaClass, outer: Run | None) -> Callable[[Env], Env] | None:
+        """What a new object gets to know of what is around its class."""
+        if outer is not None:
+            return lambda env: [outer(env), None]
+        if cls.static:
+            return None
+        for frame, keys in self._levels():
+            reach = self._reach(keys)
+            if cls.frame is not None:
+                if frame is cls.frame:
+                    return lambda env, reach=reach: list(reach(env))
+            elif cls.outer in frame.owner.ancestors() and not frame.static:
+                return lambda env, reach=reach: [reach(env)[THIS], None]
+        return None
+
+    # -- functions --------------------------------------------------------------------------
+
+    def _lambda_expression(self, node: Node) -> Code:
+        frame, at = self.frame, self.at(node)
+        frame.push()
+        frame.depth += 1
+        parameters = node.child_by_field_name("parameters")
+        listed = [parameters] if parameters.type == "identifier" else list(named(parameters))
+        locals_: list[Local] = []
+        for one in listed:
+            name = text(one) if one.type == "identifier" else text(one.child_by_field_name("name"))
+            kind = kind_of(one.child_by_field_name("type")) if one.type != "identifier" else ""
+            locals_.append(frame.declare(name, "" if kind == "var" else self.erased(kind)))
+        yields, self.yields = self.yields, []
+        body, gives = self.lambda_body(node.child_by_field_name("body"))
+        self.yields = yields
+        frame.depth -= 1
+        frame.pop()
+        slots = [(one.slot, one.kind) for one in locals_]
+        count, owner = len(slots), self.owner
+
+        def run(env: Env) -> Any:
+            captured = list(env)
+
+            def call(*args: Any) -> Any:
+                inner = list(captured)
+                for (slot, kind), value in zip(slots, args, strict=True):
+                    inner[slot] = owner.convert(kind, value) if kind else value
+                return body(inner)
+
+            return Function(call, at, count, gives)
+
+        return Code(run, "lambda")
+
+    def lambda_body(self, node: Node) -> tuple[Run, bool | None]:
+        """Compile the body of a lambda, and tell whether it gives a value; None if either.
+
+        A block needs statements, which the subclass knows.
+        """
+        raise NotImplementedError
+
+    def _method_reference(self, node: Node) -> Code:
+        first, last = node.children[0], node.children[-1]
+        name, at = text(last), self.at(node)
+        if first.type == "super":
+            above = self._super_call(None, name, Arguments(lambda env: env[RESULT], []), node).run
+            return Code(lambda env: Function(lambda *a: above([env[THIS], a]), at), "lambda")
+        if first.type == "array_type":
+            kind = kind_of(first)
+            make = lambda count: type_names.make_array(kind, [count])
+            return Code(lambda _env: Function(make, at, 1), "lambda")
+        cls = self.class_of(first)
+        if cls is not None and name == "new":
+            return self._constructor_reference(cls, at)
+        if cls is not None:
+            return self._class_reference(cls, name, node)
+        value = self.compile(first)
+        kind = self.owner.name if first.type == "this" else value.kind
+        if kind in PRIMITIVES:
+            return self.refuse(f"a value of type {kind} has no methods", node)
+        holder = str if kind == "String" else self.class_of_kind(kind)
+        refusal = self.unknown_method(holder, name) if holder is not None else ""
+        if refusal:
+            return self.refuse(refusal, node)
+        run = value.run
+
+        def bound(env: Env) -> Any:
+            one = run(env)
+            STATE.at = at
+            if one is None:
+                raise values.NullPointerException(f"{text(first)} is null")
+            caller = runtime.find_caller(type(one), name, ())
+            arity = _count_parameters(runtime.find_attribute(type(one), name))
+            return Function(lambda *args: self._at(at, caller, one, args), at, arity)
+
+        return Code(bound, "lambda")
+
+    def _constructor_reference(self, cls: Any, at: At) -> Code:
+        if not isinstance(cls, JavaClass):
+            return Code(lambda _env: Function(cls, at), "lambda")
+        around = self._environment(cls, None)
+        arities = {len(one.kinds) for one in cls.constructors}
+        arity = arities.pop() if len(arities) == 1 else -1
+
+        def run(env: Env) -> Function:
+            return Function(lambda *a: cls.make(a, (), around(env) if around else None), at, arity)
+
+        return Code(run, "lambda")
+
+    def _class_reference(self, cls: Any, name: str, node: Node) -> Code:
+        """``Type::method``: a static method, or one of the first argument."""
+        at = self.at(node)
+        if isinstance(cls, Unknown):
+            one = Function(getattr(cls, runtime.python_name(name)), at)
+            return Code(lambda _env: one, "lambda")
+        found = runtime.find_attribute(python_class(cls), name)
+        overloads = getattr(found, "overloads", None)
+        refusal = self.unknown_method(cls, name)
+        if refusal:
+            return self.refuse(refusal, node)
+
+        def call(*args: Any) -> Any:
+            STATE.at = at
+            if overloads is not None:
+                method, _ = overloads.choose(args, ())
+                if method is not None and method.static:
+                    return overloads.call(None, args, ())
+            elif isinstance(found, staticmethod | classmethod) or not args:
+                return runtime.call_static(cls, name, args)
+            return runtime.find_caller(type(args[0]), name, ())(args[0], args[1:])
+
+        arity = _count_parameters(found)
+        if arity >= 0 and not isinstance(found, staticmethod | classmethod):
+            arity += 1
+        return Code(lambda _env: Function(call, at, arity), "lambda")
+
+    @staticmethod
+    def _at(at: At, caller: runtime.Call, value: Any, args: Sequence[Any]) -> Any:
+        STATE.at = at
+        return caller(value, args)
+
+
+def _count_parameters(found: Any) -> int:
+    """The number of arguments that a method takes; -1 where nobody can tell."""
+    overloads = getattr(found, "overloads", None)
+    if overloads is not None:
+        counts = {-1 if one.varargs else len(one.kinds) for one in overloads.methods}
+        return counts.pop() if len(counts) == 1 and overloads.inherited is None else -1
+    if not isinstance(found, types.FunctionType):
+        return -1
+    listed = list(inspect.signature(found).parameters.values())[1:]
+    sure = all(one.kind is one.POSITIONAL_OR_KEYWORD and one.default is one.empty for one in listed)
+    return len(listed) if sure else -1
+
+
+def _is_static(found: Any, *, surely: bool = False) -> bool:
+    """Whether a member belongs to its class; with ``surely``, whether some overload does."""
+    overloads = getattr(found, "overloads", None)
+    if overloads is not None:
+        any_or_all = any if surely else all
+        return any_or_all(one.static for one in overloads.methods)
+    return not isinstance(found, types.FunctionType | functools.partialmethod)
+
+
+def _constant_of(value: Any) -> Code:
+    return Code(lambda _env: value)
+
+
+def _this_of(reach: Callable[[Env], Env]) -> Run:
+    return lambda env: reach(env)[THIS]
+
+
+def _constant(value: Any, kind: str) -> Code:
+    return Code(lambda _env: value, kind, value)
+
+
+def is_instance(value: Any, kind: str, cls: Any) -> Any:
+    """Java's instanceof."""
+    if value is None:
+        return False
+    if isinstance(value, Unknown) or isinstance(cls, Unknown):
+        return value if isinstance(value, Unknown) else cls
+    if kind.endswith("[]"):
+        return isinstance(value, Array)
+    if isinstance(cls, JavaClass):
+        cls = cls.cls
+    if isinstance(cls, type) and isinstance(value, cls):
+        return True
+    return type_names.is_instance(value, kind)
+
+
+def enum_static(cls: JavaClass, name: str, args: Sequence[Any]) -> Any:
+    """``values()`` and ``valueOf(name)`` of the program's own enum."""
+    every = cls.list_constants()
+    if name == "values":
+        return Array(every, cls.name)
+    for one in every:
+        if one._name == args[0]:
+            return one
+    raise values.IllegalArgumentException(
+        f"No enum constant {cls.full_name.replace('$', '.')}.{args[0]}"
+    )
+
+
+__all__ = ["RESULT", "ExpressionCompiler"]

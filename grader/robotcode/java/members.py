@@ -1,0 +1,424 @@
+"""The members of a Java class: what its text declares, compiled when it is first needed."""
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from tree_sitter import Node
+
+from grader.robotcode.java import values
+from grader.robotcode.java.classes import PRIMITIVES, JavaClass, Method, modifiers_of
+from grader.robotcode.java.runtime import STATE, enter
+from grader.robotcode.java.scope import (
+    MISSING,
+    RESULT,
+    Arguments,
+    Code,
+    Env,
+    Field,
+    Frame,
+    Local,
+    child,
+    kind_of,
+    named,
+    text,
+)
+from grader.robotcode.java.statement_compiler import StatementCompiler, completes
+
+
+def declare_members(owner: JavaClass) -> None:
+    """Declare the fields, methods and constructors of a class."""
+    if owner.form == "record":
+        _declare_components(owner)
+    for number, node in enumerate(owner.members):
+        if node.type in {"field_declaration", "constant_declaration"}:
+            _declare_fields(owner, node, number)
+        elif node.type in {
+            "method_declaration",
+            "constructor_declaration",
+            "compact_constructor_declaration",
+        }:
+            _declare_method(owner, node)
+        elif node.type == "enum_constant":
+            name = text(node.child_by_field_name("name"))
+            owner.constants.append((name, node))
+            owner.fields[name] = Field(
+                name, owner.name, True, True, f".{name}", number, owner.unit.source.at(node)
+            )
+    if owner.form == "record":
+        _declare_canonical(owner)
+        for name, kind in owner.components:
+            _give(owner, name, [], kind, _reader(name))
+        _give(owner, "toString", [], "String", _describe_record)
+        _give(
+            owner,
+            "hashCode",
+            [],
+            "int",
+            lambda this: values.hash_items(map(values.hash_code, _components(this))),
+        )
+        _give(owner, "equals", ["Object"], "boolean", _equal_records)
+
+
+def _declare_canonical(owner: JavaClass) -> None:
+    """Give a record the constructor that takes all components, if its text has none."""
+    names, kinds = ([one[at] for one in owner.components] for at in (0, 1))
+    if all(one.kinds != kinds for one in owner.constructors):
+        made = Method(owner, owner.name, names, kinds, False, frozenset(), "", owner.at, owner.node)
+        made.run = lambda this, *args: this.__dict__.update(
+            zip((f".{name}" for name in names), args, strict=True)
+        )
+        owner.constructors.append(made)
+
+
+def compile_members(owner: JavaClass) -> None:
+    """Compile what runs when the class, or an object of it, is made; and all methods."""
+    for number, (name, node) in enumerate(owner.constants):
+        owner.on_class.append(_enum_constant(owner, name, node, number))
+    for one in owner.fields.values():
+        if one.static:
+            owner.statics[one.key] = values.default_value(one.kind)
+    for number, node in enumerate(owner.members):
+        if node.type in {"field_declaration", "constant_declaration"}:
+            for declarator in node.children_by_field_name("declarator"):
+                _initialize_field(owner, text(declarator.child_by_field_name("name")), number)
+        elif node.type == "static_initializer":
+            owner.on_class.append(_initializer(owner, next(named(node)), static=True))
+        elif node.type == "block":
+            owner.on_instance.append(_initializer(owner, node, static=False))
+    if owner.unit is owner.unit.program.unit:  # the rest of a program only as far as it is used
+        for method in (*owner.methods, *owner.constructors):
+            if hasattr(method.run, "compile_now"):
+                method.run.compile_now()
+        _check_finals(owner)
+
+
+def _check_finals(owner: JavaClass) -> None:
+    for one in owner.fields.values():
+        given = one.value is not None or one.assigned or one.name in dict(owner.constants)
+        if one.final and not given and owner.form != "record":
+            owner.unit.program.error(f"variable {one.name} is final and never gets a value", one.at)
+
+
+def _declare_fields(owner: JavaClass, node: Node, rank: int) -> None:
+    modifiers = modifiers_of(node)
+    base = kind_of(node.child_by_field_name("type"))
+    constant = owner.form in {"interface", "annotation"}
+    for one in node.children_by_field_name("declarator"):
+        name = text(one.child_by_field_name("name"))
+        kind = base + "[]" * text(one.child_by_field_name("dimensions")).count("[")
+        above = owner.parent.find_field(name) if isinstance(owner.parent, JavaClass) else None
+        key = f".{name}" if above is None else f".{name}@{owner.name}"
+        at = owner.unit.source.at(one)
+        if name in owner.fields:
+            owner.unit.program.error(f"variable {name} is already defined in {owner.name}", at)
+        static, final = constant or "static" in modifiers, constant or "final" in modifiers
+        value = one.child_by_field_name("value")
+        owner.fields[name] = Field(name, kind, static, final, key, rank, at, value)
+
+
+def _declare_components(owner: JavaClass) -> None:
+    for one in named(owner.node.child_by_field_name("parameters")):
+        name, kind = _parameter(one)
+        owner.components.append((name, kind))
+        owner.fields[name] = Field(name, kind, False, True, f".{name}", -1, owner.at)
+
+
+def _give(
+    owner: JavaClass, name: str, kinds: list[str], returns: str, run: Callable[..., Any]
+) -> None:
+    """Give a record a method that its text does not have."""
+    if not any(one.name == name and len(one.kinds) == len(kinds) for one in owner.methods):
+        made = Method(
+            owner,
+            name,
+            kinds,
+            kinds,
+            False,
+            frozenset({"public"}),
+            returns,
+            owner.at,
+            owner.node,
+            run,
+        )
+        owner.methods.append(made)
+
+
+def _reader(name: str) -> Callable[[Any], Any]:
+    return lambda this: this.__dict__[f".{name}"]
+
+
+def _components(this: Any) -> list[Any]:
+    return [this.__dict__[f".{name}"] for name, _ in type(this).java.components]
+
+
+def _describe_record(this: Any) -> str:
+    names = [name for name, _ in type(this).java.components]
+    shown = (
+        f"{name}={values.to_string(one)}"
+        for name, one in zip(names, _components(this), strict=True)
+    )
+    return f"{type(this).java.name}[{', '.join(shown)}]"
+
+
+def _equal_records(this: Any, other: Any) -> bool:
+    same = type(this) is type(other)
+    return same and all(map(values.equals, _components(this), _components(other)))
+
+
+def _parameter(node: Node) -> tuple[str, str]:
+    """The name and the type of a parameter."""
+    if node.type == "spread_parameter":
+        declarator = child(node, "variable_declarator")
+        kinds = [one for one in named(node) if one.type not in {"modifiers", "variable_declarator"}]
+        return text(declarator.child_by_field_name("name")), kind_of(kinds[0]) + "[]"
+    extra = "[]" * text(node.child_by_field_name("dimensions")).count("[")
+    return text(node.child_by_field_name("name")), kind_of(node.child_by_field_name("type"), extra)
+
+
+def _declare_method(owner: JavaClass, node: Node) -> None:
+    modifiers = modifiers_of(node)
+    compact = node.type == "compact_constructor_declaration"
+    every = [] if compact else named(node.child_by_field_name("parameters"))
+    listed = [one for one in every if one.type != "receiver_parameter"]
+    pairs = owner.components if compact else [_parameter(one) for one in listed]
+    constructor = node.type != "method_declaration"
+    body = node.child_by_field_name("body")
+    returns = "" if constructor else kind_of(node.child_by_field_name("type"))
+    returns += "[]" * text(node.child_by_field_name("dimensions")).count("[")
+    made = Method(
+        owner,
+        text(node.child_by_field_name("name")),
+        [name for name, _ in pairs],
+        [kind for _, kind in pairs],
+        bool(listed) and listed[-1].type == "spread_parameter",
+        modifiers,
+        returns,
+        owner.unit.source.at(node),
+        node,
+        abstract=body is None and "native" not in modifiers,
+    )
+    inner = owner._type_parameters(node)
+    made.kinds = ["Object" if kind.rstrip("[]") in inner else kind for kind in made.kinds]
+    if inner and returns.rstrip("[]") in inner:
+        made.returns = ""
+    if body is not None:
+        made.run = _lazily(owner, made, body, inner)
+    if constructor and made.name != owner.name:
+        owner.unit.program.error(
+            f"{made.name} has no return type. Is it a constructor of {owner.name}?", made.at
+        )
+    twins = owner.constructors if constructor else owner.methods
+    if any(one.name == made.name and one.kinds == made.kinds for one in twins):
+        owner.unit.program.error(f"{made.name}({', '.join(made.kinds)}) is there twice", made.at)
+    if "@Override" in modifiers and not constructor:
+        owner.overrides.append(made)
+    twins.append(made)
+
+
+def _lazily(
+    owner: JavaClass, method: Method, body: Node, variables: set[str]
+) -> Callable[..., Any]:
+    """A method that compiles itself when it is first called."""
+
+    def compile_now() -> Callable[..., Any]:
+        made = _compile_method(owner, method, body, variables)
+        method.run = made
+        return made
+
+    def run(*args: Any) -> Any:
+        return compile_now()(*args)
+
+    run.compile_now = compile_now
+    return run
+
+
+def outer_frame(owner: JavaClass) -> Frame | None:
+    """The frame around the methods of a class: that of a local class, or its outer object."""
+    if owner.frame is not None:
+        return owner.frame
+    if owner.static or owner.outer is None:
+        return None
+    return Frame(owner.outer, static=False, outer=outer_frame(owner.outer))
+
+
+def _compile_method(
+    owner: JavaClass, method: Method, body: Node, variables: set[str]
+) -> Callable[..., Any]:
+    frame = Frame(owner, static=method.static, outer=outer_frame(owner))
+    frame.variables = variables
+    compiler = StatementCompiler(owner, frame)
+    compiler.returns = method.returns or ("void" if method.name == owner.name else "")
+    constructor = method.node.type != "method_declaration"
+    compiler.in_constructor = constructor
+    slots = []
+    for name, kind in zip(method.names, method.kinds, strict=True):
+        local = frame.declare(name, compiler.erased(kind) if kind != "Object" else "")
+        local.assigned = 1
+        slots.append(local.slot)
+    if not constructor:
+        for one in method.node.children_by_field_name("type"):
+            if kind_of(one) != "void":
+                compiler.find_type(one)
+    for one in (
+        named(method.node.child_by_field_name("parameters"))
+        if method.node.child_by_field_name("parameters") is not None
+        else ()
+    ):
+        compiler.find_type(one.child_by_field_name("type"))
+    if constructor:
+        return _compile_constructor(owner, method, body, compiler, slots)
+    run = compiler.block(body)
+    if method.returns not in {"void", ""} and completes(body):
+        owner.unit.program.error(
+            f"missing return statement: {method.name}() has to give a {method.returns} always",
+            owner.unit.source.at(body),
+        )
+    _check_captured(owner, frame.every)
+
+    def call(this: Any, *args: Any) -> Any:
+        enter()
+        env: Env = [None] * frame.size
+        env[0] = this
+        for slot, value in zip(slots, args, strict=True):
+            env[slot] = value
+        run(env)
+        STATE.depth -= 1
+        return env[RESULT]
+
+    return call
+
+
+def _check_captured(owner: JavaClass, every: Sequence[Local]) -> None:
+    for one in every:
+        if one.captured and one.assigned > 1:
+            owner.unit.program.error(
+                f"{one.name} changes, and a lambda or class uses it: it must be effectively final",
+                one.captured,
+            )
+
+
+def _compile_constructor(
+    owner: JavaClass, method: Method, body: Node, compiler: StatementCompiler, slots: list[int]
+) -> Callable[..., Any]:
+    frame = compiler.frame
+    parts = list(named(body))
+    first = parts[0] if parts and parts[0].type == "explicit_constructor_invocation" else None
+    compact = method.node.type == "compact_constructor_declaration"
+    other, args = False, Arguments(lambda _env: [], [])
+    if first is not None:
+        other = text(first.child_by_field_name("constructor")) == "this"
+        args = compiler.arguments(first.child_by_field_name("arguments"))
+    if not other and owner.form == "class":
+        refusal = compiler.misfit_new(owner.parent, args.codes)
+    elif other:
+        refusal = compiler.misfit_of(owner.constructors, args.codes)
+    else:
+        refusal = ""
+    if refusal:
+        compiler.refuse(refusal, first if first is not None else method.node)
+    frame.push()
+    runs = [compiler.statement(one) for one in parts[first is not None :]]
+    frame.pop()
+    _check_captured(owner, frame.every)
+    components = owner.components if compact else []
+
+    def call(this: Any, *values_: Any) -> None:
+        enter()
+        env: Env = [None] * frame.size
+        env[0] = this
+        for slot, value in zip(slots, values_, strict=True):
+            env[slot] = value
+        given = args.run(env)
+        if other:
+            owner.construct(this, given, args.kinds)
+        else:
+            owner.construct_parent(this, given, args.kinds)
+            owner.run_initializers(this)
+        for one in runs:
+            if one(env) is not None:
+                break
+        for (name, _), slot in zip(components, slots, strict=False):
+            this.__dict__[f".{name}"] = env[slot]
+        STATE.depth -= 1
+
+    return call
+
+
+def _initialize_field(owner: JavaClass, name: str, rank: int) -> None:
+    one = owner.fields[name]
+    frame = Frame(owner, static=one.static, outer=None if one.static else outer_frame(owner))
+    frame.field_rank = rank
+    compiler = StatementCompiler(owner, frame)
+    type_node = owner.members[rank].child_by_field_name("type")
+    compiler.find_type(type_node)
+    if one.value is None:
+        return
+    if one.value.type == "array_initializer":
+        code = compiler.array_of(one.value, one.kind)
+        run = code.run
+    else:
+        code = compiler.compile(one.value)
+        run = compiler.coerce(code, compiler.erased(one.kind), one.value)
+    simple = one.kind in PRIMITIVES or one.kind == "String"
+    if (
+        one.final
+        and simple
+        and code.constant is not MISSING
+        and not compiler.why_not(one.kind, code)
+    ):
+        one.constant = run([None, None])
+    _check_captured(owner, frame.every)
+    at, key = one.at, one.key
+
+    def set_field(env: Env) -> None:
+        STATE.at = at
+        whole: Env = [env[0], None, *[None] * (frame.size - 2)]
+        value = run(whole)
+        if one.static:
+            owner.statics[key] = value
+        else:
+            env[0].__dict__[key] = value
+
+    (owner.on_class if one.static else owner.on_instance).append(set_field)
+    if one.static and one.constant is not MISSING:
+        owner.statics[key] = one.constant
+
+
+def _initializer(owner: JavaClass, node: Node, *, static: bool) -> Callable[[Env], Any]:
+    frame = Frame(owner, static=static, outer=None if static else outer_frame(owner))
+    compiler = StatementCompiler(owner, frame)
+    compiler.in_constructor = True
+    run = compiler.block(node)
+    _check_captured(owner, frame.every)
+    return lambda env: run([env[0], None, *[None] * (frame.size - 2)])
+
+
+def _enum_constant(owner: JavaClass, name: str, node: Node, number: int) -> Callable[[Env], None]:
+    frame = Frame(owner, static=True)
+    compiler = StatementCompiler(owner, frame)
+    arguments = node.child_by_field_name("arguments")
+    args = compiler.arguments(arguments)
+    body = child(node, "class_body")
+    kind = owner
+    if body is not None:
+        kind = JavaClass(name, node, owner.unit, outer=owner)
+        kind.form, kind.static, kind.parent = "enum_constant", True, owner
+
+    def make(_env: Env) -> None:
+        cls = kind.cls
+        made = cls.__new__(cls)
+        made._name, made._ordinal = name, number
+        kind.state = "ready"
+        kind.prepare(made, None)
+        whole: Env = [None] * frame.size
+        given = args.run(whole)
+        owner.construct(made, given, args.kinds)
+        if kind is not owner:
+            kind.run_initializers(made)
+        owner.statics[f".{name}"] = made
+
+    _ = kind.cls
+    return make
+
+
+__all__ = ["Code", "compile_members", "declare_members", "outer_frame"]

@@ -1,0 +1,327 @@
+"""What a running Java program has: its budget, its calls, its lambdas, and members by name."""
+
+import enum
+import functools
+import keyword
+import types
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from grader.robotcode.java import collections, lang, streams, text, type_names, values
+from grader.robotcode.java.steps import DEEPEST, STATE, EndlessError
+from grader.robotcode.java.syntax import At
+from grader.robotcode.java.values import NullPointerException, StackOverflowError
+from grader.robotcode.library.base import (
+    Fake,
+    FakeType,
+    NoSuchMember,
+    Unknown,
+    WrongArgument,
+    checked,
+)
+
+PYTHON_OWN = frozenset({"builtins", "enum"})  # modules whose members no Java program sees
+Call = Callable[[Any, Sequence[Any]], Any]
+# What interfaces of java.util.function take, by how their names begin; what their methods give.
+TAKEN = {"DoubleTo": "double", "Double": "double", "IntTo": "int", "Int": "int", "Long": "long"}
+
+
+class Function:
+    """A lambda or method reference, as a value.
+
+    Args:
+        run: takes the arguments.
+        arity: how many; -1 if nobody can tell.
+        gives: whether it gives a value; None if nobody can tell.
+        interface: the learner's own interface that it stands for, once it is known.
+    """
+
+    __slots__ = ("arity", "at", "gives", "interface", "run")
+
+    def __init__(
+        self, run: Callable[..., Any], at: At, arity: int = -1, gives: bool | None = None
+    ) -> None:
+        self.run, self.at, self.arity, self.gives = run, at, arity, gives
+        self.interface: type | None = None
+
+    def __call__(self, *args: Any) -> Any:
+        enter()
+        if self.arity >= 0 and len(args) != self.arity:
+            raise WrongArgument(f"the lambda takes {self.arity} values and gets {len(args)}")
+        result = self.run(*args)
+        STATE.depth -= 1
+        return result
+
+
+def enter() -> None:
+    """Begin a call.
+
+    Raises:
+        StackOverflowError: too many are within each other.
+        EndlessError: the program has had its steps.
+    """
+    STATE.tick()
+    STATE.depth += 1
+    if STATE.depth > DEEPEST:
+        STATE.depth = 0
+        raise StackOverflowError
+
+
+def python_name(name: str) -> str:
+    """The attribute that holds a Java member."""
+    if name.startswith("_"):
+        return f"java{name}"
+    return f"{name}_" if keyword.iskeyword(name) else name
+
+
+def find_attribute(cls: type, name: str) -> Any:
+    """A member of a class or of its bases, never one of Python's own; None if there is none."""
+    attribute = python_name(name)
+    for base in getattr(cls, "__mro__", ()):
+        if attribute in base.__dict__ and base.__module__ not in PYTHON_OWN:
+            return base.__dict__[attribute]
+    return None
+
+
+def find_caller(cls: type, name: str, kinds: Sequence[str]) -> Call:
+    """What calls a method on values of a class.
+
+    Args:
+        cls: the class of the value.
+        name: the method's name in Java.
+        kinds: the static types of the arguments, empty where they cannot be told.
+
+    Raises:
+        NoSuchMember: the class has no such method.
+    """
+    table = _table(cls)
+    if table is not None and (name in table or not issubclass(cls, enum.Enum)):
+        if name not in table:
+            raise NoSuchMember(f"{type_names.type_name(cls)} has no {name}()")
+        method = (
+            checked(table[name]) if isinstance(table[name], types.FunctionType) else table[name]
+        )
+        return lambda value, args: method(value, *args)
+    if cls is type(None):
+        return _refuse_null(name)
+    if cls is Unknown:
+        return lambda value, args: getattr(value, python_name(name))(*args)
+    if cls is Function:
+        return lambda value, args: _call_function(value, name, args)
+    found = find_attribute(cls, name)
+    overloads = getattr(found, "overloads", None)
+    if overloads is not None:
+        return lambda value, args: overloads.call(value, args, kinds)
+    if found is not None:
+        attribute = python_name(name)
+        boxed = kinds and kinds[0] not in lang.WHOLE_KINDS
+        if name == "remove" and boxed and issubclass(cls, collections.List):
+            return lambda value, args: collections.Collection.remove(value, *args)
+        if isinstance(found, types.FunctionType):
+            return lambda value, args: found(value, *args)
+        return lambda value, args: getattr(value, attribute)(*args)
+    if name in OBJECT_METHODS:
+        return lambda value, args: OBJECT_METHODS[name](value, *args)
+    if issubclass(cls, Fake):
+        return lambda value, args: _call_member(value, name, args)
+    for plain, java in PLAIN.items():
+        if issubclass(cls, plain):
+            return lambda value, args: find_caller(java, name, kinds)(java(value), args)
+    if any("__call__" in vars(base) for base in cls.__mro__) and name in streams.FUNCTIONAL:
+        return lambda value, args: value(*args)
+    raise NoSuchMember(f"{type_names.type_name(cls)} has no {name}()")
+
+
+def _table(cls: type) -> dict[str, Callable[..., Any]] | None:
+    if issubclass(cls, values.Char | bool | int | float):
+        return lang.BOXED_METHODS
+    if cls is str:
+        return text.STRING_METHODS
+    if issubclass(cls, values.Array):
+        return ARRAY_METHODS
+    return ENUM_METHODS if issubclass(cls, enum.Enum) else None
+
+
+def _refuse_null(name: str) -> Call:
+    def call(_value: Any, _args: Sequence[Any]) -> Any:
+        raise NullPointerException(f'Cannot invoke "{name}()" because the value is null')
+
+    return call
+
+
+def _call_function(function: Function, name: str, args: Sequence[Any]) -> Any:
+    """A method of a lambda: a default method of its interface, or the lambda itself."""
+    interface = function.interface
+    found = find_attribute(interface, name) if interface is not None else None
+    overloads = getattr(found, "overloads", None)
+    if overloads is not None and not overloads.abstract:
+        return overloads.call(function, args, ())
+    if overloads is not None:
+        method, _ = overloads.choose(args, ())
+        if method is not None:
+            result = function(*method.bind(args, spread=False))
+            return method.owner.convert("" if method.returns == "void" else method.returns, result)
+        return function(*args)
+    attribute = python_name(name)
+    if attribute in streams.FUNCTION_METHODS and name not in streams.FUNCTIONAL:
+        return streams.FUNCTION_METHODS[attribute](function, *args)
+    named = getattr(interface, "__name__", "Double" if name == "applyAsDouble" else "")
+    kind = next((kind for start, kind in TAKEN.items() if named.startswith(start)), "")
+    result = function(*(values.convert(kind, one) if kind else one for one in args))
+    given = next((kind for end, kind in streams.GIVEN.items() if name.endswith(end)), "")
+    return values.convert(given, result) if given and result is not None else result
+
+
+def get_field(value: Any, name: str) -> Any:
+    """A field of a value, by its name.
+
+    Raises:
+        NoSuchMember: there is none.
+    """
+    if value is None:
+        raise NullPointerException(f'Cannot read field "{name}" because the value is null')
+    if isinstance(value, values.Array) and name == "length":
+        return len(value)
+    own = getattr(value, "__dict__", {})
+    if f".{name}" in own:
+        return own[f".{name}"]
+    return _no_method(_member(value, name), name)
+
+
+def _call_member(value: Any, name: str, args: Sequence[Any]) -> Any:
+    """Call a member that a library's class makes up when it is asked for.
+
+    Raises:
+        WrongArgument: it takes another number of arguments.
+    """
+    member = _member(value, name)
+    try:
+        return member(*args)
+    except TypeError as problem:
+        if problem.__traceback__ is not None and problem.__traceback__.tb_next is None:
+            raise WrongArgument(f"{name} takes another number of arguments") from None
+        raise
+
+
+def _member(value: Any, name: str) -> Any:
+    """A member of an object, but none that only Python's own classes give it."""
+    attribute, own = python_name(name), getattr(value, "__dict__", {})
+    there = attribute in own or find_attribute(type(value), name) is not None
+    number = isinstance(value, enum.Enum) and name == "value"  # of a controller's button
+    if isinstance(value, Unknown) or number or (there and not name.startswith("_")):
+        return getattr(value, attribute)
+    if isinstance(value, Fake):
+        return type(value).__getattr__(value, attribute)
+    raise NoSuchMember(f"{type_names.type_name(type(value))} has no {name}")
+
+
+def set_field(value: Any, name: str, new: Any) -> None:
+    """Set a field of a value, by its name.
+
+    Raises:
+        NoSuchMember: there is none.
+    """
+    if value is None:
+        raise NullPointerException(f'Cannot assign field "{name}" because the value is null')
+    own = getattr(value, "__dict__", {})
+    if f".{name}" in own:
+        own[f".{name}"] = new
+    elif isinstance(value, Unknown):
+        return
+    elif isinstance(value, Fake) and not name.startswith("_"):
+        get_field(value, name)
+        setattr(value, python_name(name), new)
+    else:
+        raise NoSuchMember(f"{type_names.type_name(type(value))} has no {name} that can be set")
+
+
+def get_static(cls: Any, name: str) -> Any:
+    """A static member of a library's class that is no method.
+
+    Raises:
+        NoSuchMember: there is none.
+    """
+    if isinstance(cls, Unknown):
+        return getattr(cls, python_name(name))
+    if isinstance(cls, enum.EnumType) and find_attribute(cls, name) is None:
+        if name in cls.__members__:
+            return cls[name]
+        near = type_names.did_you_mean(name, list(cls.__members__))
+        raise NoSuchMember(f"{cls.__name__} has no {name}{near}")
+    return _no_method(_static_member(cls, name), name)
+
+
+def _static_member(cls: Any, name: str) -> Any:
+    """A static member of a library's class, but none that only Python's own classes give it."""
+    attribute = python_name(name)
+    if not name.startswith("_"):
+        if find_attribute(cls, name) is not None:
+            return getattr(cls, attribute)
+        if isinstance(cls, FakeType):
+            return FakeType.__getattr__(cls, attribute)
+    raise NoSuchMember(f"{cls.__name__} has no {name}")
+
+
+def _no_method(found: Any, name: str) -> Any:
+    if isinstance(found, types.FunctionType | types.MethodType | types.BuiltinFunctionType):
+        raise NoSuchMember(f"{name} is a method: write {name}()")
+    return found
+
+
+def call_static(cls: Any, name: str, args: Sequence[Any]) -> Any:
+    """Call a static method of a library's class.
+
+    Raises:
+        NoSuchMember: there is none.
+    """
+    if isinstance(cls, Unknown):
+        return getattr(cls, python_name(name))(*args)
+    if issubclass(cls, enum.Enum) and name in {"values", "valueOf"}:
+        every = values.Array(cls, cls.__name__) if name == "values" else None
+        return every if every is not None else _value_of(cls, args[0])
+    found = find_attribute(cls, name)
+    if isinstance(found, types.FunctionType | functools.partialmethod) and not issubclass(
+        cls, enum.Enum
+    ):
+        raise NoSuchMember(
+            f"{name}() belongs to an object: {cls.__name__} is the class, which has none of its own"
+        )
+    return _static_member(cls, name)(*args)
+
+
+def _value_of(cls: type[enum.Enum], name: str) -> enum.Enum:
+    if name not in cls.__members__:
+        raise values.IllegalArgumentException(f"No enum constant {cls.__name__}.{name}")
+    return cls[name]
+
+
+# What fakes may return, and the collections of Java that it is like.
+PLAIN: dict[type, type] = {
+    list: collections.ArrayList,
+    tuple: collections.ArrayList,
+    set: collections.HashSet,
+    dict: collections.HashMap,
+}
+OBJECT_METHODS: dict[str, Callable[..., Any]] = {
+    "toString": values.to_string,
+    "equals": values.equals,
+    "hashCode": values.hash_code,
+    "getClass": lang.class_of,
+}
+ARRAY_METHODS: dict[str, Callable[..., Any]] = {
+    **OBJECT_METHODS,
+    "equals": lambda one, other: one is other,
+    "clone": lambda one: values.Array(one, one.kind),
+}
+ENUM_METHODS: dict[str, Callable[..., Any]] = {
+    "name": lambda one: one.name,
+    "toString": lambda one: one.name,
+    "ordinal": lambda one: list(type(one)).index(one),
+    "compareTo": lambda one, other: list(type(one)).index(one) - list(type(one)).index(other),
+    "equals": lambda one, other: one is other,
+    "hashCode": lambda one: list(type(one)).index(one),
+    "getClass": lang.class_of,
+    "getDeclaringClass": lang.class_of,
+}
+
+__all__ = ["STATE", "EndlessError"]

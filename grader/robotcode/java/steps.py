@@ -1,0 +1,43 @@
+"""How far a running program is, and how much of its time it has used."""
+
+from grader.robotcode.java.syntax import At
+
+STEPS = 100_000  # calls and turns of a loop between two visits of the bench
+MOST_STEPS = 8_000_000  # of a whole run
+ELEMENTS = 20  # of a collection, that cost as much time to move as a step
+DEEPEST = 500  # calls within calls
+
+
+class EndlessError(BaseException):
+    """The program does not come back; no code of a learner can catch this."""
+
+
+class State:
+    """Where the program is, and what it may still use."""
+
+    at: At = At(0)
+    steps = STEPS
+    left = MOST_STEPS  # from the last refill on
+    depth = 0
+
+    def start(self) -> None:
+        """Begin a new run."""
+        self.left, self.depth = MOST_STEPS, 0
+
+    def refill(self, steps: int = STEPS) -> None:
+        """Let the program run on, as when the next loop of the robot begins."""
+        self.left -= max(STEPS - self.steps, 0)
+        self.steps, self.depth = min(steps, self.left), 0
+
+    def tick(self, count: int = 1) -> None:
+        """Count steps; work on many elements is several.
+
+        Raises:
+            EndlessError: there have been too many.
+        """
+        self.steps -= count
+        if self.steps < 0:
+            raise EndlessError(f"line {self.at} runs without end")
+
+
+STATE = State()

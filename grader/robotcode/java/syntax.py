@@ -1,0 +1,169 @@
+"""Java text to tree-sitter's tree, and what in it is not Java."""
+
+import re
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from time import thread_time
+from typing import Self
+
+import tree_sitter_java
+from tree_sitter import Language, Node, Parser
+
+from grader.robotcode.java.brackets import find_unmatched, refuse_garbage
+from grader.robotcode.problems import ParseProblem
+
+MOST_PROBLEMS = 5  # one mistake makes many; the first ones tell
+# On garbage the parser's repairs take time and memory by the square of the length.
+FIRST = 1_024  # [bytes] parsed first, then twice as much, and so on
+LONGEST = 0.2  # [s of this thread alone: a busy machine must not count] what garbage may take,
+SECONDS_PER_BYTE = 3e-6  # and this for its length; Java takes a twentieth
+
+_CLASS = re.compile(r"\b(class|interface|enum|record)\s+\w+[^;:]*\{")
+_DECIMAL_COMMA = re.compile(r"(?<=[=(*/+-])\s*\d+,\d+\b")
+_PYTHON = re.compile(r"^[ \t]*(def \w+\(.*:|class \w+.*:|from [\w.]+ import .*)$", re.MULTILINE)
+# The end of a statement that lacks its semicolon; no header, annotation, comment or condition.
+_STATEMENT = re.compile(
+    r"\s*(?!@|/|\*|(if|for|while|else|do|try|switch|public|private|protected|class)\b).*[\w)\]\"]"
+)
+_TEXT = re.compile(r'"[^"]*"')
+_UNICODE = re.compile(r"(?<!\\)((?:\\\\)*)\\u+([0-9a-fA-F]{4})")
+_COMMENT = {"//", "/*", "*/", "* ", "*"}
+_POINT = "a decimal number has a point in Java, not a comma:{}"
+_LANGUAGE = Language(tree_sitter_java.language())
+
+
+class At(int):
+    """A line number that knows its file."""
+
+    file: str = ""
+
+    def __new__(cls, line: int, file: str = "") -> Self:
+        one = super().__new__(cls, line)
+        one.file = file
+        return one
+
+
+@dataclass(frozen=True, eq=False)
+class Source:
+    """A parsed file.
+
+    Args:
+        path: where it is.
+        text: the source as it was written, its lines ending as on Unix.
+    """
+
+    path: Path
+    text: str
+
+    @cached_property
+    def plain(self) -> str:
+        """The text with its Unicode escapes translated, as javac does before all else."""
+        return _UNICODE.sub(lambda m: m[1] + chr(int(m[2], 16)), self.text).replace("\0", "\\0")
+
+    @cached_property
+    def lines(self) -> list[int]:
+        """The line that a person sees for each line of the plain text, both from 0."""
+        lines = [0]
+        for written, row in enumerate(self.text.split("\n")):
+            extra = len(_UNICODE.sub(lambda m: chr(int(m[2], 16)), row).split("\n")) - 1
+            lines += [*[written] * extra, written + 1]
+        return lines
+
+    @cached_property
+    def root(self) -> Node | None:
+        """The tree; None where repairing the text would take the parser out of all proportion.
+
+        The beginning is tried first, then twice as much each time, so that what comes next never
+        costs much more than four times what was still in proportion.
+        """
+        source, length = self.plain.encode("utf-8", errors="replace"), FIRST
+        while length < len(source):
+            if _parse(source[:length]) is None:
+                return None
+            length *= 2
+        return _parse(source)
+
+    def at(self, node: Node) -> At:
+        """Where a node stands."""
+        return At(self.lines[node.start_point[0]] + 1, self.path.name)
+
+    @cached_property
+    def problems(self) -> tuple[ParseProblem, ...]:
+        """What is not Java, the cause before its echoes."""
+        refuse_garbage(self.text, where=self.path.name)
+        if self.root is None:
+            lost = ParseProblem("most of this is not Java", 1)
+            return (find_unmatched(self.text) or lost,)
+        return _find_problems(self.root, self.plain) if self.root.has_error else ()
+
+
+def _parse(source: bytes) -> Node | None:
+    start = thread_time()
+    root = Parser(_LANGUAGE).parse(source).root_node
+    late = thread_time() - start > LONGEST + len(source) * SECONDS_PER_BYTE
+    return None if late else root
+
+
+def _find_problems(root: Node, text: str) -> tuple[ParseProblem, ...]:
+    bracket = find_unmatched(text)
+    found = _without_a_class(text) if bracket is None else [bracket]
+    waiting = [root]
+    while waiting and len(found) < MOST_PROBLEMS:
+        tree = waiting.pop()
+        if tree.is_missing and bracket is not None and tree.type in "()[]{}":
+            continue  # the parser's repair of the same mistake, farther from its cause
+        if tree.is_missing:
+            line = _find_code_line(text, tree.start_point[0])
+            found.append(ParseProblem(f"a '{tree.type}' is missing", line))
+        elif tree.is_error and bracket is not None and _is_around(tree, bracket):
+            continue  # what the parser made of it
+        elif tree.is_error:
+            row = tree.start_point[0]
+            comma = _DECIMAL_COMMA.search(text.split("\n")[row])
+            said = _POINT.format(comma[0]) if comma else _misread((tree.text or b"").decode())
+            before = _find_no_semicolon(text, *tree.start_point)
+            found.append(before or ParseProblem(said, row + 1))
+        elif tree.has_error:
+            waiting.extend(reversed(tree.children))
+    return tuple(dict.fromkeys(found))
+
+
+def _find_code_line(text: str, row: int) -> int:
+    """The last line, counted from 1, up to a row, counted from 0, that is no comment."""
+    lines = [line.strip() for line in text.split("\n")[: row + 1]]
+    code = (at for at in range(row, -1, -1) if lines[at] and lines[at][:2] not in _COMMENT)
+    return next(code, row) + 1
+
+
+def _find_no_semicolon(text: str, row: int, column: int) -> ParseProblem | None:
+    """The statement before an error, if the error begins a line and that statement has no end."""
+    lines = text.split("\n")
+    if lines[row][:column].strip() or not lines[row][column : column + 1].isidentifier():
+        return None
+    above = [_TEXT.sub('""', line).partition("//")[0].rstrip() for line in lines[:row]]
+    code = "".join(above)
+    number = next((at for at in range(row, 0, -1) if above[at - 1]), 0)
+    within = code.count("(") > code.count(")")  # there, a comma or an operator is missing
+    if within or not number or not _STATEMENT.fullmatch(above[number - 1]):
+        return None
+    return ParseProblem("a ';' is missing at the end of this line", number)
+
+
+def _is_around(tree: Node, cause: ParseProblem) -> bool:
+    return tree.start_point[0] < cause.line <= tree.end_point[0] + 1
+
+
+def _without_a_class(text: str) -> list[ParseProblem]:
+    """What to say of a text that never was Java: a letter, a page, another language."""
+    if _CLASS.search(text):
+        return []
+    first = next((at for at, line in enumerate(text.split("\n"), 1) if line.strip()), 1)
+    if _PYTHON.search(text):
+        return [ParseProblem("this is Python, and a .java file must contain Java", first)]
+    return [ParseProblem(_misread(text.split("\n")[first - 1]), first)]
+
+
+def _misread(text: str) -> str:
+    shown = " ".join(text[:200].split())[:40]
+    return f"this is not Java: {shown}" if shown else "something is missing here"

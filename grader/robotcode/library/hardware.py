@@ -1,0 +1,314 @@
+"""Motor controllers on PWM ports, drive classes, encoders and gyros of WPILib.
+
+Also what the motor controllers of all vendors share: ramps, followers, and numbers from measures.
+"""
+
+from typing import Any
+
+from grader.robotcode.library.base import Fake, Unknown, fake
+from grader.robotcode.library.devices import Device, Motor
+from grader.robotcode.library.units import CONSTANTS, Voltage
+from grader.robotcode.library.world import PERIOD, WORLD
+
+NOMINAL = 12.0  # [V] what a ramp's time is counted to
+DEADBAND = 0.02  # of a joystick, as the drive classes have it
+PULSES = 2048  # per rotation of an encoder, unless the bench says otherwise
+EDGES = 4  # of one pulse of an encoder with two channels
+MOTORS = "edu.wpi.first.wpilibj.motorcontrol org.wpilib.hardware.motor"
+ENCODERS = "edu.wpi.first.wpilibj org.wpilib.hardware.rotation"
+SAFETY = (
+    "feed setExpiration getExpiration isAlive setSafetyEnabled isSafetyEnabled check checkMotors "
+    "getDescription initSendable close "
+)
+PWM_MOTORS = (
+    "PWMSparkMax PWMSparkFlex PWMTalonFX PWMTalonSRX PWMVenom PWMVictorSPX Spark SparkMini Talon "
+    "VictorSP Victor Koors40 Jaguar SD540 DMC60 NidecBrushless"
+)
+GYROS = "AnalogGyro ADXRS450_Gyro ADIS16448_IMU ADIS16470_IMU"
+
+
+def to_volts(value: Any) -> Any:
+    """A voltage [V] given as a number or as a measure."""
+    return value.in_(CONSTANTS["Volts"]) if isinstance(value, Voltage) else value
+
+
+def clamp(value: Any, low: float, high: float) -> Any:
+    """A number within limits; what is unknown stays so."""
+    return value if isinstance(value, Unknown) else max(low, min(high, value))
+
+
+def name_port(port: Any) -> Any:
+    """The number of a port, or of the port of a device.
+
+    A number that nobody knows is a port of its own, under the name that the code has for it.
+    """
+    if isinstance(port, Unknown):
+        return f"{port.unknown_text} ({len(WORLD.devices)})"
+    return port._port[-1] if isinstance(port, Device) else port
+
+
+class VendorMotor(Motor):
+    """A motor controller with a ramp, which may follow another one.
+
+    ``_ramp``: time [s] from zero to all of the voltage, 0 for at once. ``_strict``: whether a
+    follower takes the number of its leader and turns by its own inversion; otherwise it turns as
+    the shaft of its leader does.
+    """
+
+    def _register(self, *port: Any) -> None:
+        super()._register(*port)
+        self._ramp: Any = 0.0
+        self._strict = False
+
+    def _settle(self, share: float = 1.0) -> None:
+        before = self._applied
+        super()._settle(share)
+        known = not any(isinstance(one, Unknown) for one in (before, self._applied, self._ramp))
+        if known and self._ramp > 0 and WORLD.enabled and self._command.kind in {"voltage", "duty"}:
+            step = NOMINAL / self._ramp * PERIOD
+            self._applied = clamp(self._applied, before - step, before + step)
+
+    def _follow(self, leader: Motor) -> None:
+        """Get what a leader gets; in place of ``_settle``, and once the leader has settled."""
+        turned = self._opposed != (not self._strict and leader._inverted != self._inverted)
+        self._applied = -leader._applied if turned else leader._applied
+
+
+@fake(f"{MOTORS} edu.wpi.first.wpilibj", "wpilib.interfaces")
+class MotorController(Fake):
+    """A motor controller of any vendor (allwpilib v2026, .../motorcontrol/MotorController.java)."""
+
+    _inverted: bool = False
+
+    def setVoltage(self, outputVolts: float | Voltage) -> None:
+        self.set(to_volts(outputVolts) / WORLD.battery)
+
+    def setInverted(self, isInverted: bool) -> None:
+        self._inverted = isInverted
+
+    def getInverted(self) -> bool:
+        return self._inverted
+
+
+@fake(MOTORS, "wpilib", complete=True, others=f"{SAFETY} enableDeadbandElimination getPwmHandle")
+class PWMMotorController(MotorController, VendorMotor):
+    """A motor controller on a PWM port (allwpilib v2026, .../PWMMotorController.java)."""
+
+    def __init__(self, channel: int) -> None:
+        self._channel = channel
+        self._followers: list[PWMMotorController] = []
+        self._register("PWM", name_port(channel))
+
+    def _give(self, kind: str, speed: Any, method: str) -> None:
+        speed = clamp(speed, -1.0, 1.0)
+        self._ask(kind, speed, method)
+        for follower in self._followers:
+            follower._give(kind, -speed if self._inverted else speed, method)
+
+    def set(self, speed: float) -> None:
+        self._give("duty", speed, "set")
+
+    def setThrottle(self, throttle: float) -> None:
+        self._give("duty", throttle, "setThrottle")
+
+    def setVoltage(self, outputVolts: float | Voltage) -> None:
+        self._give("duty", to_volts(outputVolts) / WORLD.battery, "setVoltage")
+
+    def stopMotor(self) -> None:
+        self._give("neutral", 0.0, "stopMotor")
+
+    def get(self) -> float:
+        return self._command.value
+
+    def getVoltage(self) -> float:
+        return self._command.value * WORLD.battery
+
+    def addFollower(self, follower: "PWMMotorController") -> None:
+        self._followers.append(follower)
+
+    def getChannel(self) -> int:
+        return self._channel
+
+    getThrottle = get
+    disable = stopMotor
+
+
+for _name in PWM_MOTORS.split():
+    _text = f"A motor controller on a PWM port (allwpilib v2026, .../motorcontrol/{_name}.java)."
+    fake(MOTORS, "wpilib", complete=True)(type(_name, (PWMMotorController,), {"__doc__": _text}))
+
+
+@fake(MOTORS, "wpilib", complete=True, others="initSendable close")
+class MotorControllerGroup(MotorController):
+    """Motors that get the same (allwpilib v2026, .../motorcontrol/MotorControllerGroup.java)."""
+
+    def __init__(self, *motors: Any) -> None:
+        self._motors = [
+            one for some in motors for one in (some if isinstance(some, list) else [some])
+        ]
+        self._speed: Any = 0.0
+
+    def set(self, speed: float) -> None:
+        self._speed = speed
+        for motor in self._motors:
+            motor.set(-speed if self._inverted else speed)
+
+    def setVoltage(self, outputVolts: float | Voltage) -> None:
+        volts = to_volts(outputVolts)
+        for motor in self._motors:
+            motor.setVoltage(-volts if self._inverted else volts)
+
+    def stopMotor(self) -> None:
+        self._speed = 0.0
+        for motor in self._motors:
+            motor.stopMotor()
+
+    def get(self) -> float:
+        return self._speed
+
+    disable = stopMotor
+
+
+@fake("edu.wpi.first.wpilibj.drive org.wpilib.drive", "wpilib.drive")
+class DifferentialDrive(Fake):
+    """A left and a right side, driven by share (allwpilib v2026, .../drive/DifferentialDrive.java).
+
+    ``_fed``: when it was last fed; ``_safety``: whether it stops both sides if nobody feeds it.
+    """
+
+    def __init__(self, leftMotor: Any, rightMotor: Any) -> None:  # motors or functions
+        self._sides = (leftMotor, rightMotor)
+        self._deadband, self._most = DEADBAND, 1.0
+        self._safety, self._fed = True, WORLD.time
+
+    def _shape(self, speed: Any, *, square: bool) -> Any:
+        if isinstance(speed, Unknown):
+            return speed
+        size = max(0.0, min(1.0, abs(speed)) - self._deadband) / (1.0 - self._deadband)
+        return (size * size if square else size) * (1 if speed > 0 else -1)
+
+    def _drive(self, *speeds: Any) -> None:
+        self._fed = WORLD.time
+        for side, speed in zip(self._sides, speeds, strict=True):
+            command = side if callable(side) else side.set
+            command(clamp(speed, -1.0, 1.0) * self._most)
+
+    def tankDrive(self, leftSpeed: float, rightSpeed: float, squareInputs: bool = True) -> None:
+        self._drive(*(self._shape(one, square=squareInputs) for one in (leftSpeed, rightSpeed)))
+
+    def arcadeDrive(self, xSpeed: float, zRotation: float, squareInputs: bool = True) -> None:
+        ahead, turn = (self._shape(one, square=squareInputs) for one in (xSpeed, zRotation))
+        if not isinstance(ahead, Unknown) and not isinstance(turn, Unknown):
+            full = 1 + min(abs(ahead), abs(turn)) / (max(abs(ahead), abs(turn)) or 1.0)
+            ahead, turn = ahead / full, turn / full
+        self._drive(ahead - turn, ahead + turn)
+
+    def curvatureDrive(self, xSpeed: float, zRotation: float, allowTurnInPlace: bool) -> None:
+        ahead, turn = (self._shape(one, square=False) for one in (xSpeed, zRotation))
+        turn = turn if allowTurnInPlace else abs(ahead) * turn
+        self._drive(ahead - turn, ahead + turn)
+
+    def stopMotor(self) -> None:
+        self._drive(0.0, 0.0)
+
+    def feed(self) -> None:
+        self._fed = WORLD.time
+
+    def setSafetyEnabled(self, enabled: bool) -> None:
+        self._safety = enabled
+
+    def setDeadband(self, deadband: float) -> None:
+        self._deadband = deadband
+
+    def setMaxOutput(self, maxOutput: float) -> None:
+        self._most = maxOutput
+
+
+@fake(
+    ENCODERS,
+    "wpilib",
+    complete=True,
+    others="EncodingType IndexingType getPeriod getStopped getDirection setMaxPeriod setMinRate "
+    "setIndexSource setSamplesToAverage getSamplesToAverage getFPGAIndex getEncodingScale "
+    "setSimDevice getDecodingScaleFactor getDistancePerPulse initSendable close",
+)
+class Encoder(Device):
+    """An encoder with two channels on DIO ports (allwpilib v2026, .../wpilibj/Encoder.java)."""
+
+    _scale: Any = 1.0  # distance per pulse
+    _zero = 0.0  # [rot] of the shaft, where the encoder reads 0
+    _pulses_per_rotation = PULSES
+
+    def __init__(self, channelA: Any, channelB: Any, *settings: Any, **named: Any) -> None:
+        self._register("DIO", name_port(channelA), name_port(channelB))
+        self._reversed = any(one is True for one in (*settings, named.get("reverseDirection")))
+
+    def _count(self, rotations: float) -> float:
+        return rotations * self._pulses_per_rotation * (-1 if self._reversed else 1)
+
+    def get(self) -> int:
+        return int(self._count(self._shaft.position - self._zero))
+
+    def getRaw(self) -> int:
+        return int(EDGES * self._count(self._shaft.position - self._zero))
+
+    def getDistance(self) -> float:
+        return self._count(self._shaft.position - self._zero) * self._scale
+
+    def getRate(self) -> float:
+        return self._count(self._shaft.velocity) * self._scale
+
+    def reset(self) -> None:
+        self._zero = self._shaft.position
+
+    def setReverseDirection(self, reverseDirection: bool) -> None:
+        self._reversed = reverseDirection
+
+    def setDistancePerPulse(self, distancePerPulse: float) -> None:
+        self._scale = distancePerPulse
+
+
+@fake(ENCODERS, "wpilib")
+class DutyCycleEncoder(Device):
+    """An absolute encoder on a DIO port (allwpilib v2026, .../wpilibj/DutyCycleEncoder.java)."""
+
+    _kind = "DIO"
+
+    def __init__(self, channel: Any, fullRange: float = 1.0, expectedZero: float = 0.0) -> None:
+        self._register(self._kind, name_port(channel))
+        self._range, self._expected = fullRange, expectedZero
+        self._inverted = False
+
+    def get(self) -> float:
+        value = (self._shaft.position * self._range - self._expected) % self._range
+        return self._range - value if self._inverted else value
+
+    def isConnected(self) -> bool:
+        return True
+
+    def setInverted(self, inverted: bool) -> None:
+        self._inverted = inverted
+
+
+@fake(ENCODERS, "wpilib")
+class AnalogEncoder(DutyCycleEncoder):
+    """An absolute encoder on an analog port (allwpilib v2026, .../wpilibj/AnalogEncoder.java)."""
+
+    _kind = "Analog"
+
+
+@fake("com.studica.frc com.kauailabs.navx.frc", "navx", name="AHRS")
+class Gyro(Fake):
+    """A gyro that never turns."""
+
+    def __init__(self, *_settings: Any, **_named: Any) -> None:
+        pass
+
+    def getAngle(self, *_axis: Any) -> float:
+        return 0.0
+
+    getYaw = getRate = getAngle
+
+
+for _name in GYROS.split():
+    fake("edu.wpi.first.wpilibj", "wpilib", name=_name)(Gyro)

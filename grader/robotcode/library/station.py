@@ -1,0 +1,276 @@
+"""The driver station, the robot controller, and what else is built into a robot."""
+
+from collections.abc import Callable
+from enum import Enum
+from typing import Any
+
+from grader.robotcode.library.base import JAVA, PYTHON, Fake, Unknown, fake
+from grader.robotcode.library.devices import Device
+from grader.robotcode.library.timing import NO_MATCH_TIME, WPILIB, in_seconds
+from grader.robotcode.library.units import CONSTANTS, Measure
+from grader.robotcode.library.world import PERIOD, WORLD, Joystick
+
+STATION = "edu.wpi.first.wpilibj org.wpilib.driverstation"
+FRAMEWORK = "edu.wpi.first.wpilibj org.wpilib.framework"
+MICROSECONDS = 1e6  # in a second
+
+
+def make_optional(value: Any) -> Any:  # any value
+    """A value that may be absent, as the program's language has it."""
+    if WORLD.language == "python":
+        return value
+    optional = JAVA["java.util.Optional"]
+    return optional.empty() if value is None else optional.of(value)
+
+
+def read_joystick(port: int) -> Joystick:
+    """What the driver does with the controller in a port: nothing, if none is plugged in."""
+    return WORLD.joysticks.get(port) or Joystick()
+
+
+def check_edge(port: int, button: int, *, pressed: bool) -> bool:
+    """Whether a button was pressed, or else released, since this was last asked."""
+    last = WORLD.singletons.setdefault("button edges", {})
+    now = button in read_joystick(port).buttons
+    before = last.get((port, button, pressed), False)
+    last[port, button, pressed] = now
+    return now != before and now == pressed
+
+
+class Alliance(Enum):
+    """The side that a robot plays for."""
+
+    Red = kRed = RED = 0
+    Blue = kBlue = BLUE = 1
+
+
+class MatchType(Enum):
+    """What is being played."""
+
+    None_ = kNone = NONE = 0
+    Practice = kPractice = PRACTICE = 1
+    Qualification = kQualification = QUALIFICATION = 2
+    Elimination = kElimination = ELIMINATION = 3
+
+
+JAVA["org.wpilib.driverstation.Alliance"] = Alliance
+JAVA["org.wpilib.driverstation.MatchType"] = MatchType
+
+
+def is_in_test_mode() -> bool:
+    """Whether the robot is in test mode; ``"asked"`` has where this was asked, and when first."""
+    asked = WORLD.singletons.setdefault("asked", {})
+    asked[WORLD.where()] = WORLD.time
+    return WORLD.mode == "test"
+
+
+def _ask(kind: type, answer: Callable[[], Any]) -> Any:  # a static method
+    """A static method without arguments, whose answer is of a type."""
+
+    def ask() -> Any:  # of the type below
+        return answer()
+
+    ask.__annotations__["return"] = kind
+    ask.__qualname__ = "this method"
+    return staticmethod(ask)
+
+
+@fake(STATION, "wpilib", complete=True, others="getControlState refreshData")
+class RobotState(Fake):
+    """The mode that the robot is in (allwpilib v2026, wpilibj/.../RobotState.java)."""
+
+    isEnabled = _ask(bool, lambda: WORLD.enabled)
+    isDisabled = _ask(bool, lambda: not WORLD.enabled)
+    isEStopped = _ask(bool, lambda: False)
+    isAutonomous = isAutonomousEnabled = _ask(bool, lambda: WORLD.mode == "autonomous")
+    isTeleop = isTeleopEnabled = _ask(bool, lambda: WORLD.mode == "teleop")
+    isTest = isTestEnabled = _ask(bool, lambda: is_in_test_mode())
+    isUtility = isUtilityEnabled = isTest  # its name from 2027 on
+    isDSAttached = _ask(bool, lambda: True)
+    isFMSAttached = _ask(bool, lambda: WORLD.fms)
+
+
+@fake(
+    STATION,
+    "wpilib",
+    complete=True,
+    others="getJoystickAxisType getJoystickName getJoystickType getRawAllianceStation startDataLog"
+    " getStickAxisCount getStickButtonCount getStickButtons getStickPOVCount kJoystickPorts"
+    " isJoystickConnectionWarningSilenced provideRefreshedDataEventHandle reportError reportWarning"
+    " removeRefreshedDataEventHandle silenceJoystickConnectionWarning waitForDsConnection",
+)
+class DriverStation(RobotState):
+    """The driver station (allwpilib v2026, wpilibj/.../DriverStation.java)."""
+
+    Alliance = Alliance
+    MatchType = MatchType
+
+    getAlliance = _ask(object, lambda: make_optional(Alliance.__members__.get(WORLD.alliance)))
+    getLocation = _ask(object, lambda: make_optional(1 if WORLD.alliance else None))
+    getMatchTime = _ask(float, lambda: NO_MATCH_TIME)
+    getMatchType = _ask(MatchType, lambda: MatchType(2 if WORLD.fms else 0))
+    getMatchNumber = _ask(int, lambda: int(WORLD.fms))
+    getReplayNumber = _ask(int, lambda: 0)
+    getEventName = _ask(str, lambda: "EVENT" if WORLD.fms else "")
+    getGameSpecificMessage = _ask(str, lambda: "")
+    getBatteryVoltage = _ask(float, lambda: WORLD.battery)
+
+    @staticmethod
+    def isJoystickConnected(stick: int) -> bool:
+        return stick in WORLD.joysticks
+
+    getJoystickIsXbox = isJoystickConnected
+
+    @staticmethod
+    def getStickButton(stick: int, button: int) -> bool:
+        return button in read_joystick(stick).buttons
+
+    @staticmethod
+    def getStickButtonPressed(stick: int, button: int) -> bool:
+        return check_edge(stick, button, pressed=True)
+
+    @staticmethod
+    def getStickButtonReleased(stick: int, button: int) -> bool:
+        return check_edge(stick, button, pressed=False)
+
+    @staticmethod
+    def getStickAxis(stick: int, axis: int) -> float:
+        return read_joystick(stick).axes.get(axis, 0.0)
+
+    @staticmethod
+    def getStickPOV(stick: int, pov: int = 0) -> int:
+        return read_joystick(stick).pov if pov == 0 else -1
+
+
+@fake(WPILIB, "wpilib")
+class RobotController(Fake):
+    """The computer on the robot (allwpilib v2026, wpilibj/.../RobotController.java)."""
+
+    getBatteryVoltage = getInputVoltage = _ask(float, lambda: WORLD.battery)
+    getMeasureBatteryVoltage = getMeasureInputVoltage = _ask(
+        Measure, lambda: CONSTANTS["Volts"].of(WORLD.battery)
+    )
+    getFPGATime = getTime = getMonotonicTime = _ask(int, lambda: round(WORLD.time * MICROSECONDS))
+    getUserButton = isBrownedOut = _ask(bool, lambda: False)
+    isSysActive = _ask(bool, lambda: WORLD.enabled)
+
+
+@fake(FRAMEWORK, "wpilib")
+class RobotBase(RobotState):
+    """The base of all robots (allwpilib v2026, wpilibj/.../RobotBase.java)."""
+
+    isReal = _ask(bool, lambda: WORLD.real)
+    isSimulation = _ask(bool, lambda: not WORLD.real)
+
+
+def _do_nothing(self: Any) -> None:
+    """What a robot does in a mode that its program says nothing about."""
+
+
+@fake(FRAMEWORK, "wpilib")
+class IterativeRobotBase(RobotBase):
+    """A robot whose methods run once a loop (allwpilib v2026, .../IterativeRobotBase.java)."""
+
+    robotInit = driverStationConnected = simulationInit = _do_nothing
+    robotPeriodic = simulationPeriodic = _do_nothing
+    disabledInit = autonomousInit = teleopInit = testInit = utilityInit = _do_nothing
+    disabledPeriodic = autonomousPeriodic = teleopPeriodic = testPeriodic = _do_nothing
+    disabledExit = autonomousExit = teleopExit = testExit = utilityExit = _do_nothing
+    utilityPeriodic = _do_nothing
+
+    def __init__(self, period: Any = PERIOD) -> None:  # a number or a Time
+        self._period = in_seconds(period)
+
+    def getPeriod(self) -> float:
+        return self._period
+
+
+@fake(FRAMEWORK, "wpilib")
+class TimedRobot(IterativeRobotBase):
+    """The robot that nearly every team has (allwpilib v2026, wpilibj/.../TimedRobot.java)."""
+
+    kDefaultPeriod = PERIOD
+
+    def addPeriodic(self, callback: Callable[..., Any], *times: Any) -> None:
+        WORLD.each_loop.append(callback)
+
+
+@fake(WPILIB, "wpilib")
+class Notifier(Fake):
+    """Runs a function by itself (allwpilib v2026, wpilibj/.../Notifier.java): once a loop."""
+
+    def __init__(self, callback: Callable[..., Any]) -> None:
+        self._callback = callback
+        self._due: Any = None  # [s] when it runs once; None if it runs again and again
+
+    def _run(self) -> None:
+        if self._due is None:
+            self._callback()
+        elif WORLD.time >= self._due:
+            self.stop()
+            self._callback()
+
+    def _start(self, due: Any) -> None:  # may be unknown
+        self._due = due
+        self.stop()
+        WORLD.each_loop.append(self._run)
+
+    def startPeriodic(self, period: Any) -> None:  # a number or a measure
+        self._start(None)
+
+    def startSingle(self, delay: Any) -> None:  # a number or a Time
+        self._start(WORLD.time + in_seconds(delay))
+
+    def stop(self) -> None:
+        if self._run in WORLD.each_loop:
+            WORLD.each_loop.remove(self._run)
+
+    close = stop
+
+
+class _Input(Device):
+    """A sensor on a port of the robot controller, whose ``_value`` the bench sets."""
+
+    _value: Any = 0.0
+
+    def __init__(self, channel: Any, *settings: Any) -> None:
+        self._register("DIO" if self._value is False else "analog", channel)
+
+
+@fake("edu.wpi.first.wpilibj org.wpilib.hardware.discrete", "wpilib")
+class DigitalInput(_Input):
+    """A switch (allwpilib v2026, wpilibj/.../DigitalInput.java)."""
+
+    _value = False
+
+    def get(self) -> bool:
+        return self._value
+
+
+@fake("edu.wpi.first.wpilibj org.wpilib.hardware.discrete", "wpilib")
+class AnalogInput(_Input):
+    """A voltage that is measured (allwpilib v2026, wpilibj/.../AnalogInput.java)."""
+
+    def getVoltage(self) -> float:
+        return self._value
+
+
+@fake("edu.wpi.first.wpilibj org.wpilib.hardware.rotation", "wpilib")
+class AnalogPotentiometer(_Input):
+    """A potentiometer (allwpilib v2026, wpilibj/.../AnalogPotentiometer.java)."""
+
+    def get(self) -> float:
+        return self._value
+
+
+for _name in (
+    "Solenoid",
+    "DoubleSolenoid",
+    "PowerDistribution",
+    "BuiltInAccelerometer",
+    "Alert",
+    "Filesystem",
+):
+    fake(f"{WPILIB} {STATION}", "wpilib", name=_name)(type(_name, (Fake,), {}))
+for _name in ("getDeployDirectory", "getOperatingDirectory", "reportError", "reportWarning"):
+    PYTHON["wpilib"][_name] = Unknown(f"wpilib.{_name}")

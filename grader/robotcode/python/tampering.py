@@ -1,0 +1,295 @@
+"""Python code that changes Python or WPILib itself, so that running it does not show what it does.
+
+A robot program that replaces a method of WPILib, runs text as code, looks into other functions'
+variables or ends the process can forge what a run shows: it shares its process with the bench. No
+robot needs that, so such a file is refused; a person has to look at it. What a program imports
+from its own folders is looked at in the same way.
+"""
+
+import ast
+import io
+import re
+import sys
+import tokenize
+import warnings
+from collections.abc import Iterator
+from pathlib import Path
+
+from grader.robotcode.python.sandbox_files import list_program_files
+from sim.core.errors import UnreadableFile
+
+
+def _words(text: str) -> frozenset[str]:
+    return frozenset(text.split())
+
+
+PACKAGES = _words(  # wpilib and commands2, and what they are made of
+    "wpilib commands2 hal ntcore wpimath wpinet wpiutil native numpy typing_extensions"
+)
+
+# Modules that reach into a running program, by whichever name they are met: random._os is os.
+INSIDES = _words(
+    "builtins ctypes ctypeslib gc importlib inspect marshal mmap mock multiprocessing nt pickle "
+    "pkgutil posix runpy shutil subprocess unittest"
+)
+NOT_IMPORTED = INSIDES | _words(
+    "_thread atexit bdb cProfile code codeop dis doctest faulthandler fcntl grader imp io pdb "
+    "profile resource signal site tempfile timeit trace tracemalloc zipimport"
+)
+PARTLY = {  # what is harmless of modules that robot programs do use
+    "os": _words("PathLike curdir environ fspath getcwd getenv linesep listdir name path sep"),
+    "sys": _words(
+        "argv byteorder exit executable float_info maxsize path platform stderr stdout version "
+        "version_info"
+    ),
+}
+CALLS = _words(
+    "__builtins__ __import__ __loader__ __spec__ breakpoint compile delattr eval exec globals "
+    "locals setattr vars"
+)
+ATTRIBUTES = _words(
+    "ForwardRef _current_frames _evaluate _getframe ag_frame attrgetter cr_frame f_back f_builtins "
+    "f_globals f_locals get_type_hints gi_frame hardlink_to methodcaller runstring savetxt "
+    "settrace setprofile symlink_to tb_frame tb_next tofile write_bytes write_text"
+)
+DUNDERS = _words(
+    "__all__ __class__ __doc__ __enter__ __exit__ __file__ __init__ __init_subclass__ __name__ "
+    "__post_init__ __qualname__ __version__"
+)
+MOST_CODE = 2_000_000  # [bytes] of all files together; a robot program has a fiftieth of it
+UTF_8 = frozenset({"utf-8", "utf-8-sig"})
+NOTES = frozenset({".csv", ".json", ".log", ".txt"})  # what a robot may write; no code, no devices
+LIBRARY_METHOD = re.compile(r"(get|set|is)([A-Z_]\w*)?$")
+
+
+def refuse_tampering(path: Path) -> None:
+    """Refuse a Python program that can change what reading and running it show.
+
+    Args:
+        path: the learner's file; what it imports from its own folders is looked at, too.
+
+    Raises:
+        UnreadableFile: it does; where, and what to do.
+    """
+    local = _local(path)
+    for file, tree in _parsed(path):
+        line, what = next(_found(file, tree, local), (0, ""))
+        if line:
+            raise _refusal(what, path if file == path else Path(file.name), line)
+
+
+def list_foreign_imports(path: Path) -> set[str]:
+    """The libraries that a program imports, Python's own among them."""
+    local, found = _local(path), set()
+    for _, tree in _parsed(path):
+        for node in ast.walk(tree):
+            if isinstance(node, ast.ImportFrom) and not node.level:
+                found.add((node.module or "").partition(".")[0])
+            elif isinstance(node, ast.Import):
+                found |= {alias.name.partition(".")[0] for alias in node.names}
+    return found - local
+
+
+def _refusal(what: str, file: Path, line: int) -> UnreadableFile:
+    return UnreadableFile(
+        f"{what}, so the grader cannot see what this code does",
+        where=f"{file}, line {line}",
+        advice="Remove it: a robot program does not need it. Then grade again.",
+    )
+
+
+def _parsed(path: Path) -> Iterator[tuple[Path, ast.Module]]:
+    """The file and what it imports from its own folders, each as a tree.
+
+    Raises:
+        UnreadableFile: it is too much, or in an encoding that hides what is in it.
+    """
+    there = [path, *(one for one in list_program_files(path) if one.suffix == ".py")]
+    todo, seen, size = [path], {path.resolve()}, 0
+    while todo:
+        file = todo.pop()
+        try:
+            text = file.read_bytes()
+            encoding, _ = tokenize.detect_encoding(io.BytesIO(text).readline)
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")  # of a learner's text, which says them itself
+                tree = ast.parse(text)
+        except (OSError, ValueError, SyntaxError, RecursionError, MemoryError):
+            continue  # whoever imports it stops there
+        size += len(text)
+        if encoding not in UTF_8 or size > MOST_CODE:
+            what = "it is too much code" if size > MOST_CODE else f"it is written in {encoding}"
+            raise _refusal(what, path if file == path else Path(file.name), 1)
+        yield file, tree
+        asked = {part for node in ast.walk(tree) for part in _imported(node)}
+        for one in there:
+            name = one.parent.name if one.stem == "__init__" else one.stem
+            wanted = name in asked or name in sys.stdlib_module_names or name in PACKAGES
+            if wanted and one.resolve() not in seen:
+                seen.add(one.resolve())
+                todo.append(one)
+
+
+def _local(path: Path) -> frozenset[str]:
+    """The names of modules that are the program's own."""
+    files = [one for one in list_program_files(path) if one.suffix == ".py"]
+    return frozenset({one.stem for one in files} | {one.parent.name for one in files})
+
+
+def _imported(node: ast.AST) -> Iterator[str]:
+    """The parts of the names an import asks for."""
+    if isinstance(node, ast.Import | ast.ImportFrom):
+        for alias in node.names:
+            yield from alias.name.split(".")
+        yield from (getattr(node, "module", None) or "").split(".")
+
+
+def _found(file: Path, tree: ast.Module, local: frozenset[str]) -> Iterator[tuple[int, str]]:
+    """Each line that tampers, and what it does."""
+    if file.stem in PACKAGES:
+        yield 1, f"this file replaces WPILib's own {file.stem}"
+    foreign = _foreign(tree, local)
+    bases = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Attribute)}
+    calls = {id(node.func): node for node in ast.walk(tree) if isinstance(node, ast.Call)}
+    for node in ast.walk(tree):
+        said = ""
+        if isinstance(node, ast.Import | ast.ImportFrom):
+            said = _import(node, local)
+        elif isinstance(node, ast.Name):
+            said = _name(node, id(node) in bases, calls.get(id(node)))
+        elif isinstance(node, ast.Attribute):
+            said = _attribute(node, id(node) in bases, calls.get(id(node)), foreign)
+        if said:
+            yield node.lineno, said  # type: ignore[attr-defined]  # all four kinds have one
+
+
+def _import(node: ast.Import | ast.ImportFrom, local: frozenset[str]) -> str:
+    module = (getattr(node, "module", None) or "").partition(".")[0]
+    for alias in node.names:
+        top, _, _ = alias.name.partition(".")
+        part = alias.name if module in PARTLY else ""
+        if module in PARTLY and part not in PARTLY[module]:
+            return f"it imports {part} of {module}"
+        if module and alias.name.strip("_") in INSIDES | PARTLY.keys():
+            return f"it imports {alias.name} of {module}"
+        if not module and top in PARTLY and alias.asname:
+            return f"it gives {top} another name"
+        whole = module or top
+        if whole in NOT_IMPORTED and whole not in local:
+            return f"it imports {whole}"
+    return ""
+
+
+def _name(node: ast.Name, is_base: bool, call: ast.Call | None) -> str:  # noqa: FBT001 - what is around the node
+    if not isinstance(node.ctx, ast.Load):
+        return ""
+    if node.id in CALLS or _hidden_part(node.id):
+        return f"it uses {node.id}"
+    if node.id in PARTLY and not is_base:
+        return f"it gives {node.id} another name"
+    if node.id == "getattr" and not _plain_getattr(call):
+        return "it uses getattr with a name that cannot be read"
+    if node.id == "open" and not (_only_reads(call, mode_at=1) or _writes_notes(call)):
+        return "it writes a file that may be code"
+    return ""
+
+
+def _attribute(
+    node: ast.Attribute,
+    is_base: bool,  # noqa: FBT001 - what is around the node
+    call: ast.Call | None,
+    foreign: frozenset[str],
+) -> str:
+    name, plain = node.attr, node.attr.strip("_")
+    base = _last(node.value).strip("_")
+    if base in PARTLY and name not in PARTLY[base]:
+        return f"it uses {base}.{name}"
+    if plain in INSIDES or name in ATTRIBUTES or _hidden_part(name):
+        return f"it uses {name}"
+    if plain in PARTLY and not is_base:
+        return f"it gives {name} another name"
+    if name == "open" and call is not None and not _only_reads(call, mode_at=0):
+        return "it writes a file that may be code"
+    if not isinstance(node.ctx, ast.Load) and _of_a_library(node, foreign):
+        return f"it replaces {name} of {_root(node.value) or 'a library'}"
+    return ""
+
+
+def _hidden_part(name: str) -> bool:
+    """Whether it is one of Python's own names, ``__dict__``, that lead into its insides."""
+    return name.startswith("__") and name.endswith("__") and name not in DUNDERS
+
+
+def _last(node: ast.AST) -> str:
+    if isinstance(node, ast.Attribute):
+        return node.attr
+    return node.id if isinstance(node, ast.Name) else ""
+
+
+def _plain_getattr(call: ast.Call | None) -> bool:
+    """Whether the name that getattr is asked for can be read, and is an ordinary one."""
+    if call is None or len(call.args) < 2 or not isinstance(call.args[1], ast.Constant):  # noqa: PLR2004 - of what, and which
+        return False
+    name = str(call.args[1].value)
+    return not name.startswith("__") and name not in INSIDES | PARTLY.keys() | ATTRIBUTES
+
+
+def _only_reads(call: ast.Call | None, *, mode_at: int) -> bool:
+    if call is None or any(word.arg in {None, "opener"} for word in call.keywords):
+        return False
+    modes = [*call.args[mode_at : mode_at + 1]]
+    modes += [word.value for word in call.keywords if word.arg == "mode"]
+    return all(
+        isinstance(one, ast.Constant) and str(one.value).strip("bt") == "r" for one in modes
+    ) and not any(isinstance(one, ast.Starred) for one in call.args)
+
+
+def _writes_notes(call: ast.Call | None) -> bool:
+    """Whether the file that is opened is named in the code, and is one for text."""
+    name = call.args[0] if call is not None and call.args else None
+    if not isinstance(name, ast.Constant) or not isinstance(name.value, str):
+        return False
+    return Path(name.value).suffix in NOTES and not name.value.startswith(("/dev", "/proc"))
+
+
+def _foreign(tree: ast.Module, local: frozenset[str]) -> frozenset[str]:
+    """The names that stand for something of a library: imported, or another name of that."""
+    found: set[str] = set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import | ast.ImportFrom):
+            module = getattr(node, "module", None) or ""
+            within = bool(getattr(node, "level", 0)) or module.partition(".")[0] in local
+            for alias in node.names:
+                top = alias.name.partition(".")[0]
+                if not within and (module or top not in local):
+                    found.add(alias.asname or top)
+    other_names: dict[str, set[str]] = {}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Assign) and not _called(node.value):
+            names = {one.id for one in node.targets if isinstance(one, ast.Name)}
+            other_names.setdefault(_root(node.value), set()).update(names)
+    todo = [*found]
+    while todo:
+        more = other_names.get(todo.pop(), set()) - found
+        found |= more
+        todo += more
+    return frozenset(found)
+
+
+def _of_a_library(node: ast.Attribute, foreign: frozenset[str]) -> bool:
+    """Whether setting this attribute changes a library, or an object of one."""
+    kinds = [one for one in ast.walk(node.value) if _last(one) in {"type", "__class__"}]
+    if kinds or (_root(node.value) in foreign and not _called(node.value)):
+        return True
+    own = isinstance(node.value, ast.Name) and node.value.id in {"self", "cls"}
+    return not own and LIBRARY_METHOD.match(node.attr) is not None
+
+
+def _root(node: ast.AST) -> str:
+    while isinstance(node, ast.Attribute | ast.Subscript | ast.Call):
+        node = node.func if isinstance(node, ast.Call) else node.value
+    return node.id if isinstance(node, ast.Name) else ""
+
+
+def _called(node: ast.AST) -> bool:
+    return any(isinstance(one, ast.Call) for one in ast.walk(node))

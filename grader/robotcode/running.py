@@ -1,0 +1,173 @@
+"""Runs a learner's robot code, and gives the facts: once, or twice where nobody knows a condition.
+
+What cannot be known (a class in a file that was not handed in, a vendor's class without a fake) is
+assumed once to be false and once to be true. A verdict that is the same both ways stands; else the
+learner is asked.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from grader.check import NotReachedError, NotRunError, WrongAnswer
+from grader.robotcode.bench.facts import RoutineFacts
+from grader.robotcode.bench.simulation import Mount
+from grader.robotcode.library.world import WORLD
+from grader.robotcode.source import detect_language
+from grader.submission import read_text
+from sim.core.errors import UnreadableFile
+
+if TYPE_CHECKING:
+    from grader.robotcode.bench.button_run import ButtonFacts, ButtonSubject
+    from grader.robotcode.bench.gains_run import GainFacts
+    from grader.robotcode.bench.routine_run import Subject
+    from grader.robotcode.problems import ParseProblem
+
+Runs = tuple[Any, ...]
+Mounts = Mapping[str, Mapping[Any, Mount]]
+
+
+def run_routine(
+    path: Path, *, mounts: Mounts, task: str, run: bool = True
+) -> tuple[RoutineFacts, ...]:
+    """Run the SysIdRoutine of a file.
+
+    Args:
+        path: the learner's file.
+        mounts: how the motors of the task's own class are built in, by language and port.
+        task: the name of that class.
+        run: whether Python may be run.
+
+    Raises:
+        UnreadableFile: it cannot be read, or does not parse.
+        NotRunError: it is Python, which may not be run.
+    """
+    read_text(path)
+    language = detect_language(path)
+    built = dict(mounts[language]) if task in path.read_text("utf-8", "replace") else {}
+    if language == "python":
+        if not run:
+            raise NotRunError("Python robot code is graded by running it")
+        from grader.robotcode.python import run_python  # noqa: PLC0415 - only for Python
+
+        return run_python(path, "routine", built)
+    return _run_java(path, lambda subject: _routine_facts(subject, built), "SysIdRoutine")
+
+
+def run_buttons(path: Path, *, run: bool = True) -> tuple[Any, ...]:
+    """Press every button of a robot's container.
+
+    Args:
+        path: the learner's file.
+        run: whether Python may be run.
+
+    Raises:
+        UnreadableFile: it cannot be read, or does not parse.
+        NotRunError: it is Python, which may not be run.
+    """
+    read_text(path)
+    if detect_language(path) == "python":
+        if not run:
+            raise NotRunError("Python robot code is graded by running it")
+        from grader.robotcode.python import run_python  # noqa: PLC0415 - only for Python
+
+        return run_python(path, "buttons", {})
+    return _run_java(path, _button_facts, "")
+
+
+def _button_facts(subject: "ButtonSubject") -> "ButtonFacts":
+    from grader.robotcode.bench.button_run import ButtonBench  # noqa: PLC0415 - as above
+
+    return ButtonBench(subject).run()
+
+
+def run_gains(path: Path, *, run: bool = True) -> tuple[Any, ...]:
+    """Make the class of a file, and look at the gains that it holds.
+
+    Args:
+        path: the learner's file.
+        run: whether Python may be run.
+
+    Raises:
+        UnreadableFile: it cannot be read, or does not parse.
+        NotRunError: it is Python, which may not be run.
+    """
+    read_text(path)
+    if detect_language(path) == "python":
+        if not run:
+            raise NotRunError("Python robot code is graded by running it")
+        from grader.robotcode.python import run_python  # noqa: PLC0415 - only for Python
+
+        return run_python(path, "gains", {})
+    return _run_java(path, _gain_facts, "")
+
+
+def _gain_facts(subject: "Subject") -> "GainFacts":
+    from grader.robotcode.bench.gains_run import GainsBench  # noqa: PLC0415 - as above
+
+    return GainsBench(subject).run()
+
+
+def _routine_facts(subject: "Subject", mounts: dict[Any, Mount]) -> RoutineFacts:
+    from grader.robotcode.bench.routine_run import RoutineBench  # noqa: PLC0415 - one for each language
+
+    stored = {port: {"inverted": mount.inverted} for port, mount in mounts.items()}
+    WORLD.singletons["stored"] = stored
+    return RoutineBench(subject, mounts).run()
+
+
+def _run_java(path: Path, look: Callable[[Any], Any], wanted: str) -> tuple[Any, ...]:
+    from grader.robotcode.bench.java_subject import JavaSubject  # noqa: PLC0415 - tree-sitter
+
+    found = []
+    for assume in (False, True):
+        WORLD.reset("java", assume=assume)
+        subject = JavaSubject(path, wanted)
+        refuse_problems(subject.program.problems, path)
+        found.append(look(subject))
+        if not WORLD.undecided:
+            break
+    return tuple(found)
+
+
+def refuse_problems(problems: Sequence["ParseProblem"], path: Path) -> None:
+    """Refuse a text that does not parse.
+
+    Raises:
+        UnreadableFile: with the first place.
+    """
+    if problems:
+        raise UnreadableFile(
+            problems[0].message,
+            where=f"{path}, line {problems[0].line}",
+            advice="Fix that line first: code with a mistake like this does not compile.",
+        )
+
+
+def judge_runs(runs: Runs, judge: Callable[[Any], str | None]) -> str | None:
+    """Judge a program by each of its runs.
+
+    Returns:
+        A note.
+
+    Raises:
+        WrongAnswer: it is wrong in each; or right in one only, and then the learner is asked.
+        NotReachedError: there is nothing to look at yet.
+    """
+    notes, wrong = [], []
+    for one in runs:
+        try:
+            notes.append(judge(one))
+        except (WrongAnswer, NotReachedError) as why:
+            wrong.append(why)
+    if not wrong:
+        return notes[0]
+    if notes and isinstance(wrong[0], WrongAnswer):
+        text, line = next(iter(runs[0].unknown.items()), ("a condition", 0))
+        raise WrongAnswer(
+            f"the grader cannot know whether {text} is true (line {line}), and it matters here",
+            hint=f"If it may not be so, this is wrong: {wrong[0].seen}. Hand in the file that "
+            "decides it, or write the code so that it does not depend on it.",
+            earned=wrong[0].earned,
+        )
+    raise wrong[0]

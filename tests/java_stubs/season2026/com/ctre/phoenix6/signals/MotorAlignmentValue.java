@@ -1,8 +1,0 @@
-// Signatures of Phoenix 6 26.x: https://api.ctr-electronics.com/phoenix6/stable/java/com/ctre/phoenix6/signals/MotorAlignmentValue.html
-
-package com.ctre.phoenix6.signals;
-
-public enum MotorAlignmentValue {
-  Aligned,
-  Opposed
-}
