@@ -46,11 +46,7 @@ def run_routine(
     language = detect_language(path)
     built = dict(mounts[language]) if task in path.read_text("utf-8", "replace") else {}
     if language == "python":
-        if not run:
-            raise NotRunError("Python robot code is graded by running it")
-        from grader.robotcode.python import run_python  # noqa: PLC0415 - only for Python
-
-        return run_python(path, "routine", built)
+        return _run_python(path, "routine", built, run=run)
     return _run_java(path, lambda subject: _routine_facts(subject, built), "SysIdRoutine")
 
 
@@ -67,11 +63,7 @@ def run_buttons(path: Path, *, run: bool = True) -> tuple[Any, ...]:
     """
     read_text(path)
     if detect_language(path) == "python":
-        if not run:
-            raise NotRunError("Python robot code is graded by running it")
-        from grader.robotcode.python import run_python  # noqa: PLC0415 - only for Python
-
-        return run_python(path, "buttons", {})
+        return _run_python(path, "buttons", {}, run=run)
     return _run_java(path, _button_facts, "")
 
 
@@ -94,11 +86,7 @@ def run_gains(path: Path, *, run: bool = True) -> tuple[Any, ...]:
     """
     read_text(path)
     if detect_language(path) == "python":
-        if not run:
-            raise NotRunError("Python robot code is graded by running it")
-        from grader.robotcode.python import run_python  # noqa: PLC0415 - only for Python
-
-        return run_python(path, "gains", {})
+        return _run_python(path, "gains", {}, run=run)
     return _run_java(path, _gain_facts, "")
 
 
@@ -114,6 +102,14 @@ def _routine_facts(subject: "Subject", mounts: dict[Any, Mount]) -> RoutineFacts
     stored = {port: {"inverted": mount.inverted} for port, mount in mounts.items()}
     WORLD.singletons["stored"] = stored
     return RoutineBench(subject, mounts).run()
+
+
+def _run_python(path: Path, kind: str, mounts: dict[Any, Mount], *, run: bool) -> tuple[Any, ...]:
+    if not run:
+        raise NotRunError("Python robot code is graded by running it")
+    from grader.robotcode.python import run_python  # noqa: PLC0415 - only for Python
+
+    return run_python(path, kind, mounts)
 
 
 def _run_java(path: Path, look: Callable[[Any], Any], wanted: str) -> tuple[Any, ...]:

@@ -7,12 +7,18 @@ to the test's end, and let go.
 
 import itertools
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 from grader.robotcode.bench.facts import TESTS, Stop
-from grader.robotcode.bench.routine_run import StoppedError, Subject, find_scheduler, is_subsystem
+from grader.robotcode.bench.routine_run import (
+    Bench,
+    StoppedError,
+    Subject,
+    find_scheduler,
+    is_subsystem,
+)
 from grader.robotcode.bench.simulation import Simulation, walk_fields
 from grader.robotcode.library.base import Unknown
 from grader.robotcode.library.world import PERIOD, WORLD, Joystick
@@ -158,35 +164,20 @@ class ButtonFacts:
     note: str = ""
 
 
-class ButtonBench:
+class ButtonBench(Bench):
     """A program whose buttons are pressed.
 
     Args:
         subject: the program.
     """
 
+    subject: ButtonSubject
+
     def __init__(self, subject: ButtonSubject) -> None:
         self.subject = subject
-        self.where = "start"
         self.held: set[Input] = set()
         self.switch: tuple[str, Any] | None = None
         self.released: dict[str, int] = {}
-
-    def guard(self, run: Callable[[], Any]) -> Any:
-        """Run a part of the program.
-
-        Raises:
-            StoppedError: it raised an error, or does not come back.
-        """
-        try:
-            return run()
-        except StoppedError:
-            raise
-        except BaseException as error:
-            if isinstance(error, KeyboardInterrupt | MemoryError):
-                raise
-            outcome, said, line, kind = self.subject.explain(error)
-            raise StoppedError(Stop(outcome, self.where, said, line, "", kind)) from error
 
     def run(self) -> ButtonFacts:
         """Start the program, press everything, and tell what happened."""

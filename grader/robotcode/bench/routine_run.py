@@ -91,19 +91,12 @@ class StoppedError(Exception):
         self.stop = stop
 
 
-class RoutineBench:
-    """A program with its routine, and what it does in the tests.
+class Bench:
+    """A program, with what of it runs now: a place of ``Stop``, and a test or nothing."""
 
-    Args:
-        subject: the program.
-        mounts: how the task's motors are built in, by the number of their port.
-    """
-
-    def __init__(self, subject: Subject, mounts: dict[Any, Mount]) -> None:
-        self.subject, self.mounts = subject, mounts
-        self.where, self.test = "start", ""
-        self.row: Row | None = None
-        self.sent: dict[str, dict[Sent, None]] = {}
+    subject: Subject
+    where: str = "start"
+    test: str = ""
 
     def guard(self, run: Callable[[], Any]) -> Any:
         """Run a part of the program.
@@ -120,6 +113,20 @@ class RoutineBench:
                 raise
             outcome, said, line, kind = self.subject.explain(error)
             raise StoppedError(Stop(outcome, self.where, said, line, self.test, kind)) from error
+
+
+class RoutineBench(Bench):
+    """A program with its routine, and what it does in the tests.
+
+    Args:
+        subject: the program.
+        mounts: how the task's motors are built in, by the number of their port.
+    """
+
+    def __init__(self, subject: Subject, mounts: dict[Any, Mount]) -> None:
+        self.subject, self.mounts = subject, mounts
+        self.row: Row | None = None
+        self.sent: dict[str, dict[Sent, None]] = {}
 
     def run(self) -> RoutineFacts:
         """Start the program, run all four tests, and tell what happened."""

@@ -247,7 +247,7 @@ class TypeChecker:
         return f"new {cls.name}() takes no arguments" if codes and cls.name else ""
 
     def misfit_of(self, methods: Sequence[Method], codes: Sequence[Code]) -> str:
-        """What javac says of arguments that none of the program's own methods takes."""
+        """What javac says of arguments that fit no method of that name."""
         said = ""
         for one in methods:
             kinds = [self.seen_from_here(one.owner, kind) for kind in one.kinds]

@@ -140,7 +140,7 @@ for _name in PWM_MOTORS.split():
 
 @fake(MOTORS, "wpilib", complete=True, others="initSendable close")
 class MotorControllerGroup(MotorController):
-    """Motors that get the same (allwpilib v2026, .../motorcontrol/MotorControllerGroup.java)."""
+    """Motors of one voltage (allwpilib v2026, .../motorcontrol/MotorControllerGroup.java)."""
 
     def __init__(self, *motors: Any) -> None:
         self._motors = [

@@ -47,7 +47,7 @@ def _find_way(direction: Any) -> str:
 
 
 def _show(value: Any) -> str:
-    """A measure with its unit, and whatever else as in other messages."""
+    """A value for a message: a measure with its unit, anything else as in other messages."""
     return str(value) if isinstance(value, Measure) else describe(value)
 
 

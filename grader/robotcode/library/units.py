@@ -29,7 +29,7 @@ CONSTANTS: dict[str, "Unit"] = {}  # name in Units -> unit
 
 
 def _multiply(one: Dimension, other: Dimension, power: int) -> Dimension:
-    """Dimension of one times the other to the power of 1 or -1."""
+    """The dimension of a product (power 1) or of a quotient (power -1)."""
     powers = dict(one)
     for letter, exponent in other:
         powers[letter] = powers.get(letter, 0) + power * exponent
