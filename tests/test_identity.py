@@ -7,13 +7,11 @@ from small_course import RIGHT, lay_out
 
 from grader.classroom.identity import check_identities
 from grader.classroom.secret import seal_identity
-from grader.classroom.submission_names import Identities, SubmissionName
 from grader.classroom.submissions import find_submissions
 from grader.cli import run_command
 from grader.course import load_progress
 from grader.exercise import list_exercises
 from grader.notebook import submit
-from grader.variant import make_folder_name
 from sim.core.errors import BadRequest
 
 SECRET = b"0123456789abcdef-east"
@@ -80,7 +78,9 @@ def test_practice_under_another_name_does_not_change_whose_package_it_is(course,
 
 def test_a_package_of_ones_own_is_graded(course, tmp_path):
     issue(course, "ann")
-    (one,) = check_identities(hand_in(course, tmp_path / "in", "ann"), secret=SECRET)
+    (one,) = check_identities(
+        hand_in(course, tmp_path / "in", "ann"), list_exercises(course), secret=SECRET
+    )
 
     assert (one.problem, one.numbers_owner) == ("", "ann")
 
@@ -94,7 +94,9 @@ def test_a_package_of_ones_own_is_graded(course, tmp_path):
 )
 def test_another_students_or_class_package_is_told(course, tmp_path, owner, secret, reads):
     issue(course, owner, secret=secret)
-    (one,) = check_identities(hand_in(course, tmp_path / "in", "ann"), secret=SECRET)
+    (one,) = check_identities(
+        hand_in(course, tmp_path / "in", "ann"), list_exercises(course), secret=SECRET
+    )
 
     reads(one.problem)
 
@@ -103,7 +105,9 @@ def test_a_class_without_its_secret_is_refused(course, tmp_path, reads):
     issue(course, "ann")
 
     with pytest.raises(BadRequest) as refused:
-        check_identities(hand_in(course, tmp_path / "in", "ann"), secret=None)
+        check_identities(
+            hand_in(course, tmp_path / "in", "ann"), list_exercises(course), secret=None
+        )
     reads(refused.value)
 
 
@@ -111,7 +115,9 @@ def test_who_never_gave_a_name_is_graded_on_the_numbers_they_had(course, tmp_pat
     assert run_command(["start", "--no-lab"]) == 0
     (course / ".course").mkdir(exist_ok=True)
     (course / ".course" / "progress.toml").write_text('student = "me"\n', encoding="utf-8")
-    (one,) = check_identities(hand_in(course, tmp_path / "in", "ann"), secret=None)
+    (one,) = check_identities(
+        hand_in(course, tmp_path / "in", "ann"), list_exercises(course), secret=None
+    )
 
     assert (one.problem, one.student, one.numbers_owner) == ("", "ann", "me")
     assert run_command(["class", str(tmp_path / "in")]) == 0
@@ -123,7 +129,9 @@ def test_a_folder_of_data_tells_it_too(course, tmp_path):
     (place / "data" / "me").mkdir(parents=True)
     (place / "data" / "me" / "log.csv").write_text("", encoding="utf-8")
     (one,) = check_identities(
-        find_submissions(tmp_path / "in", list_exercises(course)), secret=None
+        find_submissions(tmp_path / "in", list_exercises(course)),
+        list_exercises(course),
+        secret=None,
     )
 
     assert one.numbers_owner == "me"
@@ -132,20 +140,41 @@ def test_a_folder_of_data_tells_it_too(course, tmp_path):
 def test_a_course_started_as_somebody_else_is_told(course, tmp_path, reads):
     (course / ".course").mkdir()
     (course / ".course" / "progress.toml").write_text('student = "ben"\n', encoding="utf-8")
-    (one,) = check_identities(hand_in(course, tmp_path / "in", "ann"), secret=None)
+    (one,) = check_identities(
+        hand_in(course, tmp_path / "in", "ann"), list_exercises(course), secret=None
+    )
 
     reads(one.problem)
 
 
-@pytest.mark.parametrize("issued", [True, False])
-def test_a_served_home_is_its_students_whatever_its_folder_is_called(course, tmp_path, issued):
-    name = "Ben Öztürk"
-    if issued:
-        issue(course, name)
-    (course / ".course").mkdir(exist_ok=True)
-    (course / ".course" / "progress.toml").write_text(f'student = "{name}"\n', encoding="utf-8")
-    there = hand_in(course, tmp_path / "in", make_folder_name(name))
-    (one,) = check_identities(there, secret=SECRET if issued else None)
+def test_single_answers_without_a_secret_are_refused_until_somebody_says_whose_numbers(
+    course, tmp_path, capsys, reads
+):
+    place = tmp_path / "in"
+    place.mkdir()
+    (place / "Ann Lee - answers.toml").write_text(RIGHT, encoding="utf-8")
 
-    assert (one.problem, one.student, one.numbers_owner) == ("", name, name)
-    assert Identities({name: {}}).find(SubmissionName(make_folder_name(name))) == name
+    assert course.is_dir()
+    assert run_command(["class", str(place)]) == 2
+    reads(capsys.readouterr().err)
+    assert not (tmp_path / "in-graded").exists()
+    assert run_command(["class", str(place), "--self-study"]) == 0
+    assert capsys.readouterr().out.startswith("Graded without a secret, on the numbers of self-")
+
+
+def test_partners_may_hand_in_the_package_of_one_of_them(course, tmp_path):
+    issue(course, "ben")
+    there = hand_in(course, tmp_path / "in", "ann")
+    partners = {"ann": ("ben",), "ben": ("ann",)}
+    (one,) = check_identities(there, list_exercises(course), secret=SECRET, partners=partners)
+
+    assert (one.problem, one.student, one.numbers_owner) == ("", "ann", "ben")
+
+
+def test_a_packages_spelling_does_not_rename_a_student(course, tmp_path):
+    issue(course, "ANN")
+    (one,) = check_identities(
+        hand_in(course, tmp_path / "in", "ann"), list_exercises(course), secret=SECRET
+    )
+
+    assert (one.problem, one.student) == ("", "ann")

@@ -40,7 +40,7 @@ def people(tmp_path, text):
     ("name", "folder", "found"),
     [
         ("doejane_101_5555_exercises.zip", False, ("doejane", "101", "exercises.zip")),
-        ("doejane_LATE_101_5555_answers-2.toml", False, ("doejane", "101", "answers.toml")),
+        ("doejane_LATE_101_5555_answers-2.toml", False, ("doejane", "101", "answers-2.toml", True)),
         ("Jane Doe_4711_assignsubmission_file_exercises.zip", False,
          ("Jane Doe", "", "exercises.zip")),
         ("Jane Doe_4711_assignsubmission_file_", True, ("Jane Doe", "", "")),
@@ -56,8 +56,11 @@ def test_each_platforms_names_are_read(name, folder, found):
 
 
 @pytest.mark.parametrize("name", ["roster.csv", "notes.txt", "answers.toml"])
-def test_a_file_that_no_platform_named_is_nobodys(name):
-    assert parse_name(name, folder=False) is None
+def test_a_file_that_no_platform_named_belongs_to_whom_the_roster_knows(tmp_path, name):
+    found = parse_name(name, folder=False)
+
+    assert (found.guessed, found.file) == (True, name)
+    assert people(tmp_path, CANVAS).find(found) is None
 
 
 @pytest.mark.parametrize(
@@ -117,7 +120,8 @@ def test_a_canvas_download_is_graded_as_it_is(tmp_path, course):
     assert all(list(one.files) == ["exercise1"] for one in found.values())
     assert all(not one.problem for one in found.values())
     assert found["zoe"].files["exercise1"] == {"answers.toml": HALF.encode()}
-    assert find_stray_files(place) == ("roster.csv",)
+    assert [one.student for one in found.values() if one.late] == ["zoe"]
+    assert find_stray_files(place, roster) == ("roster.csv",)
 
 
 @pytest.fixture
@@ -291,8 +295,8 @@ def test_two_files_that_could_be_one_answer_are_refused_by_name(tmp_path, course
     (one,) = find_submissions(tmp_path / "in", course)
 
     assert one.problems == {
-        "exercise1": "there are two different files answers.toml: final/exercise1/answers.toml and "
-        "draft/exercise1/answers.toml. Keep the one that counts"
+        "exercise1": "there are 2 different files that may be the answer: "
+        "draft/exercise1/answers.toml, final/exercise1/answers.toml. Keep the one that counts"
     }
 
 
@@ -305,7 +309,7 @@ def test_many_tries_at_one_answer_are_not_the_best_of_them(tmp_path, course, mon
 
     assert run_command(["class", str(tmp_path / "in")]) == 1
     page = (tmp_path / "in-graded" / "students" / "ann.html").read_text(encoding="utf-8")
-    assert "5 files here could be the answer (a0.toml, a1.toml, a2.toml, …)" in page
+    assert "there are 5 different files that may be the answer: exercise1/a0.toml" in page
 
 
 def test_a_stranger_is_told_with_the_likely_student_and_not_graded(tmp_path, course, reads):

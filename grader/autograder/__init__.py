@@ -146,7 +146,7 @@ STEP = """\
         run: |
           code=0
           grade class exercises/{name} --student "$STUDENT" --exercise {name} \\
-            --export github --output "$RUNNER_TEMP/{name}" || code=$?
+            --self-study --export github --output "$RUNNER_TEMP/{name}" || code=$?
           if [ "$code" -gt 1 ]; then exit "$code"; fi
           cat "$RUNNER_TEMP/{name}"/github/*.txt >> "$GITHUB_OUTPUT"
 """

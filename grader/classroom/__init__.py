@@ -2,12 +2,15 @@
 
 submissions.py     what each student handed in, and who that is
 submitted_files.py the files in one folder or zip file
-sorted_files.py    which exercise each of them belongs to
+answer_files.py    which of them are graded: one rule
+identity.py        whose numbers they worked on;  roster.py  who is in the class
 grading.py         one student's files -> results; where learners' code is run, it is run apart
 store.py           results on disk: a run that was ended goes on where it stopped
 class_grading.py   all of them, on this machine or a cluster
+results.py         the results of everybody;  overrides.py  marks that an instructor sets
 item_analysis.py   which question, which misconception
+likeness.py        what is alike in the answers of two students
 result_pages.py    the overview
 exports/           the formats of gradebooks and of other people's systems
-roster.py          who is in the class;  secret.py  what only its instructor holds
+secret.py          what only the class's instructor holds
 """

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from grader.check import Status
+from grader.classroom.answer_files import Files
 from grader.classroom.bundle import unpack_course
-from grader.classroom.sorted_files import Files
 from grader.exercise import Exercise, Grade, list_exercises
 from grader.variant import use_class_secret
 from sim.support.printable import list_first

@@ -2,45 +2,84 @@
 
 import hmac
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from types import MappingProxyType
 
-from grader.class_package import PLACE, ClassPackage, parse_class_package
+from grader.class_package import PLACE, parse_class_package
+from grader.classroom.answer_files import PROGRESS
 from grader.classroom.secret import seal_identity
-from grader.classroom.sorted_files import PROGRESS
 from grader.classroom.submissions import Submission
 from grader.course import NOBODY
+from grader.exercise import Exercise
 from grader.variant import check_student_name, make_folder_name, normalize_name
 from sim.core.errors import BadRequest, Refusal
+from sim.support.printable import list_first
+
+SHOWN = 5  # names in one line
 
 
 def check_identities(
-    handed_in: Sequence[Submission], *, secret: bytes | None
+    handed_in: Sequence[Submission],
+    asked: Sequence[Exercise],
+    *,
+    secret: bytes | None,
+    self_study: bool = False,
+    partners: Mapping[str, Sequence[str]] = MappingProxyType({}),
 ) -> tuple[Submission, ...]:
     """The submissions, marked where a student handed in another's package or worked without a name.
 
     Args:
         handed_in: by everybody.
+        asked: the exercises that are graded.
         secret: of the class; None where everybody's numbers are those of self-study.
+        self_study: whether somebody said that these numbers are those of self-study.
+        partners: student -> those who may hand in the same work.
 
     Returns:
         The submissions, with a problem where the numbers are not the student's own.
 
     Raises:
-        BadRequest: a class issued packages with its secret, and no secret was named.
+        BadRequest: a class issued packages with its secret, and no secret was named; or nothing
+            says whose numbers the answers are about.
     """
-    return tuple(one if one.problem else _check_identity(one, secret) for one in handed_in)
+    if secret is None and not self_study:
+        _refuse_unknown_numbers(handed_in, asked)
+    return tuple(
+        one if one.problem else _check_identity(one, secret, partners.get(one.student, ()))
+        for one in handed_in
+    )
 
 
-def _check_identity(one: Submission, secret: bytes | None) -> Submission:
+def _refuse_unknown_numbers(handed_in: Sequence[Submission], asked: Sequence[Exercise]) -> None:
+    """Refuse to grade answers with the numbers of self-study where nothing says that they are.
+
+    Raises:
+        BadRequest: there are such answers.
+    """
+    personal = {one.name for one in asked if one.is_personal}
+    unknown = [
+        one.student
+        for one in handed_in
+        if not (one.problem or one.identities or one.data_folders) and personal & one.files.keys()
+    ]
+    if unknown:
+        raise BadRequest(
+            "nothing says which numbers these students worked on: "
+            f"{list_first(unknown, most=SHOWN, separator='; ')}",
+            advice="If they had packages of grade release, add --secret class.secret. If they "
+            "worked in the course without packages, add --self-study.",
+        )
+
+
+def _check_identity(one: Submission, secret: bytes | None, partners: Sequence[str]) -> Submission:
     content = one.identities.get(PLACE.as_posix())
     if content is None:
-        return one if secret is not None else _grade_as_started(one)
+        return one if secret is not None else _grade_as_started(one, partners)
     try:
         found = parse_class_package(content)
     except ValueError:
         return replace(one, problem=f"its {PLACE.name} cannot be read: was it changed?")
-    one = _by_name(one, found.student)
     if secret is None:
         raise BadRequest(
             f"the numbers of {one.student} were made for the class {found.name}, "
@@ -48,29 +87,38 @@ def _check_identity(one: Submission, secret: bytes | None) -> Submission:
             where=str(one.place),
             advice="Give the secret file that grade release made: --secret class.secret",
         )
-    return replace(one, problem=_explain_foreign_package(one, found, secret))
-
-
-def _explain_foreign_package(one: Submission, found: ClassPackage, secret: bytes) -> str:
-    """Why a class's package is not this student's; empty if it is."""
     mark = seal_identity(secret, student=found.student, name=found.name)
     if not hmac.compare_digest(mark.encode(), found.seal.encode()):
-        return (
+        said = (
             f"its package was issued to {found.student} ({found.name}) with another secret, or "
             f"its {PLACE.name} was changed"
         )
-    if not found.is_for(one.student):
-        return (
-            f"its package was issued to {found.student}, and {one.student} handed it in. Ask both. "
-            "Then give it the name of the student who did the work"
-        )
-    return ""
+        return replace(one, problem=said)
+    if found.is_for(one.student):
+        return one
+    if owner := _find_partner(found.student, partners):
+        return replace(one, worked_as=owner)
+    return replace(
+        one, problem=_explain_other_owner("its package was issued to", found.student, one)
+    )
 
 
-def _grade_as_started(one: Submission) -> Submission:
+def _explain_other_owner(what: str, owner: str, one: Submission) -> str:
+    return (
+        f"{what} {owner}, and {one.student} handed it in. Ask both. Then give it the name of the "
+        "student who did the work"
+    )
+
+
+def _find_partner(student: str, partners: Sequence[str]) -> str:
+    """The partner whose name this is; empty if it is nobody's."""
+    name = normalize_name(student)
+    return next((one for one in partners if normalize_name(one) == name), "")
+
+
+def _grade_as_started(one: Submission, partners: Sequence[str]) -> Submission:
     """The same, on the numbers of whoever the course was started as."""
     started_as = _read_started_student(one)
-    one = _by_name(one, started_as)
     if make_folder_name(one.student) in one.data_folders:
         return one
     if not started_as and make_folder_name(NOBODY) in one.data_folders:
@@ -79,20 +127,9 @@ def _grade_as_started(one: Submission) -> Submission:
         return one
     if started_as == NOBODY:  # these numbers are nobody's: whoever never gave a name has them
         return replace(one, worked_as=NOBODY)
-    return replace(
-        one,
-        problem=(
-            f"its course was started as {started_as}, and {one.student} handed it in. Ask both. "
-            "Then give it the name of the student who did the work"
-        ),
-    )
-
-
-def _by_name(one: Submission, student: str) -> Submission:
-    """The same, by the name whose folder `grade serve` gave the student; else as it is."""
-    if student and one.student.casefold() == make_folder_name(student):
-        return replace(one, student=student)
-    return one
+    if owner := _find_partner(started_as, partners):
+        return replace(one, worked_as=owner)
+    return replace(one, problem=_explain_other_owner("its course was started as", started_as, one))
 
 
 def _read_started_student(one: Submission) -> str:

@@ -8,6 +8,7 @@ from statistics import fmean, median
 from typing import Any
 
 from grader.classroom.grading import MISSING, GradedStudent
+from grader.classroom.results import is_graded
 
 MOST = 3  # wrong answers listed of one question
 FEWEST = 5  # [students] below, how a question tells them apart is chance
@@ -66,7 +67,7 @@ def analyze_items(students: Sequence[GradedStudent]) -> tuple[ItemStatistics, ..
     """Every question, in the order of the course."""
     rows: dict[tuple[str, str], list[tuple[float, float, Mapping[str, Any]]]] = {}
     for one in students:
-        graded = [record for record in one.records if _has_answer(record)]
+        graded = [record for record in one.records if is_graded(record)]
         total = sum(float(record["score"]) for record in graded)
         for record in graded:
             for check in _list_checks(record):
@@ -100,7 +101,7 @@ def count_misconceptions(students: Sequence[GradedStudent]) -> tuple[tuple[str, 
 
 
 def _summarize_exercise(name: str, records: Sequence[Mapping[str, Any]]) -> ExerciseStatistics:
-    shares = [float(one["score"]) / float(one["max_score"]) for one in records if _has_answer(one)]
+    shares = [float(one["score"]) / float(one["max_score"]) for one in records if is_graded(one)]
     return ExerciseStatistics(
         name,
         max(float(one["max_score"]) for one in records),
@@ -141,11 +142,6 @@ def _correlate(one: Sequence[float], other: Sequence[float]) -> float | None:
         sum((a - mean_one) ** 2 for a in one) * sum((b - mean_other) ** 2 for b in other)
     )
     return both / size if size > 1e-9 else None  # noqa: PLR2004 - all alike, but for rounding
-
-
-def _has_answer(record: Mapping[str, Any]) -> bool:
-    """Whether there was an answer to learn from."""
-    return record["status"] in {"passed", "failed"}
 
 
 def _list_checks(record: Mapping[str, Any]) -> Sequence[Mapping[str, Any]]:

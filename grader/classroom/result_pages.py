@@ -14,7 +14,14 @@ from grader.classroom.item_analysis import (
     count_misconceptions,
     summarize_exercises,
 )
-from grader.classroom.results import ClassResults, collect_scores, find_status
+from grader.classroom.results import (
+    ClassResults,
+    collect_scores,
+    find_status,
+    find_total,
+    has_handed_in,
+    is_graded,
+)
 from grader.misconception import MISCONCEPTIONS
 from grader.variant import make_folder_name
 from sim.support.printable import make_printable
@@ -64,7 +71,7 @@ def _name_page(one: GradedStudent) -> str:
 
 def summarize_class(results: ClassResults) -> str:
     """The class in two sentences."""
-    there = [one for one in results.students if set(find_status(one).values()) != {MISSING}]
+    there = [one for one in results.students if has_handed_in(one)]
     shares = [_compute_share(one, results) for one in there]
     handed = f"{len(there)} of {len(results.students)} students handed something in"
     if not there:
@@ -90,12 +97,14 @@ def _fill_class_page(results: ClassResults) -> dict[str, Any]:
     return {
         "name": results.name,
         "verdict": summarize_class(results),
+        "numbers": results.numbers,
+        "likenesses": results.likenesses,
         "open": _list_open_cases(results),
         "count": len(results.students),
         "columns": summarize_exercises(results.students),
         "heat": plot_score_heatmap(names, results.exercises, table).html,
         "spread": plot_score_histogram(
-            [_compute_share(one, results) for one in results.students]
+            [_compute_share(one, results) for one in results.students if has_handed_in(one)]
         ).html,
         "misconceptions": [
             {"code": code, "count": count, "says": _explain_misconception(code)}
@@ -138,31 +147,44 @@ def _make_row(one: GradedStudent, results: ClassResults) -> dict[str, Any]:
     points, how = collect_scores(one), find_status(one)
     cells = [SIGNS.get(how.get(name, MISSING), f"{points.get(name, 0):g}") for name in
              results.exercises]  # fmt: skip
-    total = f"{sum(points.values()):g} of {sum(results.max_scores.values()):g}"
-    return {"student": one.student, "page": _name_page(one), "cells": cells, "total": total}
+    return {
+        "student": one.student,
+        "page": _name_page(one),
+        "cells": cells,
+        "total": _format_total(one, results),
+        "late": results.late.get(one.student, ""),
+    }
+
+
+def _format_total(one: GradedStudent, results: ClassResults) -> str:
+    total = find_total(one, results)
+    if total is None:
+        return "not everything was graded" if has_handed_in(one) else "–"
+    return f"{total:g} of {sum(results.max_scores.values()):g}"
 
 
 def _compute_cell_share(record: Mapping[str, Any]) -> float:
-    graded = record["status"] in {"passed", "failed"}
-    return float(record["score"]) / float(record["max_score"]) if graded else math.nan
+    return float(record["score"]) / float(record["max_score"]) if is_graded(record) else math.nan
 
 
 def _fill_student_page(one: GradedStudent, results: ClassResults) -> dict[str, Any]:
-    total, most = sum(collect_scores(one).values()), sum(results.max_scores.values())
+    total = _format_total(one, results)
     return {
         "student": one.student,
         "name": results.name,
-        "verdict": f"{total:g} of {most:g} points.",
+        "verdict": f"{total} points." if " of " in total else "Not everything was graded yet.",
         "records": [_describe_record(record) for record in one.records],
     }
 
 
 def _describe_record(record: Mapping[str, Any]) -> dict[str, Any]:
-    graded = record["status"] in {"passed", "failed"}
+    graded = is_graded(record)
     checks = record["checks"] if graded else []
     return {
         "exercise": record["exercise"],
-        "points": f"{record['score']:g} of {record['max_score']:g} points",
+        "points": f"{record['score']:g} of {record['max_score']:g} points"
+        if graded
+        else "no points",
         "reason": "" if graded else _end_sentence(str(record["reason"])),
         "warnings": [make_printable(str(one)) for one in record["warnings"]],
         "told": [

@@ -1,10 +1,15 @@
 """The results of a class: what the overview and every export are made of."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
-from grader.classroom.grading import GradedStudent
+from grader.classroom.grading import MISSING, GradedStudent, make_ungraded_student
+from grader.classroom.roster import Roster
+from grader.classroom.submissions import Submission
+from grader.exercise import Exercise
+from grader.variant import normalize_name
+from sim.support.printable import list_first
 
 
 @dataclass(frozen=True)
@@ -19,6 +24,9 @@ class ClassResults:
         header: the roster's header.
         remarks: student, or a name that is not on the roster -> what a person has to look at
             besides what could not be graded, one line each.
+        late: student -> what the platform or the roster says of a late submission.
+        numbers: whose numbers everybody was graded on, one sentence.
+        likenesses: what is alike in the answers of two students, one line each.
     """
 
     name: str
@@ -27,6 +35,9 @@ class ClassResults:
     roster: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     header: tuple[str, ...] = ()
     remarks: Mapping[str, Sequence[str]] = field(default_factory=dict)
+    late: Mapping[str, str] = field(default_factory=dict)
+    numbers: str = ""
+    likenesses: tuple[str, ...] = ()
 
     @property
     def max_scores(self) -> dict[str, float]:
@@ -40,12 +51,17 @@ class ClassResults:
 
 
 def collect_scores(one: GradedStudent) -> dict[str, float]:
-    """Exercise -> points of one student."""
-    found = {}
-    for record in one.records:
-        points: Any = record["score"]
-        found[str(record["exercise"])] = float(points)
-    return found
+    """Exercise -> points of one student, of the exercises of which an answer was graded."""
+    return {
+        str(record["exercise"]): float(record["score"])
+        for record in one.records
+        if is_graded(record)
+    }
+
+
+def is_graded(record: Mapping[str, Any]) -> bool:
+    """Whether there was an answer, and it could be graded."""
+    return record["status"] in {"passed", "failed"}
 
 
 def find_status(one: GradedStudent) -> dict[str, str]:
@@ -53,6 +69,85 @@ def find_status(one: GradedStudent) -> dict[str, str]:
     return {str(record["exercise"]): str(record["status"]) for record in one.records}
 
 
-def is_fully_graded(one: GradedStudent, results: ClassResults) -> bool:
-    """Whether everything that a student handed in was graded, so that the total counts."""
-    return one.student not in results.remarks and "ungradable" not in find_status(one).values()
+def find_total(one: GradedStudent, results: ClassResults) -> float | None:
+    """The points of one student; None if something was handed in and not graded, or nothing was.
+
+    What was not handed in counts as nothing in it. A mark that rests on no graded answer, or on
+    only a part of what was handed in, would be a wrong one.
+    """
+    scores = collect_scores(one)
+    return sum(scores.values()) if scores and not list_ungraded(one, results) else None
+
+
+def list_ungraded(one: GradedStudent, results: ClassResults) -> list[str]:
+    """What a student handed in that was not graded: exercises, and other files."""
+    found = [name for name, how in find_status(one).items() if how == "ungradable"]
+    return [*found, *(["unused files"] if one.student in results.remarks else [])]
+
+
+def collect_results(
+    title: str,
+    graded: Sequence[GradedStudent],
+    known: Roster | None,
+    *,
+    asked: Sequence[Exercise],
+    handed_in: Sequence[Submission],
+) -> ClassResults:
+    """The results of everybody, and of whoever is on the roster and handed nothing in.
+
+    Who handed nothing in and belongs to a group on the roster gets the results of the one in the
+    group who did.
+
+    Args:
+        title: name of the class.
+        graded: the results of everybody who handed something in.
+        known: the roster.
+        asked: the exercises.
+        handed_in: what was handed in.
+    """
+    rows, header = (known.rows, known.header) if known else ({}, ())
+    strangers = {
+        one.student: one.problem for one in handed_in if known and one.problem
+        and one.student not in rows
+    }  # fmt: skip
+    found = {normalize_name(one.student): one for one in graded if one.student not in strangers}
+    remarks = {name: [problem] for name, problem in strangers.items()}
+    remarks |= {one.student: [*one.unused] for one in handed_in if one.unused and not one.problem}
+    for one in handed_in:
+        for student in one.likely:
+            maybe = f"perhaps {one.place.name} is theirs; it was not graded"
+            remarks.setdefault(student, []).append(maybe)
+    partners = known.partners if known else {}
+    for student in rows:
+        if normalize_name(student) in found:
+            continue
+        theirs = [
+            found[key] for one in partners.get(student, ()) if (key := normalize_name(one)) in found
+        ]
+        if len(theirs) == 1:
+            shared = replace(theirs[0], student=student)
+            found[f"{normalize_name(student)}"] = shared
+            continue
+        if theirs:
+            names = list_first([one.student for one in theirs], most=len(theirs), separator="; ")
+            said = f"nothing is theirs, and several of their group handed something in: {names}"
+            remarks.setdefault(student, []).append(said)
+        found[normalize_name(student)] = make_ungraded_student(
+            student, asked, handed_in=(), reason=""
+        )
+    late = {one.student: "late" for one in handed_in if one.late}
+    late |= known.late if known else {}
+    return ClassResults(
+        title,
+        tuple(sorted(found.values(), key=lambda one: one.student.casefold())),
+        tuple(one.name for one in asked),
+        rows,
+        header,
+        remarks,
+        late,
+    )
+
+
+def has_handed_in(one: GradedStudent) -> bool:
+    """Whether there is anything of a student."""
+    return set(find_status(one).values()) != {MISSING}

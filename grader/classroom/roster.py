@@ -8,6 +8,7 @@ from grader.classroom.submission_names import Identities
 from sim.bench.dataset.roster import make_distinct_names, read_roster
 from sim.core.errors import BadRequest
 
+GROUP, LATE = "group", "late"  # columns that say who worked together, and who was late
 COLUMNS = ("student", "sis login id", "login", "email", "sis user id", "id", "name")
 
 
@@ -22,6 +23,33 @@ class Roster:
 
     header: tuple[str, ...]
     rows: Mapping[str, Mapping[str, str]]
+
+    @property
+    def partners(self) -> dict[str, tuple[str, ...]]:
+        """Student -> the others of the same group, by the column ``group``."""
+        groups: dict[str, list[str]] = {}
+        for student, text in self._column(GROUP).items():
+            groups.setdefault(text.casefold(), []).append(student)
+        return {
+            student: tuple(other for other in those if other != student)
+            for those in groups.values()
+            for student in those
+        }
+
+    @property
+    def late(self) -> dict[str, str]:
+        """Student -> what the column ``late`` says of them, where it says anything."""
+        return self._column(LATE)
+
+    def _column(self, column: str) -> dict[str, str]:
+        """Student -> text of a column, where there is one."""
+        heads = [head for head in self.header if head.strip().casefold() == column]
+        texts = {
+            student: row.get(head, "").strip()
+            for student, row in self.rows.items()
+            for head in heads
+        }
+        return {student: text for student, text in texts.items() if text}
 
     @property
     def identities(self) -> Identities:

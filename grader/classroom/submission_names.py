@@ -1,6 +1,6 @@
 """Who handed something in: how learning platforms name files, and who on the roster is meant.
 
-    Canvas             doejane_LATE_101_5555_exercises-1.zip
+    Canvas             doejane_LATE_101_5555_exercises.zip
     Moodle             Jane Doe_4711_assignsubmission_file_exercises.zip, or a folder without file
     Google Classroom   Jane Doe - exercises.zip
     GitHub Classroom   week-3-janedoe, a folder for each repository
@@ -16,14 +16,14 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import PurePath
 
+from grader.classroom.submitted_files import ARCHIVES
 from grader.variant import make_folder_name, normalize_name
 from sim.core.errors import Refusal
 
-CANVAS = re.compile(r"(?P<name>[^_]+)(?:_LATE)?_(?P<id>\d+)_\d+_(?P<file>.+)")
+CANVAS = re.compile(r"(?P<name>[^_]+)(?P<late>_LATE)?_(?P<id>\d+)_\d+_(?P<file>.+)")
 MOODLE = re.compile(r"(?P<name>.+?)_(?P<id>\d+)_assignsubmission_[a-z]+_?(?P<file>.*)")
 GOOGLE = re.compile(r"(?P<name>.+?) - (?P<file>.+\.\w+)")
 PLATFORMS = (MOODLE, CANVAS, GOOGLE)
-AGAIN = re.compile(r"-\d+(?=\.\w+$)")  # Canvas numbers the files of a later attempt
 CANVAS_ID = "id"  # the column of Canvas's export that holds the number in its files' names
 GITHUB = "github_username"  # a column of GitHub Classroom's roster
 NAMES = (
@@ -43,32 +43,37 @@ class SubmissionName:
         student: the name in it, as the platform writes it.
         canvas_id: the student's number in Canvas; empty elsewhere.
         file: the name of the file as the student called it; empty for a folder or a plain name.
+        late: whether the platform says that it came after the due date.
+        guessed: whether it is a file that no platform named, so that it says whose it is only if
+            the roster knows the name.
     """
 
     student: str
     canvas_id: str = ""
     file: str = ""
+    late: bool = False
+    guessed: bool = False
 
 
-def parse_name(name: str, *, folder: bool) -> SubmissionName | None:
+def parse_name(name: str, *, folder: bool) -> SubmissionName:
     """Read the name of one thing that was handed in.
 
     Args:
         name: of the file or folder.
         folder: whether it is a folder.
-
-    Returns:
-        What it says; None for a file that no platform named and that is no zip file.
     """
     for platform in PLATFORMS:
         found = platform.fullmatch(name)
         if found is None or (folder and platform is not MOODLE):
             continue
         canvas_id = found["id"] if platform is CANVAS else ""
-        return SubmissionName(found["name"].strip(), canvas_id, AGAIN.sub("", found["file"]))
+        late = platform is CANVAS and found["late"] is not None
+        return SubmissionName(found["name"].strip(), canvas_id, found["file"], late)
     if folder:
         return SubmissionName(name)
-    return SubmissionName(PurePath(name).stem) if name.lower().endswith(".zip") else None
+    ending = max((one for one in ARCHIVES if name.lower().endswith(one)), key=len, default="")
+    stem = name[: -len(ending)] if ending else PurePath(name).stem
+    return SubmissionName(stem, file="" if ending else name, guessed=not ending)
 
 
 class Identities:
@@ -80,9 +85,7 @@ class Identities:
 
     def __init__(self, rows: Mapping[str, Mapping[str, str]]) -> None:
         self._students = {normalize_name(student): student for student in rows}
-        self._students |= {
-            make_folder_name(student): student for student in rows
-        }  # of a served class
+        self._students |= {make_folder_name(student): student for student in rows}
         self._canvas_ids: dict[str, str] = {}
         self._aliases: dict[str, set[str]] = {}
         self._github: dict[str, str] = {}
@@ -110,7 +113,8 @@ class Identities:
         )
         if not meant and not name.file:
             plain = name.student.casefold()
-            meant = {who for login, who in self._github.items() if plain.endswith(f"-{login}")}
+            logins = [login for login in self._github if plain.endswith(f"-{login}")]
+            meant = {self._github[max(logins, key=len)]} if logins else set()
         return next(iter(meant)) if len(meant) == 1 else None
 
     def propose(self, name: SubmissionName) -> tuple[str, ...]:

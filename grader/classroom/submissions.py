@@ -1,16 +1,16 @@
 """What a class handed in: whose each folder and zip file is, and what each student answered.
 
 Each student's folder or zip file may hold single answers, folders of exercises or the whole course.
-``submitted_files.py`` reads it, and ``sorted_files.py`` finds the exercise of each file.
+``submitted_files.py`` reads it, and ``answer_files.py`` selects what is graded.
 """
 
 import hashlib
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
+from pathlib import Path, PurePath
 
-from grader.classroom.sorted_files import Files, FileSorter
+from grader.classroom.answer_files import AnswerSelector, Files
 from grader.classroom.submission_names import Identities, SubmissionName, parse_name
 from grader.classroom.submitted_files import UNREADABLE, format_file_name, list_submitted_files
 from grader.exercise import Exercise
@@ -34,7 +34,9 @@ class Submission:
             of ``class.toml`` and of ``progress.toml``.
         data_folders: names of the folders with drawn data in it.
         worked_as: whose numbers they worked on; empty for their own.
-        unused: files that belong to no exercise, one line each, where an exercise has no answer.
+        unused: files that may be answers and were not graded, one line each.
+        late: whether the platform says that a part of it came after the due date.
+        likely: students on the roster who may be meant, where none has its name.
     """
 
     student: str
@@ -46,6 +48,8 @@ class Submission:
     data_folders: frozenset[str] = frozenset()
     worked_as: str = ""
     unused: tuple[str, ...] = ()
+    late: bool = False
+    likely: tuple[str, ...] = ()
 
     @property
     def numbers_owner(self) -> str:
@@ -87,7 +91,7 @@ def find_submissions(
             advice="Name the folder that holds a folder or zip file for each student.",
         )
     found: dict[str, list[_Part]] = {}
-    for part in _list_parts(folder):
+    for part in _list_parts(folder, roster):
         known = roster.find(part.name) if roster else None
         key = (known or part.name.canvas_id or part.name.student).casefold()
         twins = found.setdefault(key, [])
@@ -109,9 +113,9 @@ def find_submissions(
     return tuple(sorted(each, key=lambda one: one.student.casefold()))
 
 
-def find_stray_files(folder: Path) -> tuple[str, ...]:
+def find_stray_files(folder: Path, roster: Identities | None) -> tuple[str, ...]:
     """Names of files in a class's folder that belong to no known student."""
-    taken = {part.path for part in _list_parts(folder)}
+    taken = {part.path for part in _list_parts(folder, roster)}
     return tuple(
         format_file_name(path.name)
         for path in sorted(folder.iterdir())
@@ -119,12 +123,12 @@ def find_stray_files(folder: Path) -> tuple[str, ...]:
     )
 
 
-def _list_parts(folder: Path) -> Iterator[_Part]:
+def _list_parts(folder: Path, roster: Identities | None) -> Iterator[_Part]:
     for path in sorted(folder.iterdir(), key=lambda one: os.fsencode(one.name)):
         if path.name.startswith((".", "__")) or path.is_symlink():
             continue
         name = parse_name(path.name, folder=path.is_dir())
-        if name is not None:
+        if not name.guessed or (roster and roster.find(name)):
             yield _Part(path, name)
 
 
@@ -147,7 +151,7 @@ def _identify(
         f"{format_file_name(first.path.name)} does not match any name on the roster{perhaps}. "
         "Give it the student's name, or add the student to the roster."
     )
-    return Submission(_make_legible(first.name.student), first.path, problem=problem)
+    return Submission(_make_legible(first.name.student), first.path, problem=problem, likely=likely)
 
 
 def read_submission(
@@ -181,19 +185,20 @@ def _read(
         student = check_student_name(student)
     except Refusal as refusal:
         return Submission(_make_legible(student), place, problem=str(refusal))
-    at = ""
+    at, late = "", any(part.name.late for part in parts)
     try:
-        sorter = FileSorter(exercises, asked or exercises)
+        selector = AnswerSelector(exercises, asked or exercises)
         for part in parts:
             at = format_file_name(part.path.name)
             for one in list_submitted_files(part.path, name=part.name.file):
-                sorter.add(one)
+                selector.add(one)
     except UNREADABLE as error:
         reason = getattr(error, "strerror", None) or str(error) or type(error).__name__
-        return Submission(
-            student, place, problem=f"{at} cannot be read: {format_file_name(reason, most=200)}"
-        )
-    found = sorter.result()
+        file = PurePath(str(getattr(error, "filename", None) or at)).name
+        inside = "" if file == part.path.name else f", {file}"
+        said = f"{at}{format_file_name(inside)} cannot be read: {reason}"
+        return Submission(student, place, problem=format_file_name(said, most=300), late=late)
+    found = selector.select()
     return Submission(
         student,
         place,
@@ -202,6 +207,7 @@ def _read(
         identities=found.identities,
         data_folders=found.data_folders,
         unused=found.unused,
+        late=late,
     )
 
 

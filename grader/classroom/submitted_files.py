@@ -1,7 +1,8 @@
 """The files of one submission: a folder, a zip file or a single file, read but never unpacked.
 
-Zip files inside it are looked into once. Links are left out, and limits keep a file that unpacks
-to gigabytes from being read.
+Zip files inside it are looked into once. Links are left out, and a folder is read through the
+folders that were opened, so that nobody who can still write to it can exchange a file for a link
+between the look and the reading. Limits keep a file that unpacks to gigabytes from being read.
 """
 
 import io
@@ -10,17 +11,19 @@ import stat
 import struct
 import zipfile
 import zlib
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 
-MOST_SEEN = 20_000  # [entries] of one student's: a whole robot project with its build has fewer
-LARGEST_WHOLE = 40_000_000  # [bytes] of everything that is read of one student's
-MOST_PACKED = (
-    50  # [bytes for one in a zip file] logs come to 10, and text that says nothing to 1000
-)
+MAX_FILES = 20_000  # of one student's: a whole robot project with its build has fewer
+MAX_ZIP_ENTRIES = 200_000  # in one zip file, also of folders that nobody reads
+MAX_TOTAL = 40_000_000  # [bytes] of everything that is read of one student's
+MAX_PACKED = 50  # [bytes for one in a zip file] logs come to 10, and text that says nothing to 1000
 LONGEST_SHOWN = 80  # [characters] of a file's name in a message
-NOT_THEIRS = {"__pycache__", "__MACOSX", ".git", ".gradle", "build"}
+# What a computer makes and no student writes: caches, builds, and environments with their packages.
+NOT_THEIRS = {"__pycache__", "__MACOSX", "build", "node_modules", "site-packages", "venv"}
+COURSE_FOLDER = ".course"  # the only hidden folder that says something: whose numbers these are
+ARCHIVES = (".zip", ".tar", ".tgz", ".tar.gz", ".tar.xz", ".tar.bz2", ".rar", ".7z")
 UNREADABLE = (
     OSError, zipfile.BadZipFile, zlib.error, EOFError, struct.error, RuntimeError,
     NotImplementedError, ValueError,
@@ -32,25 +35,42 @@ def format_file_name(name: str, *, most: int = LONGEST_SHOWN) -> str:
     return "".join(sign if sign.isprintable() else "?" for sign in name)[:most]
 
 
+def is_archive(name: str) -> bool:
+    """Whether a file's name is that of an archive; of these, only zip files can be read."""
+    return name.lower().endswith(ARCHIVES)
+
+
 @dataclass(frozen=True)
 class SubmittedFile:
-    """A file that may be an answer: where it stood, and how to get at it."""
+    """A file that may be an answer.
+
+    Args:
+        path: where it lies in the submission.
+        read: its first bytes, as many as asked for; valid until the next file is taken.
+    """
 
     path: PurePosixPath
-    read: Path | tuple[zipfile.ZipFile, zipfile.ZipInfo]
+    read: Callable[[int], bytes]
 
     def content(self, most: int) -> bytes:
-        """Its bytes, one more than ``most`` at most."""
-        if isinstance(self.read, Path):
-            with self.read.open("rb") as stream:
-                return stream.read(most + 1)
-        archive, info = self.read
-        if info.file_size > max(MOST_PACKED * info.compress_size, most // MOST_PACKED):
-            raise ValueError(
-                f"{format_file_name(info.filename)} unpacks to {info.file_size / 1e6:.1f} MB"
-            )
-        with archive.open(info) as stream:
-            return stream.read(most + 1)
+        """Its bytes, one more than ``most`` at most.
+
+        Raises:
+            ValueError: it unpacks to far more than that.
+        """
+        return self.read(most + 1)
+
+
+@dataclass
+class _FileCounter:
+    """Counts the files of one submission, whatever they are packed in."""
+
+    count: int = field(default=0)
+
+    def add(self) -> None:
+        self.count += 1
+        if self.count > MAX_FILES:
+            raise ValueError(f"more than {MAX_FILES} files")
 
 
 def list_submitted_files(place: Path, *, name: str = "") -> Iterator[SubmittedFile]:
@@ -61,59 +81,114 @@ def list_submitted_files(place: Path, *, name: str = "") -> Iterator[SubmittedFi
         name: what the student called that file; empty if it is called so still.
 
     Raises:
-        ValueError: there are too many files, or they unpack to too much. Damaged zip files and
-            files that cannot be opened raise other errors; ``UNREADABLE`` lists them all.
+        ValueError: there are too many files, they unpack to too much, or it is an archive that is
+            no zip file. Damaged zip files and files that cannot be opened raise other errors;
+            ``UNREADABLE`` lists them all.
     """
+    counter = _FileCounter()
+    for one in _list_outer_files(place, PurePosixPath(name or place.name)):
+        if one.path.suffix.lower() == ".zip":
+            yield from _read_inner_zip(one, counter)
+        else:
+            counter.add()
+            yield one
+
+
+def _list_outer_files(place: Path, name: PurePosixPath) -> Iterator[SubmittedFile]:
     if place.is_dir():
-        for one in _read_folder(place):
-            yield from _read_inner_zip(one) if _is_zip(one.path) else (one,)
-        return
-    name = name or place.name
-    if not _is_zip(PurePosixPath(name)):
-        yield SubmittedFile(PurePosixPath(name), place)
-        return
-    top = PurePosixPath(PurePosixPath(name).stem)  # exercise4.zip may hold answers.toml alone
-    with zipfile.ZipFile(place) as archive:
-        for one in _read_zip(archive, top):
-            yield from _read_inner_zip(one) if _is_zip(one.path) else (one,)
+        yield from _read_folder(place)
+    elif name.suffix.lower() == ".zip":
+        with zipfile.ZipFile(place) as archive:
+            yield from _read_zip(archive, PurePosixPath(name.stem))  # exercise4.zip: answers.toml
+    elif is_archive(name.name):
+        raise ValueError("it is an archive, but no zip file. Unpack it, or ask for a zip file")
+    else:
+        yield SubmittedFile(name, lambda size: _read_file(os.open(place, _OPEN), size))
 
 
-def _is_zip(path: PurePosixPath) -> bool:
-    return path.suffix.lower() == ".zip"
-
-
-def _read_inner_zip(found: SubmittedFile) -> Iterator[SubmittedFile]:
+def _read_inner_zip(found: SubmittedFile, counter: _FileCounter) -> Iterator[SubmittedFile]:
     """Files of a zip file inside what was handed in; zip files in that are nobody's answer."""
-    content = found.content(LARGEST_WHOLE)
-    if len(content) > LARGEST_WHOLE:
+    content = found.content(MAX_TOTAL)
+    if len(content) > MAX_TOTAL:
         raise ValueError(
-            f"{format_file_name(found.path.name)} is larger than {LARGEST_WHOLE / 1e6:g} MB"
+            f"{format_file_name(found.path.name)} is larger than {MAX_TOTAL / 1e6:g} MB"
         )
     with zipfile.ZipFile(io.BytesIO(content)) as archive:
         for one in _read_zip(archive, found.path.with_suffix("")):
-            if not _is_zip(one.path):
+            counter.add()
+            if one.path.suffix.lower() != ".zip":
                 yield one
+
+
+# A link is never followed, and a pipe never waited for; Windows knows neither flag.
+_OPEN = (
+    os.O_RDONLY
+    | getattr(os, "O_NOFOLLOW", 0)
+    | getattr(os, "O_NONBLOCK", 0)
+    | getattr(os, "O_BINARY", 0)
+)
+
+
+def _read_file(descriptor: int, size: int) -> bytes:
+    with os.fdopen(descriptor, "rb") as stream:
+        if not stat.S_ISREG(os.fstat(stream.fileno()).st_mode):
+            raise ValueError("it holds something that is no file")
+        return stream.read(size)
 
 
 def _read_folder(place: Path) -> Iterator[SubmittedFile]:
     """Files of a folder; a link is nobody's answer: it may lead anywhere."""
-    seen = 0
-    for top, folders, names in os.walk(place, followlinks=False):
-        folders[:] = sorted((name for name in folders if name not in NOT_THEIRS), key=os.fsencode)
+    for top, folders, names, opened in _walk(place):
+        folders[:] = sorted((name for name in folders if _is_theirs(name)), key=os.fsencode)
         for name in sorted(names, key=os.fsencode):
-            seen += 1
-            if seen > MOST_SEEN:
-                raise ValueError(f"more than {MOST_SEEN} files")
-            path = Path(top) / name
-            if path.is_file() and not path.is_symlink():
-                yield SubmittedFile(PurePosixPath(path.relative_to(place).as_posix()), path)
+            path = top / name
+            status = os.stat(path if opened is None else name, dir_fd=opened, follow_symlinks=False)
+            if stat.S_ISREG(status.st_mode):
+                yield SubmittedFile(
+                    PurePosixPath(path.relative_to(place).as_posix()),
+                    lambda size, path=path, name=name, opened=opened: _read_file(  # type: ignore[misc]
+                        os.open(path if opened is None else name, _OPEN, dir_fd=opened), size
+                    ),
+                )
+
+
+def _walk(place: Path) -> Iterator[tuple[Path, list[str], list[str], int | None]]:
+    """Folder, names of its folders, names of its files, and the opened folder where there is one.
+
+    Raises:
+        OSError: a folder cannot be read.
+    """
+
+    def refuse(error: OSError) -> None:
+        raise error
+
+    if hasattr(os, "fwalk"):
+        for top, folders, names, opened in os.fwalk(place, onerror=refuse, follow_symlinks=False):
+            yield Path(top), folders, names, opened
+    else:  # Windows, where a link needs a right that students do not have
+        for top, folders, names in os.walk(place, onerror=refuse, followlinks=False):
+            yield Path(top), folders, names, None
+
+
+def _is_theirs(folder: str) -> bool:
+    """Whether a folder may hold what a student wrote."""
+    return folder == COURSE_FOLDER or not (folder.startswith(".") or folder in NOT_THEIRS)
 
 
 def _read_zip(archive: zipfile.ZipFile, top: PurePosixPath) -> Iterator[SubmittedFile]:
-    if len(archive.infolist()) > MOST_SEEN:
-        raise ValueError(f"more than {MOST_SEEN} files")
+    if len(archive.infolist()) > MAX_ZIP_ENTRIES:
+        raise ValueError(f"more than {MAX_ZIP_ENTRIES} files")
     for info in sorted(archive.infolist(), key=lambda one: one.filename):
         path = top / info.filename.replace("\\", "/").lstrip("/")
         link = stat.S_ISLNK(info.external_attr >> 16)
-        if not (info.is_dir() or link or {*path.parts} & NOT_THEIRS):
-            yield SubmittedFile(path, (archive, info))
+        if not (info.is_dir() or link) and all(map(_is_theirs, path.parts[:-1])):
+            yield SubmittedFile(path, lambda size, info=info: _unpack(archive, info, size))  # type: ignore[misc]
+
+
+def _unpack(archive: zipfile.ZipFile, info: zipfile.ZipInfo, size: int) -> bytes:
+    if info.file_size > max(MAX_PACKED * info.compress_size, size // MAX_PACKED):
+        raise ValueError(
+            f"{format_file_name(info.filename)} unpacks to {info.file_size / 1e6:.1f} MB"
+        )
+    with archive.open(info) as stream:
+        return stream.read(size)

@@ -16,6 +16,7 @@ from dataclasses import dataclass, field, replace
 
 from pebble import ProcessExpired, ProcessPool
 
+from grader.classroom.answer_files import Files
 from grader.classroom.grading import (
     GradedStudent,
     GradingJob,
@@ -23,7 +24,6 @@ from grader.classroom.grading import (
     grade_student,
     make_ungraded_record,
 )
-from grader.classroom.sorted_files import Files
 from sim.support.work.interrupt import interrupts_blocked_for_children
 from sim.support.work.process_pool import serve_quietly
 

@@ -1,5 +1,6 @@
 """``grade class``: everything a class handed in, graded at one go."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -29,6 +30,12 @@ SHOWN = 5  # names in one line
 @click.option("-o", "--output", type=PATH, help="Folder for results.  [default: FOLDER-graded]")
 @click.option("--secret", type=PATH, help="File of the class's secret, made by grade release.")
 @click.option("--roster", type=PATH, help="CSV file with a column student; or Canvas's export.")
+@click.option("--self-study", is_flag=True, help="Students worked on the numbers of self-study, "
+              "without packages of grade release.")  # fmt: skip
+@click.option("--packages", type=PATH, help="Folder that grade release wrote, to recognize logs "
+              "that were made for another student.")  # fmt: skip
+@click.option("--overrides", type=PATH, help="CSV file of marks that you set by hand: student, "
+              "check, points, why.")  # fmt: skip
 @click.option("--student", metavar="NAME", help="FOLDER is what this one student handed in.")
 @click.option("--exercise", "only", multiple=True, help="Only this exercise; may be repeated.")
 @click.option("--export", "wanted", multiple=True, metavar="FORMAT", help="canvas, github, "
@@ -54,6 +61,8 @@ def class_(  # noqa: PLR0917 - click passes options by name
     output: Path | None,
     secret: Path | None,
     roster: Path | None,
+    packages: Path | None,
+    overrides: Path | None,
     student: str | None,
     only: tuple[str, ...],
     wanted: tuple[str, ...],
@@ -63,6 +72,7 @@ def class_(  # noqa: PLR0917 - click passes options by name
     engine: str | None,
     image: str,  # noqa: ARG001 - the container takes it from the context, with all others
     *,
+    self_study: bool,
     run: bool | None,
     again: bool,
 ) -> int:
@@ -78,12 +88,16 @@ def class_(  # noqa: PLR0917 - click passes options by name
     from grader.classroom.class_grading import GradedClass  # noqa: PLC0415 - the same
     from grader.classroom.exports import choose_exports  # noqa: PLC0415 - --help must not wait for it
     from grader.classroom.identity import check_identities  # noqa: PLC0415 - the same
+    from grader.classroom.likeness import find_foreign_logs, find_likenesses  # noqa: PLC0415 - the same
+    from grader.classroom.overrides import apply_overrides, read_overrides  # noqa: PLC0415 - the same
+    from grader.classroom.results import collect_results  # noqa: PLC0415 - the same
     from grader.classroom.roster import read_class_roster  # noqa: PLC0415 - the same
-    from grader.classroom.secret import find_secret  # noqa: PLC0415 - the same
+    from grader.classroom.secret import describe_numbers, find_secret  # noqa: PLC0415 - the same
     from grader.course import describe_other_code, find_course  # noqa: PLC0415 - the same
 
     known = read_class_roster(roster) if roster else None
     formats = choose_exports(wanted, roster=known)
+    marks = read_overrides(overrides) if overrides else ()
     course = find_course(Path.cwd())
     if said := describe_other_code(course):
         print_error(said)
@@ -95,16 +109,29 @@ def class_(  # noqa: PLR0917 - click passes options by name
     asked = _find_asked_exercises(only, course)
     kept = find_secret(secret, make=False)
     value = kept.value if kept else None
-    there = _find_submissions(folder, course, asked, known, student=student)
-    there = check_identities(there, secret=value)
+    there = check_identities(
+        _find_submissions(folder, course, asked, known, student=student),
+        asked,
+        secret=value,
+        self_study=self_study,
+        partners=known.partners if known else {},
+    )
+    foreign = find_foreign_logs(there, packages) if packages else ()
     _tell_problems(there)
     run = _decide_running(asked, run=run, cluster=cluster)
     work = GradedClass(there, asked, course, value, run)
     graded = _run(work, out, processes=processes, cluster=cluster, again=again)
     if graded is None:
         return INTERRUPTED
-    title = name or folder.resolve().stem
-    results = _collect_results(title, graded, known, asked=asked, there=there)
+    results = collect_results(
+        name or folder.resolve().stem, graded, known, asked=asked, handed_in=there
+    )
+    results = replace(
+        results,
+        students=apply_overrides(results.students, marks),
+        numbers=describe_numbers(value),
+        likenesses=(*foreign, *find_likenesses(there, asked)),
+    )
     return _write_results(results, out, formats)
 
 
@@ -137,7 +164,7 @@ def _find_submissions(
         return (read_submission(folder, everything, asked=asked, student=student),)
     roster = known.identities if known else None
     there = find_submissions(folder, everything, asked=asked, roster=roster)
-    if stray := find_stray_files(folder):
+    if stray := find_stray_files(folder, roster):
         print_error(f"left out, because no student has such a name: {', '.join(stray)}")
     return there
 
@@ -223,40 +250,9 @@ def _run(
     return None
 
 
-def _collect_results(
-    title: str,
-    graded: "tuple[GradedStudent, ...]",
-    known: "Roster | None",
-    *,
-    asked: "Sequence[Exercise]",
-    there: "Sequence[Submission]",
-) -> "ClassResults":
-    """The results of everybody, and of whoever is on the roster and handed nothing in."""
-    from grader.classroom.grading import make_ungraded_student  # noqa: PLC0415 - --help must not wait for it
-    from grader.classroom.results import ClassResults  # noqa: PLC0415 - the same
-    from grader.variant import normalize_name  # noqa: PLC0415 - the same
-
-    present = {normalize_name(one.student) for one in graded}
-    rows, header = (known.rows, known.header) if known else ({}, ())
-    strangers = {
-        one.student: one.problem for one in there if known and one.problem
-        and one.student not in rows
-    }  # fmt: skip
-    absent = [name for name in rows if normalize_name(name) not in present]
-    found = [
-        *(one for one in graded if one.student not in strangers),
-        *(make_ungraded_student(name, asked, handed_in=(), reason="") for name in absent),
-    ]
-    everybody = tuple(sorted(found, key=lambda one: one.student.casefold()))
-    remarks = {name: [problem] for name, problem in strangers.items()}
-    remarks |= {one.student: [*one.unused] for one in there if one.unused and not one.problem}
-    names = tuple(one.name for one in asked)
-    return ClassResults(title, everybody, names, rows, header, remarks)
-
-
 def _write_results(results: "ClassResults", out: Path, formats: "Sequence[ExportFormat]") -> int:
     from grader.classroom.result_pages import list_pages, summarize_class, write_pages  # noqa: PLC0415 - --help
-    from grader.classroom.results import is_fully_graded  # noqa: PLC0415 - must not wait for any of these
+    from grader.classroom.results import list_ungraded  # noqa: PLC0415 - must not wait for any of these
     from grader.classroom.store import ResultStore  # noqa: PLC0415 - the same
 
     page = write_pages(results, out)
@@ -264,13 +260,16 @@ def _write_results(results: "ClassResults", out: Path, formats: "Sequence[Export
     ResultStore(out).remove_outdated(
         [*list_pages(results, out), *files], students=[one.student for one in results.students]
     )
-    unread = {one.student for one in results.students if not is_fully_graded(one, results)}
+    unread = {one.student for one in results.students if list_ungraded(one, results)}
     unread |= results.remarks.keys()
+    print_lines(wrap_text(results.numbers, lead=""))
     print_lines(wrap_text(summarize_class(results), lead=""))
     print_lines([style_line(f"Overview: {page}")])
     tops = dict.fromkeys(path.relative_to(out).parts[0] for path in files)
     print_lines([style_line(f"In the same folder: {', '.join([*tops, 'students', 'results'])}")])
     for said in filter(None, (one.warn(results) for one in formats)):
+        print_error(said)
+    for said in results.likenesses:
         print_error(said)
     if unread:
         count = f"{len(unread)} student{'s' if len(unread) > 1 else ''}"

@@ -115,6 +115,7 @@ def _release(
 ) -> int:
     from grader.classroom.bundle import pack_course  # noqa: PLC0415 - --help must not wait for it
     from grader.classroom.roster import read_class_roster  # noqa: PLC0415 - the same
+    from grader.classroom.secret import identify_secret  # noqa: PLC0415 - the same
     from grader.course import describe_other_code  # noqa: PLC0415 - the same
     from grader.package_files import select_package_files  # noqa: PLC0415 - the same
     from grader.release import StudentPackage, make_student_package, zip_files  # noqa: PLC0415 - the same
@@ -133,6 +134,8 @@ def _release(
     if secret and secret.new:
         secret.save()
         print_error(f"{secret.new}: a new secret. Keep this file, and show it to nobody.")
+    if secret:
+        print_error(f"the secret of these packages is {identify_secret(secret.value)}")
     packed = pack_course(course)
     value = secret.value if secret else b""
     packages = [StudentPackage(student, value, name, packed) for student in students]

@@ -2,7 +2,8 @@
 
 Canvas finds a student by ID, SIS User ID or SIS Login ID, and makes a new assignment of a column it
 does not know: https://community.canvaslms.com, "How do I import grades in the Gradebook". The cell
-of a student with work that was not graded is empty: a 0 would be a wrong mark.
+of a student with work that was not graded is empty, and so is that of one who handed in nothing: a
+0 would be a mark that nobody gave.
 """
 
 import csv
@@ -11,7 +12,7 @@ from pathlib import Path
 
 from grader.classroom.atomic_files import write_private_file
 from grader.classroom.csv_cells import escape_formula
-from grader.classroom.results import ClassResults, collect_scores, is_fully_graded
+from grader.classroom.results import ClassResults, find_total, list_ungraded
 from sim.support.printable import list_first
 
 SUMMARY = "canvas.csv: to be imported into Canvas; give its own export as --roster"
@@ -36,14 +37,14 @@ def write(results: ClassResults, folder: Path) -> tuple[Path, ...]:
         row = {name.strip().casefold(): cell for name, cell in cells.items()}
         row.setdefault("student", one.student)
         who = [row.get(name.casefold(), "") for name in IDENTITY]
-        total = f"{sum(collect_scores(one).values()):g}" if is_fully_graded(one, results) else ""
-        table.writerow([*map(escape_formula, who), total])
+        total = find_total(one, results)
+        table.writerow([*map(escape_formula, who), "" if total is None else f"{total:g}"])
     return (write_private_file(folder / "canvas.csv", stream.getvalue()),)
 
 
 def warn(results: ClassResults) -> str:
     """Whose points are left out, in one line; empty if there are all."""
-    names = [one.student for one in results.students if not is_fully_graded(one, results)]
+    names = [one.student for one in results.students if list_ungraded(one, results)]
     if not names:
         return ""
     return (

@@ -28,23 +28,26 @@ def write(results: ClassResults, folder: Path) -> tuple[Path, ...]:
         BadRequest: they cannot be written.
     """
     return tuple(
-        write_private_file(folder / "github" / f"{make_folder_name(one.student)}.txt", _line(one))
+        write_private_file(
+            folder / "github" / f"{make_folder_name(one.student)}.txt", _line(one, results)
+        )
         for one in results.students
     )
 
 
-def _line(one: GradedStudent) -> str:
-    text = json.dumps(_result(one)).encode("ascii")
+def _line(one: GradedStudent, results: ClassResults) -> str:
+    text = json.dumps(_result(one, results)).encode("ascii")
     return f"result={base64.b64encode(text).decode('ascii')}\n"
 
 
-def _result(one: GradedStudent) -> dict[str, Any]:
+def _result(one: GradedStudent, results: ClassResults) -> dict[str, Any]:
+    unused = results.remarks.get(one.student, ())
     tests = [_test(number, record) for number, record in enumerate(one.records)]
     told = {test["status"] for test in tests}
     return {
         "version": 1,
         "status": next((status for status in ("error", "fail") if status in told), "pass"),
-        "message": None,
+        "message": "; ".join(unused)[:LONGEST] or None,
         "max_score": sum(float(record["max_score"]) for record in one.records),
         "tests": tests,
     }

@@ -1,4 +1,7 @@
-"""A table for a spreadsheet: a row for each student, a column for each exercise."""
+"""A table for a spreadsheet: a row for each student, a column for each exercise.
+
+A cell is empty where no answer was graded; ``not graded`` says where something was handed in.
+"""
 
 import csv
 import io
@@ -6,7 +9,7 @@ from pathlib import Path
 
 from grader.classroom.atomic_files import write_private_file
 from grader.classroom.csv_cells import escape_formula
-from grader.classroom.results import ClassResults, collect_scores, find_status
+from grader.classroom.results import ClassResults, collect_scores, find_total, list_ungraded
 
 SUMMARY = "gradebook.csv: a row for each student, for a spreadsheet"
 
@@ -19,13 +22,14 @@ def write(results: ClassResults, folder: Path) -> tuple[Path, ...]:
     """
     stream = io.StringIO(newline="")
     table = csv.writer(stream)
-    most = results.max_scores
-    table.writerow(["student", *results.exercises, "total", "of", "not graded"])
+    table.writerow(["student", *results.exercises, "total", "of", "late", "not graded"])
     for one in results.students:
         points = collect_scores(one)
-        unread = [name for name, how in find_status(one).items() if how == "ungradable"]
-        unread += ["unused files"] if one.student in results.remarks else []
-        row = [points.get(name, 0.0) for name in results.exercises]
-        totals = (f"{sum(points.values()):g}", f"{sum(most.values()):g}", " ".join(unread))
-        table.writerow([escape_formula(one.student), *(f"{value:g}" for value in row), *totals])
+        total = find_total(one, results)
+        cells = [*(points.get(name) for name in results.exercises), total]
+        row = ["" if value is None else f"{value:g}" for value in cells]
+        unread = " ".join(list_ungraded(one, results))
+        late = escape_formula(results.late.get(one.student, ""))
+        most = f"{sum(results.max_scores.values()):g}"
+        table.writerow([escape_formula(one.student), *row, most, late, unread])
     return (write_private_file(folder / "gradebook.csv", "\ufeff" + stream.getvalue()),)

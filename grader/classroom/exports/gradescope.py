@@ -1,6 +1,8 @@
 """Gradescope's results.json, one for each student.
 
 Its format: https://gradescope-autograders.readthedocs.io/en/latest/specs/#output-format
+A result without points is a failure of the autograder there, and shows the student nothing. So what
+could not be graded has 0 points, and the first line says that this is no mark.
 """
 
 import json
@@ -26,14 +28,20 @@ def write(results: ClassResults, folder: Path) -> tuple[Path, ...]:
     return tuple(
         write_private_file(
             folder / "gradescope" / make_folder_name(one.student) / "results.json",
-            json.dumps(_result(one), ensure_ascii=False, indent=1) + "\n",
+            json.dumps(_result(one, results), ensure_ascii=False, indent=1) + "\n",
         )
         for one in results.students
     )
 
 
-def _result(one: GradedStudent) -> dict[str, Any]:
+def _result(one: GradedStudent, results: ClassResults) -> dict[str, Any]:
     warnings = [
+        f"{record['exercise']} was not graded, so its 0 points are no mark: {record['reason']}"
+        for record in one.records
+        if record["status"] == "ungradable"
+    ]
+    warnings += [f"not graded: {text}" for text in results.remarks.get(one.student, ())]
+    warnings += [
         f"{record['exercise']}: {text}" for record in one.records for text in record["warnings"]
     ]
     return {

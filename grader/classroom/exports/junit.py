@@ -4,6 +4,7 @@ What it may hold: the schema of Jenkins, junit-10.xsd. Points stand in propertie
 """
 
 import re
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree as ET
@@ -25,15 +26,16 @@ def write(results: ClassResults, folder: Path) -> tuple[Path, ...]:
     """
     top = ET.Element("testsuites", name=_plain(results.name))
     for one in results.students:
-        top.append(_suite(one))
+        top.append(_suite(one, results.remarks.get(one.student, ())))
     ET.indent(top)
     text = ET.tostring(top, encoding="unicode")
     head = '<?xml version="1.0" encoding="utf-8"?>\n'
     return (write_private_file(folder / "junit.xml", f"{head}{text}\n"),)
 
 
-def _suite(one: GradedStudent) -> ET.Element:
+def _suite(one: GradedStudent, unused: Sequence[str]) -> ET.Element:
     cases = [_case(record, check) for record in one.records for check in record["checks"]]
+    cases += [_unused_case(text) for text in unused]
     count = {tag: sum(case.find(tag) is not None for case in cases) for tag in _KINDS}
     suite = ET.Element(
         "testsuite",
@@ -45,6 +47,13 @@ def _suite(one: GradedStudent) -> ET.Element:
     )
     suite.extend(cases)
     return suite
+
+
+def _unused_case(text: str) -> ET.Element:
+    """A file that may be an answer and was not graded."""
+    case = ET.Element("testcase", classname="files", name="not graded")
+    ET.SubElement(case, "error", message=_plain(text))
+    return case
 
 
 _KINDS = ("failure", "error", "skipped")
