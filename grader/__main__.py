@@ -54,10 +54,10 @@ def main(arguments: list[str]) -> int:
         if not find_missing_packages(arguments[:1]):
             return _run_command(arguments)
         if not (ROOT / "pyproject.toml").is_file():
+            from sim.support.extras import format_install_command  # noqa: PLC0415 - an old Python must get as far as being told
+
             names = ", ".join(find_missing_packages(arguments[:1]))
-            return _give_up(
-                f"{names} not installed", 'python -m pip install "sysid-course[course]"'
-            )
+            return _give_up(f"{names} not installed", format_install_command("course"))
         if is_in_environment() or HOPPED in os.environ:
             return _install_and_run(arguments)
         return _run_in_environment(arguments)

@@ -73,11 +73,18 @@ def find_learner(course: Path, *, known: str, student: str | None) -> str:
         student: who a command says it is; None in a class's package is whom it was issued to.
 
     Raises:
-        BadRequest: the name is none, or the class's file cannot be read.
+        BadRequest: the name is none, the class's file cannot be read, or the name that was known is
+            lost.
     """
     if student is not None:
         return check_student_name(student)
     of_class = read_class_package(course)
+    if of_class is None and not known:
+        raise BadRequest(
+            "your progress was damaged, and with it your name, which decides your numbers",
+            advice="Say your name once more, as before: grade start --student NAME. If you never "
+            "gave a name: grade start --student me",
+        )
     return of_class.student if of_class else known
 
 

@@ -80,7 +80,8 @@ class Progress:
     """Everybody's progress on this machine.
 
     Args:
-        student: who is learning, unless a command says otherwise.
+        student: who is learning, unless a command says otherwise; empty where it was written down
+            and is lost.
         standings: student -> exercise -> standing.
     """
 
@@ -118,7 +119,7 @@ def load_progress(course: Path) -> tuple[Progress, str]:
         The progress, and what is to be said about it: a damaged file is set aside, the first as
         ``progress.toml.bak``, the next as ``progress.toml.2.bak``.
     """
-    path = course / PLACE
+    path, text = course / PLACE, ""
     try:
         text = path.read_text(encoding="utf-8")
         return _parse_progress(tomllib.loads(text)), ""
@@ -127,11 +128,28 @@ def load_progress(course: Path) -> tuple[Progress, str]:
     except (OSError, ValueError, TypeError, LookupError, AttributeError, RecursionError, Refusal):
         aside = _find_free_name(path)
         said = f"your progress in {path} could not be read; it starts again from zero"
-        try:
+        fresh = Progress(_rescue_student(text))
+        with suppress(OSError):
             path.replace(aside)
-        except OSError:
-            return Progress(), said + "."
-        return Progress(), f"{said}, and the damaged file is now {aside.name}."
+            write_atomically(path, _format_progress(fresh))
+            said += f", and the damaged file is now {aside.name}"
+        return fresh, f"{said}."
+
+
+def _rescue_student(text: str) -> str:
+    """The name in a damaged file, so that nobody is graded on the numbers of somebody else."""
+    for line in text.splitlines():
+        with suppress(ValueError, TypeError, LookupError, RecursionError, Refusal):
+            return check_student_name(_parse_student(tomllib.loads(line)))
+    return ""
+
+
+def _parse_student(raw: Mapping[str, object]) -> str:
+    """The name in a file's content; whatever is none raises."""
+    student = raw["student"]
+    if not isinstance(student, str):
+        raise TypeError
+    return student
 
 
 def _find_free_name(path: Path) -> Path:
@@ -151,7 +169,8 @@ def _parse_progress(raw: dict[str, object]) -> Progress:
         raise TypeError
     for student, exercises in tables.items():
         standings[student] = {name: _parse_standing(one) for name, one in exercises.items()}
-    return Progress(check_student_name(str(raw.get("student", NOBODY))), standings)
+    student = _parse_student({"student": NOBODY, **raw})
+    return Progress(check_student_name(student) if student else "", standings)
 
 
 def _parse_standing(one: Mapping[str, object]) -> Standing:

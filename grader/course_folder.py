@@ -68,5 +68,6 @@ def find_course_source() -> Path:
     raise BadRequest(
         "this installation brought no lessons and exercises",
         where=str(INSTALLATION),
-        advice='Install it again: python -m pip install --force-reinstall "sysid-course[course]"',
+        advice="Install it again, from its wheel or its repository: python -m pip install "
+        "--force-reinstall FILE-OR-FOLDER",
     )

@@ -9,6 +9,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from grader.isolation import find_isolation_level
+from sim.support.extras import format_install_command
 
 OLDEST = (3, 11)
 NEEDED = ("numpy", "scipy", "matplotlib", "jupyterlab", "ipywidgets", "tree-sitter")
@@ -61,7 +62,7 @@ def _check_python() -> MachineFinding:
 def _check_packages() -> MachineFinding:
     lacking = [name for name in NEEDED if _find_version(name) is None]
     found = f"{', '.join(lacking)} missing" if lacking else "all installed"
-    advice = 'In the course folder: python -m pip install -e ".[course]"'
+    advice = format_install_command("course")
     return MachineFinding("packages", found, not lacking, advice=advice)
 
 
@@ -76,7 +77,9 @@ def _check_engine() -> MachineFinding:
     from sim.physics.engine import engine_can_compile, engine_is_cached  # noqa: PLC0415 - beside its use
 
     if not engine_can_compile():
-        advice = "The simulation works, but slowly. To make it fast: python -m pip install numba"
+        advice = (
+            f"The simulation works, but slowly. To make it fast: {format_install_command('fast')}"
+        )
         return MachineFinding(
             "simulation", "not compiled: Numba is missing", right=False, needed=False, advice=advice
         )
@@ -125,7 +128,7 @@ def _check_container() -> MachineFinding:
 def _check_robot() -> MachineFinding:
     there = [f"{name} {_find_version(name)}" for name in ROBOT if _find_version(name)]
     right = len(there) == len(ROBOT)
-    advice = 'To run RobotPy answers in simulation, too: python -m pip install -e ".[robot]"'
+    advice = f"To run RobotPy answers in simulation, too: {format_install_command('robot')}"
     return MachineFinding(
         "RobotPy", ", ".join(there) or "not installed", right, needed=False, advice=advice
     )
@@ -134,5 +137,5 @@ def _check_robot() -> MachineFinding:
 def _check_dask() -> MachineFinding:
     right = importlib.util.find_spec("distributed") is not None
     found = f"distributed {_find_version('distributed')}" if right else "not installed"
-    advice = 'To grade on more than one machine: python -m pip install -e ".[cluster]"'
+    advice = f"To grade on more than one machine: {format_install_command('cluster')}"
     return MachineFinding("cluster", found, right, needed=False, advice=advice)

@@ -23,6 +23,7 @@ from pathlib import Path
 
 from grader.exercise import Exercise, list_exercises
 from grader.fingerprint import PACKAGES
+from grader.submission import explain_restore
 from sim.core.errors import BadRequest
 
 TOPS = ("LICENSE", "README.md", "pyproject.toml")
@@ -108,7 +109,7 @@ def select_package_files(course: Path) -> PackageFiles:
         sources = [path for path in _list_files(folder) if path.name.endswith(SOURCES)]
         chosen |= _name_files(sources, top=folder.parent)
     chosen = {name: path for name, path in chosen.items() if not path.is_symlink()}
-    files = {name: _read_content(name, chosen[name]) for name in sorted(chosen)}
+    files = {name: _read_content(name, chosen[name], course) for name in sorted(chosen)}
     _refuse_changed(files, listed, course)
     every = [path for top in (*FOLDERS, *packages) for path in _list_files(course / top)]
     left_out = _name_files(every, top=course).keys() - files.keys()
@@ -153,7 +154,7 @@ def _read_starters(course: Path) -> dict[str, str]:
         raise BadRequest(
             "the list of starters cannot be read",
             where=str(path),
-            advice=f"Get it back: git checkout -- {STARTERS}",
+            advice=f"Get it back: {explain_restore(course, STARTERS)}",
         ) from None
     for one in list_exercises(course):
         for file in (*one.files, *one.companion_files):
@@ -214,24 +215,27 @@ def _list_files(top: Path) -> Iterator[Path]:
             yield path
 
 
-def _read_content(name: str, path: Path) -> bytes:
+def _read_content(name: str, path: Path, course: Path) -> bytes:
     try:
         content = path.read_bytes()
     except OSError as error:
         raise BadRequest(
             f"it cannot be read ({error.strerror}), and students need it",
             where=name,
-            advice=f"Get it back: git checkout -- {name}",
+            advice=f"Get it back: {explain_restore(course, name)}",
         ) from None
-    return strip_notebook(content, name=name) if name.endswith(".ipynb") else content
+    if not name.endswith(".ipynb"):
+        return content
+    return strip_notebook(content, name=name, course=course)
 
 
-def strip_notebook(content: bytes, *, name: str) -> bytes:
+def strip_notebook(content: bytes, *, name: str, course: Path) -> bytes:
     """A notebook as it was made from its source: no outputs, no metadata of Jupyter's.
 
     Args:
         content: of the notebook's file.
         name: of the notebook, for a refusal.
+        course: the course folder, for the same.
 
     Raises:
         BadRequest: it is no notebook, or a cell is not as it was derived; a cell's id is made of a
@@ -245,7 +249,7 @@ def strip_notebook(content: bytes, *, name: str) -> bytes:
             "the notebook was edited (its cells are not those of the lesson's .py), and students "
             "would get that",
             where=name,
-            advice=f"Keep a copy if you need it; then get it back: git checkout -- {name}",
+            advice="Keep a copy if you need it; then get it back: " + explain_restore(course, name),
         ) from None
     plain = {
         "cells": cells,
@@ -298,6 +302,6 @@ def _refuse_changed(files: dict[str, bytes], listed: dict[str, str], course: Pat
         raise BadRequest(
             f"{', '.join(changed)} {several} changed, and students would get your answers",
             where=str(course),
-            advice="Copy away what you want to keep; then get the starters back: git checkout -- "
-            + " ".join(changed),
+            advice="Copy away what you want to keep; then get the starters back: "
+            + explain_restore(course, *changed),
         )

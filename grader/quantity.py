@@ -10,6 +10,7 @@ import re
 from dataclasses import dataclass
 
 LONGEST = 80  # [characters] of a number with its unit; "volt-seconds squared per meter" has 30
+MAX_POWER = 9  # of a volt, a second, …; no unit of a gain has more than 3
 SHOWN = 20  # [characters] of a longer one in a message
 NUMBER = re.compile(r"([+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?)\s*(.*)", re.DOTALL)
 PART = re.compile(r"\s*(?:([a-z°]+)|(\^-?\d+)|([*/()])|(1))")
@@ -33,10 +34,17 @@ class Quantity:
     powers: tuple[int, ...]
 
     def multiply(self, other: "Quantity", *, power: int = 1) -> "Quantity":
-        """The product of this and a power of the other."""
+        """The product of this and a power of the other.
+
+        Raises:
+            NotAUnitError: a power is larger than that of any unit.
+        """
         powers = tuple(
             mine + power * its for mine, its in zip(self.powers, other.powers, strict=True)
         )
+        most = max(map(abs, powers))
+        if most > MAX_POWER:
+            raise NotAUnitError(f"a power of {most}")
         return Quantity(self.factor * other.factor**power, powers)
 
 

@@ -228,9 +228,20 @@ def _explain_restore(folder: Path, name: str) -> str:
     if folder.parent.name != "exercises":
         return ""
     path = f"{folder.parent.name}/{folder.name}/{name}"
-    if any((above / ".git").exists() for above in folder.resolve().parents):
-        return f"To get the file back as it was: git checkout -- {path}"
+    return f"To get the file back as it was: {explain_restore(folder.parents[1], path)}"
+
+
+def explain_restore(course: Path, *names: str) -> str:
+    """How to get files of the course back as they were.
+
+    Args:
+        course: the course folder.
+        names: paths in it.
+    """
+    here = course.resolve()
+    if any((above / ".git").exists() for above in (here, *here.parents)):
+        return f"git checkout -- {' '.join(names)}"
     return (
-        "To get the file back as it was: make a new copy of the course with grade start "
-        f"NEW-FOLDER --no-lab, and take {path} from there."
+        "make a new copy of the course with grade start NEW-FOLDER --no-lab, and take "
+        f"{' '.join(names)} from there."
     )

@@ -754,8 +754,8 @@ Table(
 # <details><summary>Try it with a simulated robot, or use it with your own robot</summary>
 #
 # `exercises/exercise6/robot.py` is a robot program with a `SysIdRoutine`, as in lesson 4. This
-# program runs the four tests in WPILib's simulation. It needs RobotPy: `pip install
-# "sysid-course[robot]"`. Open two terminals in the course folder. In the first type
+# program runs the four tests in WPILib's simulation. It needs RobotPy: `grade doctor`
+# says how to install it. Open two terminals in the course folder. In the first type
 #
 # ```
 # sysid watch logs --page

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import tomllib
 import zipfile
+from pathlib import Path
 
 import pytest
 
@@ -167,7 +168,7 @@ def test_a_notebook_with_edited_cells_is_refused(course, capsys, reads):
     assert run_command(["release", "-o", "../out"]) == 2
     reads(capsys.readouterr().err)
     with pytest.raises(BadRequest, match="edited"):
-        strip_notebook(b"[]", name="x.ipynb")
+        strip_notebook(b"[]", name="x.ipynb", course=Path())
 
 
 @pytest.mark.parametrize("given", ["class.secret", "exercises/../k.py", "{course}/class.secret"])

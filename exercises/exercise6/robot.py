@@ -5,7 +5,7 @@
 
 It is a drivetrain as in lesson 4. The bench moves it: motors, battery, carpet and encoders are
 those of `sysid simulate drivetrain`. The robot writes its log into the folder ``logs``, and sends
-the same signals over NetworkTables. It needs RobotPy: pip install "sysid-course[robot]"
+the same signals over NetworkTables. It needs RobotPy: grade doctor says how to install it.
 """
 
 import time

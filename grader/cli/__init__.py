@@ -18,6 +18,7 @@ from sim.core.errors import BadRequest
 from sim.support import command_line
 from sim.support.command_line import COULD_NOT, DONE, NOT_RIGHT
 from sim.support.completion import explain_completion
+from sim.support.extras import format_install_command
 
 if TYPE_CHECKING:
     from grader.consequence import Consequence
@@ -96,7 +97,7 @@ def _refuse_bare_installation() -> None:
     missing = [name for name in COURSE_PACKAGES if importlib.util.find_spec(name) is None]
     if missing:
         cloned = (Path(__file__).resolve().parents[2] / "pyproject.toml").is_file()
-        install = 'python -m pip install "sysid-course[course]"'
+        install = format_install_command("course")
         raise BadRequest(
             f"lessons and grading are not installed ({', '.join(missing)} missing)",
             advice=f"Install them: {'python -m grader start' if cloned else install}",

@@ -18,6 +18,7 @@ from sim.cli.options import (
     refuse_overwriting,
 )
 from sim.support.command_line import DONE, NOT_RIGHT, print_error
+from sim.support.extras import format_install_command
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -119,7 +120,7 @@ def _warn_uncompiled() -> None:
     if not engine_can_compile():
         print_error(
             "Numba is not installed, so this takes minutes instead of seconds; the result is the "
-            'same. To make it quick: python -m pip install "sysid-course[fast]"',
+            f"same. To make it quick: {format_install_command('fast')}",
             name="sysid",
         )
 

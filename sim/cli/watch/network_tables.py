@@ -21,6 +21,7 @@ from sim.io.entries.entry import STRING
 from sim.io.entries.names import find_test_name
 from sim.io.entries.state import FILLERS
 from sim.io.formats.wpilog.signals import SignalRecorder
+from sim.support.extras import format_install_command
 
 TYPES = {"double": "double", "float": "float", "int": "int64", "boolean": "boolean", STRING: STRING}
 """Type of a topic -> type of its log entry; arrays and structures hold no signal."""
@@ -204,7 +205,7 @@ def _import_ntcore() -> Any:  # noqa: ANN401 - ntcore ships no types
     except ImportError:
         raise BadRequest(
             "following NetworkTables needs pyntcore",
-            advice='Install it with: pip install "sysid-course[live]". A .wpilog file that grows '
+            advice=f"Install it with: {format_install_command('live')}. A .wpilog file that grows "
             "can be followed without it.",
         ) from None
     return ntcore
