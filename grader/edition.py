@@ -31,8 +31,8 @@ main { max-width: 60rem; margin: auto; }
 .jp-OutputArea-output pre { white-space: pre-wrap; word-break: normal; }
 .reveal section section { height: 100%; overflow-y: auto; text-align: left; font-size: 20px; }
 .reveal .slides * { text-transform: none; }
-</style>{% endblock %}
-{% block footer_js %}{% if resources.reveal %}
+@media (max-width: 40rem) { figure.picture img { min-width: 32rem; } }
+</style>{% endblock %}{% block footer_js %}{% if resources.reveal %}
 <script src="{{ resources.reveal.url_prefix }}/dist/reveal.js"></script>
 <script>window.Reveal?.initialize({center: false, hash: true, slideNumber: true})</script>
 {% endif %}{% endblock %}"""
