@@ -1,18 +1,18 @@
 """A hook of MkDocs: what stands beside the code is part of the site, too.
 
-Pages and exercises are rendered as GitHub shows them, and lessons as executed notebooks. A lesson
-whose outputs the tests kept in build/lessons/ is not run again.
+Pages and exercises are rendered as GitHub shows them, and lessons as `grade edition` writes their
+executed notebooks. A lesson whose outputs the tests kept in build/lessons/ is not run again.
 """
 
 import base64
 import logging
 import re
 import sys
-from collections.abc import Iterator
 from html import escape, unescape
 from pathlib import Path
 from urllib.parse import unquote, urlparse
 
+import nbformat
 from markdown_it import MarkdownIt
 from mkdocs.config.defaults import MkDocsConfig
 from mkdocs.exceptions import PluginError
@@ -27,13 +27,10 @@ from pygments.util import ClassNotFound
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
-from grader.edition.notebook_execution import (  # noqa: E402 - the course in this folder
-    execute_notebook,
-    find_kept_notebook,
-    keep_notebook,
-)
-from grader.edition.notebook_html import render_cells  # noqa: E402 - the same
+from grader.edition import BODY, convert_notebook, execute_notebook  # noqa: E402 - this folder's
+from grader.fingerprint import fingerprint_folders  # noqa: E402 - the same
 from sim.core.errors import BadRequest  # noqa: E402 - the same
+from sim.support.atomic_file import write_atomically  # noqa: E402 - the same
 
 PAGES = (
     "sim/ARCHITECTURE.md",
@@ -54,8 +51,10 @@ ANCHOR = re.compile(
     r'<a (?P<before>[^>]*)href="(?P<target>[^"]*)"(?P<after>[^>]*)>(?P<text>.*?)</a>', re.DOTALL
 )
 HEADING = re.compile(r"<h([1-6])>(.*?)</h\1>", re.DOTALL)
+H1 = re.compile(r"<h1>(.+?)</h1>")
 PICTURE = re.compile(r'<img alt="([^"]*)" src="data:image/svg\+xml;base64,([^"]+)"')
-ABLE = re.compile(r"\*\*At the end you can\*\*\n\n- (.+?)[;.]?\n- ", re.DOTALL)
+ABLE = re.compile(r"At the end you can</strong></p>\s*<ul>\s*<li>(.+?)[;.]?</li>", re.DOTALL)
+MADE_FROM = "made_from"  # in a kept notebook's metadata: the digest of what its outputs depend on
 LESSONS_HERE = "<!-- lessons -->"  # in the first page: where their cards stand
 log = logging.getLogger("mkdocs.hooks.docs_pages")  # a warning here fails a strict build
 
@@ -85,11 +84,11 @@ def on_files(files: Files, *, config: MkDocsConfig) -> Files:
     for path in ROOT.glob(PICTURES):  # a server of pages may leave out folders with a dot
         files.append(File.generated(config, f"pictures/{path.name}", abs_src_path=str(path)))
     for path in list_lessons():
-        notebook = get_notebook(path, run=config.extra["run_lessons"])
-        text = "\n\n".join(join_cells(notebook))
+        html = convert_notebook(get_notebook(path, run=config.extra["run_lessons"]), BODY)
+        text = f"# {H1.search(html)[1]}\n{html}"
         files.append(File.generated(config, f"lessons/{path.stem}.md", content=text))
         files.append(File.generated(config, f"lessons/{path.name}", abs_src_path=str(path)))
-        if picture := PICTURE.search(text):
+        if picture := PICTURE.search(html):
             drawing = base64.b64decode(picture[2])
             files.append(File.generated(config, f"lessons/{path.stem}.svg", content=drawing))
     return files
@@ -101,16 +100,19 @@ def on_page_markdown(markdown: str, *, page: Page, config: MkDocsConfig, files: 
         title = re.search(r"^# (.+)$", markdown, re.MULTILINE)
         page.meta["source"] = markdown
         return f"# {title[1]}\n" if title else ""
-    return markdown.replace(LESSONS_HERE, "".join(map(make_card, list_lessons())))
+    return markdown.replace(LESSONS_HERE, "".join(make_card(one, files) for one in list_lessons()))
 
 
 def on_page_content(html: str, *, page: Page, config: MkDocsConfig, files: Files) -> str:
     """Render such a page, check its links, and make its table of contents."""
     if not _is_ours(page):
         return html
-    rendered = render_markdown(page.meta.pop("source"))
-    if page.file.src_uri.startswith("lessons/"):
-        rendered = rendered.replace("</h1>", f"</h1>{say_how_to_run(page, config)}", 1)
+    source = page.meta.pop("source")
+    if page.file.src_uri.startswith("lessons/"):  # which is HTML below its title
+        html = source.partition("\n")[2]
+        rendered = html.replace("</h1>", f"</h1>{say_how_to_run(page, config)}", 1)
+    else:
+        rendered = render_markdown(source)
     rendered, tokens = name_headings(rendered)
     page.toc = get_toc(tokens)
     page.present_anchor_ids = set(re.findall(r'\bid="([^"]+)"', rendered))
@@ -122,7 +124,7 @@ def list_lessons() -> list[Path]:
     return sorted((ROOT / "lessons").glob("*.ipynb"))
 
 
-def get_notebook(path: Path, *, run: bool) -> object:
+def get_notebook(path: Path, *, run: bool) -> nbformat.NotebookNode:
     """A lesson's notebook with its outputs.
 
     Args:
@@ -132,11 +134,11 @@ def get_notebook(path: Path, *, run: bool) -> object:
     Raises:
         PluginError: a cell fails.
     """
-    import nbformat  # noqa: PLC0415 - with nbclient, as where it is executed
-
-    kept = find_kept_notebook(path, folder=KEPT)
-    if kept is not None:
-        return kept
+    kept = KEPT / path.name
+    if kept.is_file():
+        notebook = nbformat.read(kept, 4)
+        if notebook.metadata.get(MADE_FROM) == fingerprint_folders(path.parent):
+            return notebook
     if not run:
         return nbformat.read(path, 4)
     log.info("running %s", path.stem)
@@ -144,20 +146,26 @@ def get_notebook(path: Path, *, run: bool) -> object:
         notebook = execute_notebook(path)
     except BadRequest as error:
         raise PluginError(str(error)) from None
-    keep_notebook(notebook, path, folder=KEPT)
+    keep_notebook(notebook, path)
     return notebook
 
 
-def make_card(path: Path) -> str:
+def keep_notebook(notebook: nbformat.NotebookNode, path: Path) -> None:
+    """Store an executed notebook for `get_notebook`, until its lesson or the code changes."""
+    notebook.metadata[MADE_FROM] = fingerprint_folders(path.parent)
+    KEPT.mkdir(parents=True, exist_ok=True)
+    write_atomically(KEPT / path.name, nbformat.writes(notebook))
+
+
+def make_card(path: Path, files: Files) -> str:
     """The first page's entry of a lesson: its picture, its title, what one can do afterwards."""
-    text = "\n\n".join(join_cells(get_notebook(path, run=False)))
-    title = re.search(r"^# (.+)$", text, re.MULTILINE)
-    able, picture = ABLE.search(text), PICTURE.search(text)
+    html = files.get_file_from_path(f"lessons/{path.stem}.md").content_string
+    able, picture = ABLE.search(html), PICTURE.search(html)
     shown = f'<img alt="{picture[1]}" src="lessons/{path.stem}.svg">' if picture else ""
-    words = render_markdown("You can " + " ".join(able[1].split()) + ".") if able else ""
+    words = f"<p>You can {able[1]}.</p>" if able else ""
     return (
         f'<a class="card" href="lessons/{path.stem}.html">{shown}'
-        f"<strong>{escape(title[1] if title else path.stem)}</strong>{words}</a>\n"
+        f"<strong>{H1.search(html)[1]}</strong>{words}</a>\n"
     )
 
 
@@ -227,19 +235,6 @@ def say_how_to_run(page: Page, config: MkDocsConfig) -> str:
     return (
         f'<p class="run-it"><a class="run" href="../sim/docs/guide.md#run-a-lesson">Run it</a>'
         f'{colab} · <a href="{name}" download>Download the notebook</a></p>'
-    )
-
-
-def join_cells(notebook: object) -> Iterator[str]:
-    """What a page shows of a notebook, as markdown with blocks of HTML without empty lines."""
-    for is_markdown, text in render_cells(notebook):
-        yield text if is_markdown else f"<div class='cell'>{_without_empty_lines(text)}</div>"
-
-
-def _without_empty_lines(html: str) -> str:
-    """HTML that Markdown leaves alone up to its end."""
-    return re.sub(r"\n(?=[ \t]*\n)", "\n<span></span>", html).replace(
-        'class="code"', 'class="highlight"'
     )
 
 

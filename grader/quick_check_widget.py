@@ -120,4 +120,5 @@ class QuickNumberCheck:
         return f"QuickNumber({self.question!r})"
 
     def _repr_mimebundle_(self, **how: object) -> Any:  # noqa: ANN401 - ipywidgets has no types
-        return self._box._repr_mimebundle_(**how)
+        plain = f"{self.question}\n  Answer: {self._typed.placeholder}"  # where there is no box
+        return self._box._repr_mimebundle_(**how) | {"text/plain": plain}

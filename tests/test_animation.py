@@ -21,7 +21,6 @@ from sim.plot.animation import (
     Scene,
     TestPlan,
     animate_mechanism,
-    make_script_source,
     read_script,
 )
 
@@ -53,11 +52,6 @@ def test_no_name_ends_the_data_or_becomes_a_tag():
     html = animated(scenes=scene, alt='"<i>').html
     assert html.count("</script>") == 2
     assert "<i>" not in html
-
-
-def test_a_page_allows_the_script_that_is_in_every_animation_and_no_other():
-    assert f'<script type="module">{read_script()}</script>' in animated().html
-    assert re.fullmatch(r"'sha256-[\w+/]{43}='", make_script_source(read_script()))
 
 
 def test_axes_hold_all_scenes_and_what_is_given_stays():

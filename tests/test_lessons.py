@@ -8,6 +8,7 @@ import re
 import subprocess
 import sys
 from dataclasses import astuple, dataclass
+from html import unescape
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -17,7 +18,7 @@ import pytest
 from jupyter_client.kernelspec import KernelSpecManager
 
 import sim
-from grader.edition.notebook_execution import execute_notebook, keep_notebook
+from grader.edition import SLIDES, VIEW, convert_notebook, execute_notebook
 from sim.bench.simulate import simulate
 from sim.plot import Picture, plot_r2_vs_gain_error
 from sim.teaching.r2_cases import GOOD, make_cases
@@ -30,6 +31,7 @@ ASSUMED = (  # INSTRUCTORS.md's sentence about how the minutes are calculated
     r"that moves or has sliders, and (\d+) seconds for any other picture or table"
 )
 PICTURE = '<figure><img alt="a picture"></figure><table></table>'  # with the table of its numbers
+QUESTION = r"\b(?:Prediction|Quick(?:Number)?Check)\("
 SCREENFUL = 40  # [lines] of a function; what is longer belongs into sim
 DERIVE = "run  python .ci/derive_notebooks.py  and commit the notebook with its text"
 
@@ -67,27 +69,39 @@ class Page(HTMLParser):
         self.open -= tag == "details"
 
 
+def load_script(name):
+    """A script of the folder .ci as a module."""
+    spec = importlib.util.spec_from_file_location(name, ROOT / ".ci" / f"{name}.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
 @pytest.fixture(scope="module")
 def derive():
     """The function of the script that derives notebooks."""
-    place = ROOT / ".ci" / "derive_notebooks.py"
-    spec = importlib.util.spec_from_file_location("derive_notebooks", place)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module.derive
+    return load_script("derive_notebooks").derive
 
 
 @pytest.fixture(scope="module")
 def run():
-    """Run a lesson's notebook as a learner does, once per module; its cells with their outputs."""
-    done = {}
+    """Run a lesson's notebook as a learner does, once per module, and keep it for the site.
+
+    Warnings are errors.
+    """
+    assert "python3" in KernelSpecManager().find_kernel_specs(), "install ipykernel"
+    site, done = load_script("docs_pages"), {}
 
     def ran(text):
         if text not in done:
-            done[text] = _execute(text.with_suffix(".ipynb"))
+            path = text.with_suffix(".ipynb")
+            done[text] = execute_notebook(path)
+            site.keep_notebook(done[text], path)
         return done[text]
 
-    return ran
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("PYTHONWARNINGS", "error")
+        yield ran
 
 
 def test_what_people_read_is_spelled_right():
@@ -139,8 +153,21 @@ def test_a_committed_notebook_holds_no_outputs(text):
 def test_every_cell_runs_without_error_or_warning(text, run):
     for cell in run(text).cells:
         for output in cell.get("outputs", []):
-            assert output.output_type != "error", cell.source
             assert output.get("name") != "stderr", f"{output.text}\n{cell.source}"
+
+
+@each_lesson
+def test_every_question_is_on_a_slide(text, run):
+    notebook = run(text)
+    slides = unescape(convert_notebook(notebook, SLIDES))
+    code = [cell for cell in notebook.cells if cell.cell_type == "code"]
+    shown = [output.data for cell in code for output in cell.outputs if "data" in output]
+    widgets = [data["text/plain"] for data in shown if VIEW in data]
+    questions = [words for words in widgets if not words.startswith("VBox(")]
+    source = "\n".join(cell.source for cell in code)
+
+    assert len(questions) == len(re.findall(QUESTION, source)) > 0
+    assert [words for words in questions if f"<pre>{words}</pre>" not in slides] == []
 
 
 @each_lesson
@@ -290,7 +317,7 @@ def _code_load(cell):
     sliders = len(re.findall(r"^show_interactive\(", cell.source, re.MULTILINE))
     return Load(
         words=0,
-        questions=len(re.findall(r"\b(?:Prediction|Quick(?:Number)?Check)\(", cell.source)),
+        questions=len(re.findall(QUESTION, cell.source)),
         moving=sliders + sum(len(page.animations) for page in pages),
         still=sum(len(page.pictures) or page.tables for page in pages),
     )
@@ -465,16 +492,6 @@ def _htmls(notebook):
         state = widgets["application/vnd.jupyter.widget-state+json"]["state"][model]["state"]
         if isinstance(state.get("value"), str):
             yield state["value"]
-
-
-def _execute(path):
-    """Run a notebook, warnings being errors; it is kept for the site if no cell failed."""
-    assert "python3" in KernelSpecManager().find_kernel_specs(), "install ipykernel"
-    notebook = execute_notebook(path, environment={"PYTHONWARNINGS": "error"}, allow_errors=True)
-    outputs = [output for cell in notebook.cells for output in cell.get("outputs", [])]
-    if all(output.output_type != "error" for output in outputs):
-        keep_notebook(notebook, path, folder=ROOT / "build" / "lessons")
-    return notebook
 
 
 def _environment(home):

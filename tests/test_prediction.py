@@ -40,7 +40,9 @@ def test_a_notebook_gets_the_question_and_the_buttons(guess, reads):
     question, buttons = guess._box.children
     reads(question.value)
     assert buttons.options == ("kS", "kA")
-    assert "application/vnd.jupyter.widget-view+json" in guess._repr_mimebundle_()
+    shown = guess._repr_mimebundle_()
+    assert "application/vnd.jupyter.widget-view+json" in shown
+    assert shown["text/plain"] == f"{guess.question}\n  ○ kS\n  ○ kA"  # without buttons
 
 
 def test_the_answer_says_whether_the_prediction_was_right_and_keeps_a_score(monkeypatch, reads):

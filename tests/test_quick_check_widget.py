@@ -33,7 +33,9 @@ def test_buttons_tell_the_same(check):
     assert told.value == "<p><b>Not yet. Friction is the same.</b></p>"
     buttons.value = None
     assert told.value == ""
-    assert "application/vnd.jupyter.widget-view+json" in check._repr_mimebundle_()
+    shown = check._repr_mimebundle_()
+    assert "application/vnd.jupyter.widget-view+json" in shown
+    assert "Mass" not in shown["text/plain"]
 
 
 def test_an_answer_that_is_not_there_is_refused(check):

@@ -221,34 +221,19 @@ def test_two_headings_of_one_name_have_two_anchors(hook):
     assert [one["id"] for one in tokens[0]["children"]] == ["a--b", "a--b-1"]
 
 
-def test_a_kept_notebook_is_used_until_the_lesson_changes(tmp_path):
-    from grader.edition.notebook_execution import find_kept_notebook, keep_notebook  # noqa: PLC0415 - with it
-
+def test_a_kept_notebook_is_used_until_the_lesson_changes(hook, tmp_path, monkeypatch):
+    monkeypatch.setattr(hook, "KEPT", tmp_path / "kept")
     path = tmp_path / "01_motor_model.ipynb"
-    shutil.copy(ROOT / "lessons" / path.name, path)
-    kept = nbformat.read(path, 4)
-    kept.cells[0].source = "ran"
-    assert find_kept_notebook(path, folder=tmp_path / "kept") is None
-    keep_notebook(kept, path, folder=tmp_path / "kept")
+    for suffix in (".ipynb", ".py"):
+        shutil.copy(ROOT / "lessons" / f"{path.stem}{suffix}", tmp_path)
+    ran, fresh = nbformat.read(path, 4), nbformat.read(path, 4)
+    ran.cells[0].source = "ran"
+    assert hook.get_notebook(path, run=False) == fresh
+    hook.keep_notebook(ran, path)
 
-    assert find_kept_notebook(path, folder=tmp_path / "kept").cells[0].source == "ran"
-    path.write_text(path.read_text("utf-8") + "\n", "utf-8")
-    assert find_kept_notebook(path, folder=tmp_path / "kept") is None
-
-
-def test_code_of_a_cell_with_empty_lines_stays_one_block_that_can_be_copied(hook):
-    notebook = nbformat.v4.new_notebook(
-        cells=[
-            nbformat.v4.new_markdown_cell("# Lesson"),
-            nbformat.v4.new_code_cell("a = 1\n\n\n# # no heading\nb = 2"),
-        ]
-    )
-
-    html = hook.render_markdown("\n\n".join(hook.join_cells(notebook)))
-    code = html.partition("<pre>")[2].partition("</pre>")[0]
-
-    assert re.sub(r"<[^>]+>", "", code).strip() == "a = 1\n\n\n# # no heading\nb = 2"
-    assert html.count("<h1>") == 1
+    assert hook.get_notebook(path, run=False).cells[0].source == "ran"
+    path.with_suffix(".py").write_text("# edited", "utf-8")
+    assert hook.get_notebook(path, run=False) == fresh
 
 
 def numbers_and_words(text):

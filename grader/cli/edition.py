@@ -18,7 +18,7 @@ from sim.support.command_line import DONE
 def edition(output: Path, only: tuple[str, ...]) -> int:
     """Run all lessons, and write each as a page and as slides.
 
-    They can be read without installing anything.
+    The pages can be read without installing anything and without a network; slides need a network.
     """
     from grader.course import find_course  # noqa: PLC0415 - --help must not wait for it
     from grader.edition import build_pages  # noqa: PLC0415 - the same
@@ -26,7 +26,8 @@ def edition(output: Path, only: tuple[str, ...]) -> int:
     notebooks = sorted((find_course(Path.cwd()) / "lessons").glob("*.ipynb"))
     asked = tuple(one.zfill(2) for one in only)
     chosen = [path for path in notebooks if not asked or path.name.startswith(asked)]
-    index = build_pages(chosen, output, say=lambda name: print_error(f"running {name}"))
+    build_pages(chosen, output, lambda name: print_error(f"running {name}"))
+    index = output / "index.html"
     print_lines(
         [style_line(f"{index}: {len(chosen)} lessons, their slides, and handout.html to print")]
     )

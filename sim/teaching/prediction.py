@@ -1,7 +1,7 @@
 """A prediction before an experiment, compared with the answer afterwards, without a grade."""
 
 from html import escape
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from sim.core.errors import BadRequest
 
@@ -76,5 +76,7 @@ class Prediction:
     def __repr__(self) -> str:
         return f"Prediction({self.question!r}: {self})"
 
-    def _repr_mimebundle_(self, **how: object) -> object:
-        return self._box._repr_mimebundle_(**how)
+    def _repr_mimebundle_(self, **how: object) -> Any:  # noqa: ANN401 - ipywidgets has no types
+        answers = (f"  \N{WHITE CIRCLE} {option}" for option in self.options)
+        plain = "\n".join((self.question, *answers))  # where no buttons can be shown
+        return self._box._repr_mimebundle_(**how) | {"text/plain": plain}

@@ -11,8 +11,6 @@ stages.js      drawings of the mechanisms
 animation.css  styles, for light and dark pages
 """
 
-import base64
-import hashlib
 import json
 import math
 from collections.abc import Iterable, Mapping, Sequence
@@ -52,7 +50,6 @@ __all__ = [
     "Score",
     "TestPlan",
     "animate_mechanism",
-    "make_script_source",
     "read_script",
 ]
 
@@ -135,12 +132,6 @@ def read_script() -> str:
     )
     rows = [row for file in files for row in file.read_text(encoding="utf-8").splitlines()]
     return "\n".join(row for row in rows if not row.startswith("import "))
-
-
-def make_script_source(script: str) -> str:
-    """The Content-Security-Policy source (a hash) that allows this script and no other."""
-    digest = hashlib.sha256(script.encode("utf-8")).digest()
-    return f"'sha256-{base64.b64encode(digest).decode('ascii')}'"
 
 
 def animate_mechanism(
