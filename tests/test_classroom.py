@@ -132,8 +132,12 @@ def test_what_is_graded_is_not_graded_again_until_something_changes(course, tmp_
     assert left() == []
     (there / "ben" / "exercise1" / "answers.toml").write_text(RIGHT, encoding="utf-8")
     assert left() == ["ben"]
-    (tmp_path / "out" / "results" / "ann.json").write_text("{", encoding="utf-8")
-    assert left() == ["ann"]
+    for damaged in (
+        "{",
+        '{"student": "ann", "digest": "", "records": [{"exercise": "exercise1"}]}',
+    ):
+        (tmp_path / "out" / "results" / "ann.json").write_text(damaged, encoding="utf-8")
+        assert left() == ["ann"]
     assert left(secret=b"another class's") == ["ann", "ben"]
     assert left(secret=b"another class's", again=True) == ["ann", "ben"]
     checks = course / "exercises" / "exercise1" / "checks.py"

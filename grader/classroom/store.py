@@ -15,6 +15,9 @@ from sim.core.errors import BadRequest
 from sim.support.atomic_file import make_private_folder, write_atomically
 
 RESULTS = "results"
+RECORD_NAMES = {
+    "exercise", "student", "score", "max_score", "status", "file", "reason", "warnings", "checks"
+}  # fmt: skip
 WRITTEN = "written.txt"  # there: the files of the last run that ended, one path in each line
 
 
@@ -69,6 +72,8 @@ class ResultStore:
         try:
             kept = json.loads(self._path(student).read_text(encoding="utf-8"))
             found = GradedStudent(kept["student"], kept["digest"], tuple(kept["records"]))
+            if not all({*record} >= RECORD_NAMES for record in found.records):
+                return None
         except (OSError, ValueError, KeyError, TypeError):
             return None
         return found if (found.student, found.digest) == (student, expected) else None
