@@ -138,7 +138,9 @@ def test_a_course_started_as_somebody_else_is_told(course, tmp_path, reads):
 
 
 @pytest.mark.parametrize("issued", [True, False])
-def test_a_served_home_is_its_students_whatever_its_folder_is_called(course, tmp_path, issued):
+def test_work_that_jupyterhub_collected_is_its_students_whatever_its_folder_is_called(
+    course, tmp_path, issued
+):
     name = "Ben Öztürk"
     if issued:
         issue(course, name)

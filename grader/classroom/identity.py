@@ -89,7 +89,7 @@ def _grade_as_started(one: Submission) -> Submission:
 
 
 def _by_name(one: Submission, student: str) -> Submission:
-    """The same, by the name whose folder `grade serve` gave the student; else as it is."""
+    """The same, by the name that JupyterHub's folder of their work stands for; else as it is."""
     if student and one.student.casefold() == make_folder_name(student):
         return replace(one, student=student)
     return one
