@@ -83,16 +83,15 @@ STUDENTS = (
 
 
 def commands(heading: str) -> list[list[str]]:
-    """The commands that the guide prints under a heading, as a shell would split them."""
+    """Our commands that the guide prints under a heading, as a shell would split them."""
     guide = (ROOT / "INSTRUCTORS.md").read_text(encoding="utf-8")
     section = guide.partition(f"\n## {heading}")[2].partition("\n## ")[0]
     blocks = re.findall(r"```shell\n(.*?)```", section, flags=re.DOTALL)
-    return [shlex.split(line) for block in blocks for line in block.splitlines()]
+    lines = [shlex.split(line) for block in blocks for line in block.splitlines()]
+    return [words for words in lines if words[0] in PROGRAMS]
 
 
-def start(
-    words: list[str], *, cwd: Path, installed: Path = ROOT, **how: object
-) -> "subprocess.Popen[str]":
+def start(words: list[str], *, cwd: Path, installed: Path = ROOT) -> "subprocess.Popen[str]":
     """Start one of our commands as a terminal would; ``installed`` is where its code lies."""
     code = f"from {PROGRAMS[words[0]]} import main; main()"
     environment = {**os.environ, "PYTHONPATH": str(installed), "COLUMNS": "200", "PYTHONUTF8": "1"}
@@ -100,7 +99,7 @@ def start(
         environment.pop(name, None)
     return subprocess.Popen(
         [sys.executable, "-P", "-c", code, *words[1:]], cwd=cwd, env=environment, encoding="utf-8",
-        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, **how,
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
     )  # fmt: skip
 
 
