@@ -34,7 +34,7 @@ SLOW = (  # files that take long; begun first, they keep no core waiting at the 
     "test_adding_an_effect",
     "test_mutation",
     "test_mutation_toml",
-    "test_serve",
+    "test_jupyterhub",
     "test_autograder",
     "test_sysid",
     "test_robotcode_bench_sandboxed_run",
