@@ -399,6 +399,16 @@ def test_a_decision_may_be_written_in_many_ways(copy, go, no_go):
     assert grade_answer(copy, **words)["checklist"].status == "passed"
 
 
+@pytest.mark.parametrize("word", ["go", "no-go"])
+def test_the_same_decision_about_everything_earns_little(copy, word):
+    same = {f"check_{item}": word for item in KEY.draw_morning("ann").seen}
+    limits = {"limit_a": "bypassed", "limit_b": "bypassed"}
+    results = [grade_answer(copy, student=one, **same, **limits) for one in CLASS]
+
+    assert np.mean([one["checklist"].points for one in results]) < 0.2
+    assert {one["limits"].points for one in results} == {0}
+
+
 def test_each_wrong_word_cancels_a_right_one(copy):
     answers = right("ann") | {"check_log": "perhaps", "limit_a": "perhaps"}
     results = grade_answer(copy, **answers)
