@@ -45,8 +45,9 @@ DISAGREES = {  # line of the student's file -> what it says of a cause it rules 
 def judge_list(raw: object, variant: Variant) -> None:
     """Grade a list of causes: one point each for possible causes, their order and the evidence.
 
-    Order and evidence need at least two possible causes. Each cause that is not possible, and each
-    one too many, costs a point: so a list of everything earns nothing.
+    Evidence needs at least two possible causes, and the order counts only with the evidence: else a
+    list that fits everybody earned it. Each cause that is not possible, and each one too many,
+    costs a point: so a list of everything earns nothing.
 
     Raises:
         WrongAnswer: it is no such list, or a point is lost; the hint names every reason.
@@ -63,9 +64,9 @@ def judge_list(raw: object, variant: Variant) -> None:
         found.append((f"name at least {LEAST} causes that are possible", ""))
         lost = 3
     else:
-        further = [_about_order(possible, variant), _about_evidence(possible, variant)]
-        found += [(one, "") for one in further if one]
-        lost += sum(bool(one) for one in further)
+        order, evidence = _about_order(possible, variant), _about_evidence(possible, variant)
+        found += [(one, "") for one in (order, evidence) if one]
+        lost += 2 if evidence else 1 if order else 0
     if found:
         codes = {code for _, code in found if code}
         raise WrongAnswer(
