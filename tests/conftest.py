@@ -46,6 +46,8 @@ SLOW = (  # files that take long; begun first, they keep no core waiting at the 
     "test_robotcode_backends",
     "test_exercise5",
     "test_package_files",
+    "test_package_keys",
+    "test_guessing",
     "test_reconcile_in_browser",
     "test_robotcode_fuzz",
     "test_release",

@@ -48,9 +48,9 @@ def release(  # noqa: PLR0917 - click passes options by name
 ) -> int:
     """Make the students' package.
 
-    It is the course without solutions, keys and secret. With a roster, each student also gets
-    numbers and logs of their own. Only the owner of the secret can make them again, and grade them:
-    grade class FOLDER --secret FILE.
+    It is the course without solutions and secret. With a roster, each student also gets numbers and
+    logs of their own, and no answer keys. Only the owner of the secret can make these numbers
+    again, and grade them: grade class FOLDER --secret FILE.
     """
     from grader.classroom.secret import find_secret  # noqa: PLC0415 - --help must not wait for it
 
@@ -127,7 +127,7 @@ def _release(
     said = describe_other_code(course)
     if said:
         print_error(said)
-    chosen = select_package_files(course)
+    chosen = select_package_files(course, with_keys=not students)
     chosen.refuse_secret(secret.value if secret else b"")
     report_left_out(chosen.left_out)
     everybody = zip_files(chosen.files)
