@@ -189,7 +189,7 @@ def test_a_number_says_nothing_about_what_was_done_to_a_log(tmp_path):
     fault = '[[logs]]\nmechanisms = "shooter"\n[[logs.faults]]\nname = "sign-flip"\n'
     jobs = jobs_of(spec(tmp_path, text.replace("{names}", names) + fault))
 
-    numbers = [job.name[-2:] for job in jobs if job.strikes]
+    numbers = [job.name[-2:] for job in jobs if job.draw_faults()]
 
     assert len(numbers) == 40
     assert set(numbers) == {
