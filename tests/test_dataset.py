@@ -218,5 +218,27 @@ def test_the_example_can_be_made_as_it_is(tmp_path, capsys):
     folder = make_dataset(path)
 
     assert f"sysid dataset {path} -o week3" in capsys.readouterr().out
-    assert len(files(folder)) == 2 * (2 * 2 + 3 + 2)  # students x (mechanisms x clean + damaged)
+    assert len(files(folder)) == 2 * (4 + 4 + 4)  # students x (clean + damaged + swerve)
     assert sysid("dataset", path, "--example") == 2  # what is there is not overwritten
+
+
+def test_what_the_example_commands_does_not_tell_damaged_logs_from_clean_ones(tmp_path):
+    path = tmp_path / "week3.toml"
+    sysid("dataset", path, "--example")
+    commanded = {}
+
+    for entry in key(make_dataset(path))["logs"]:
+        (file,) = entry["files"]
+        log = sim.read(tmp_path / "data" / file, units=entry["units"])
+        voltages = tuple((run.test, round(float(abs(run.voltage).max()), 1)) for run in log.runs)
+        commanded.setdefault(entry["mechanism"], set()).add(voltages)
+    kinds = {True: set(), False: set()}
+    for job in jobs_of(path):
+        kinds[bool(job.table.faults)].add(job.mechanism)
+        if job.table.faults and job.table.faults[0].chance < 1.0:
+            kinds[False].add(job.mechanism)
+
+    assert {mechanism: len(found) for mechanism, found in commanded.items()} == dict.fromkeys(
+        commanded, 1
+    )
+    assert kinds[True] == kinds[False] == set(commanded)
