@@ -85,32 +85,6 @@ def test_anything_else_gives_other_bytes_in_every_file(tmp_path, other):
     assert not [file for file in ours if ours[file] == theirs[file]]
 
 
-def test_no_two_logs_are_alike(tmp_path):
-    made = files(make_dataset(spec(tmp_path, DAMAGED)))
-
-    assert len(set(made.values())) == len(made)
-
-
-def test_two_processes_make_what_one_makes(tmp_path):
-    path = spec(tmp_path, PLAIN.replace("count = 2", "count = 30"))  # 60 logs: worth two
-
-    one = make_dataset(path, "one", "--processes", 1)
-    two = make_dataset(path, "two", "--processes", 2)
-
-    assert len(files(one)) == 60
-    assert files(one) == files(two)
-    assert key(one) == key(two)
-
-
-def test_a_job_does_not_depend_on_the_others(tmp_path):
-    jobs = jobs_of(spec(tmp_path, DAMAGED))
-
-    there = {job.name: making.make_log(job).contents for job in jobs}
-    back = {job.name: making.make_log(job).contents for job in reversed(jobs)}
-
-    assert there == back
-
-
 def test_more_students_leave_the_logs_of_the_others_as_they_are(tmp_path, capsys):
     before = files(make_dataset(spec(tmp_path, DAMAGED)))
 

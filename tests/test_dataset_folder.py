@@ -132,13 +132,6 @@ def test_a_place_that_cannot_be_is_refused(tmp_path, capsys, output, said):
     assert (tmp_path / "file").read_bytes() == b"a file"
 
 
-def test_a_folder_that_nobody_may_write_to_is_refused(tmp_path, capsys):
-    said = refused(capsys, spec(tmp_path), "-o", "/proc/data", "--key", tmp_path / "key.json")
-
-    assert "/proc/data: cannot be written (" in said
-    assert sorted(one.name for one in tmp_path.iterdir()) == ["spec.toml"]
-
-
 def test_a_key_that_cannot_be_written_is_refused_before_a_log_is_made(tmp_path, capsys):
     said = refused(
         capsys, spec(tmp_path), "-o", tmp_path / "data", "--key", tmp_path / "none" / "key.json"

@@ -95,24 +95,6 @@ def test_ctrl_c_leaves_whole_files_and_says_how_to_go_on(tmp_path, undisturbed):
     assert files(make_dataset(tmp_path / "spec.toml", "data", "--processes", 1)) == whole
 
 
-def test_a_worker_that_is_killed_is_told_in_one_line(tmp_path, undisturbed):
-    spec(tmp_path, LONG)
-    with started(tmp_path) as running:
-        for worker in psutil.Process(running.pid).children():
-            with suppress(psutil.NoSuchProcess):  # once one is gone, the others are ended
-                if "spawn_main" in " ".join(worker.cmdline()):
-                    worker.kill()
-        _, said = running.communicate(timeout=LONGEST)
-
-    assert running.returncode == 2
-    assert said.count("\n") == 1
-    assert (
-        "was stopped from outside, perhaps because the memory was full. Run the same command"
-        in said
-    )
-    assert left(tmp_path).items() <= undisturbed[0].items()
-
-
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such terminals")
 def test_a_terminal_shows_a_bar(tmp_path):
     spec(tmp_path)

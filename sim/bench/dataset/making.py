@@ -23,14 +23,8 @@ from sim.io import write
 from sim.support.os_errors import refuse_os_errors
 
 ATTEMPTS = 20  # to find a time at which a fault is possible
-DIGITS = {  # decimals of each signal in SI; finer than any encoder or converter
-    "time": 6,
-    "voltage": 6,
-    "position": 9,
-    "velocity": 6,
-    "current": 6,
-    "bus_voltage": 6,
-}
+SIGNALS = ("time", "voltage", "position", "velocity", "current", "bus_voltage")
+DIGITS = dict.fromkeys(SIGNALS, 6) | {"position": 9}  # [decimals in SI] finer than any encoder
 
 
 @dataclass(frozen=True)

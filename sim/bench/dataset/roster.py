@@ -112,22 +112,20 @@ def read_students(given: object, *, where: str, folder: Path) -> tuple[str, ...]
         return make_distinct_names((place, name) for name in given)
     with refusals_at(place):
         found = read_table(RosterFile, given if isinstance(given, dict) else {"file": given})
-    return make_distinct_names(_list_cells(folder / found.file, found.column))
-
-
-def _list_cells(path: Path, column: str) -> Iterable[tuple[str, str]]:
-    """Place and text of every cell of a column."""
+    path = folder / found.file
     advice = "Give the path of a CSV file in UTF-8, seen from the spec's folder."
     roster = read_roster(path, advice=advice)
-    place = roster.find_column([column])
-    if place is None:
+    column = roster.find_column([found.column])
+    if column is None:
         raise BadRequest(
-            f"no column {column!r} in its first line",
+            f"no column {found.column!r} in its first line",
             where=str(path),
             advice=f'Name one that is there: students = {{ file = "{path.name}", column = "…" }}',
         )
-    for number, row in roster.rows:
-        yield f"{path}, line {number}", row[place] if place < len(row) else ""
+    return make_distinct_names(
+        (f"{path}, line {number}", row[column] if column < len(row) else "")
+        for number, row in roster.rows
+    )
 
 
 def make_distinct_names(found: Iterable[tuple[str, str]]) -> tuple[str, ...]:

@@ -56,10 +56,7 @@ def run_in_child(
     if _STOPPED.is_set():
         raise ChildEnded
     child.start_job(job)
-    if not child.connection.poll(seconds):
-        child.process.kill()
-        raise TimeoutError
-    done, outcome = child.receive()
+    done, outcome = child.receive(seconds)
     _THREAD.child = child
     if not done:
         raise outcome
@@ -114,16 +111,22 @@ class _Child:
         except OSError:
             raise ChildEnded from None
 
-    def receive(self) -> tuple[bool, Any]:
+    def receive(self, seconds: float | None = None) -> tuple[bool, Any]:
         """Whether the job was done, and its result or exception.
 
         Raises:
+            TimeoutError: it took longer; the child was killed.
             ChildEnded: the child has ended.
         """
         try:
-            return self.connection.recv()  # type: ignore[no-any-return]
+            in_time = self.connection.poll(seconds)
+            answer: tuple[bool, Any] = self.connection.recv() if in_time else (False, None)
         except (EOFError, OSError):
             raise ChildEnded from None
+        if not in_time:
+            self.process.kill()
+            raise TimeoutError
+        return answer
 
 
 def _serve(work: Callable[[Any], Any], connection: Connection, memory: int | None) -> None:
