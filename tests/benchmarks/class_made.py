@@ -21,7 +21,7 @@ from grader.variant import make_folder_name, use_class_secret
 from sim.support.work.executor import run_jobs
 
 ROOT = Path(__file__).resolve().parents[2]
-SECRET = b"a benchmark's class, which has nothing to hide"
+SECRET = b"a benchmark's class that has nothing to hide"
 SHARES = {"right": 0.5, "half": 0.1, "mistaken": 0.3, "missing": 0.1}
 SLOW = "exercise12"
 TOGETHER = 10  # [students] of whom one solves what is slow
