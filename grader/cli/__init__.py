@@ -35,7 +35,7 @@ MODULES = {
     "release": "release",
     "watch": "watch",
 }
-COURSE_PACKAGES = ("pebble", "tomlkit", "tree_sitter", "tree_sitter_java")  # of the extra `course`
+COURSE_PACKAGES = ("tomlkit", "tree_sitter", "tree_sitter_java")  # of the extra `course`
 
 
 class ExerciseOrCommand(click.Group):

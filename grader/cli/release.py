@@ -120,7 +120,7 @@ def _release(
     from grader.package_files import select_package_files  # noqa: PLC0415 - the same
     from grader.release import StudentPackage, make_student_package, zip_files  # noqa: PLC0415 - the same
     from grader.variant import make_folder_name  # noqa: PLC0415 - the same
-    from sim.support.work.process_pool import count_available_cores, run_jobs_locally  # noqa: PLC0415 - the same
+    from sim.support.work.executor import count_available_cores, run_jobs  # noqa: PLC0415 - the same
     from sim.support.work.progress_bar import progress_bar  # noqa: PLC0415 - the same
 
     students = tuple(read_class_roster(roster).rows) if roster else ()
@@ -141,7 +141,7 @@ def _release(
     packages = [StudentPackage(student, value, name, packed) for student in students]
     write_file(output / "course.zip", everybody)
     with progress_bar("students", len(packages)) as (step, _):
-        made = run_jobs_locally(
+        made = run_jobs(
             make_student_package,
             packages,
             processes=processes or count_available_cores(),
