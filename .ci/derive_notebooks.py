@@ -26,7 +26,8 @@ INSTALL = """\
 from importlib.util import find_spec
 
 if find_spec("grader") is None:
-    %pip install --quiet "sysid-course[course]"
+    address = input("Address of the course's repository, https://github.com/…: ")
+    %pip install --quiet "sysid-course[course] @ git+{address}"
 """
 KERNEL = {"display_name": "Python 3", "language": "python", "name": "python3"}
 

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from grader.class_package import PLACE as ISSUED
 from grader.fingerprint import PACKAGES, fingerprint_folders, fingerprint_packages
-from grader.variant import check_student_name
+from grader.variant import check_student_name, make_folder_name
 from sim.core.errors import BadRequest, Refusal
 from sim.support.atomic_file import write_atomically
 
@@ -128,7 +128,7 @@ def load_progress(course: Path) -> tuple[Progress, str]:
     except (OSError, ValueError, TypeError, LookupError, AttributeError, RecursionError, Refusal):
         aside = _find_free_name(path)
         said = f"your progress in {path} could not be read; it starts again from zero"
-        fresh = Progress(_rescue_student(text))
+        fresh = Progress(_rescue_student(text) or _find_default_student(course))
         with suppress(OSError):
             path.replace(aside)
             write_atomically(path, _format_progress(fresh))
@@ -142,6 +142,12 @@ def _rescue_student(text: str) -> str:
         with suppress(ValueError, TypeError, LookupError, RecursionError, Refusal):
             return check_student_name(_parse_student(tomllib.loads(line)))
     return ""
+
+
+def _find_default_student(course: Path) -> str:
+    """Nobody's name; empty where the course made data for somebody, whose name is lost."""
+    owners = {path.name for path in course.glob("exercises/*/data/*")}
+    return "" if owners - {make_folder_name(NOBODY)} else NOBODY
 
 
 def _parse_student(raw: Mapping[str, object]) -> str:

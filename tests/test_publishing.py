@@ -206,7 +206,7 @@ def test_a_missing_and_an_old_locked_version_are_seen():
 def test_a_notebook_begins_with_a_folded_cell_that_installs_the_course(lesson):
     first, title = nbformat.read(lesson, 4).cells[:2]
 
-    assert f'%pip install --quiet "{PROJECT["name"]}[course]"' in first.source
+    assert f'%pip install --quiet "{PROJECT["name"]}[course] @ git+{{address}}"' in first.source
     assert first.metadata["jupyter"] == {"source_hidden": True}
     assert title.source.startswith("# Lesson ")
 
@@ -216,6 +216,7 @@ def test_a_notebook_begins_with_a_folded_cell_that_installs_the_course(lesson):
 def test_the_first_cell_installs_only_where_the_course_is_missing(tmp_path, found, said):
     told = load_script("derive_notebooks").INSTALL
     listen = "@get_ipython().register_magic_function\ndef pip(line):\n    print(line)\n"
+    listen += "input = 'https://github.com/{}'.format\n"
     if not found:
         told = told.replace('"grader"', '"no_such_package"')
     cells = [nbformat.v4.new_code_cell(source) for source in (listen, told)]

@@ -290,7 +290,7 @@ def test_without_pyntcore_one_line_says_what_to_install(tmp_path):
     )  # fmt: skip
 
     assert (done.returncode, done.stdout) == (2, "")
-    assert 'needs pyntcore. Install it with: pip install "sysid-course[live]"' in done.stderr
+    assert 'needs pyntcore. Install it with: python -m pip install "pyntcore' in done.stderr
     assert done.stderr.count("\n") == 1
 
 

@@ -90,6 +90,7 @@ def _fill_class_page(results: ClassResults) -> dict[str, Any]:
     from sim.plot import plot_score_heatmap, plot_score_histogram  # noqa: PLC0415 - matplotlib only where it draws
 
     names = [one.student for one in results.students]
+    shares = [_compute_share(one, results) for one in results.students if has_handed_in(one)]
     table = [[_compute_cell_share(record) for record in one.records] for one in results.students]
     found = sorted(
         analyze_items(results.students), key=lambda one: (one.share, one.exercise, one.check)
@@ -103,9 +104,7 @@ def _fill_class_page(results: ClassResults) -> dict[str, Any]:
         "count": len(results.students),
         "columns": summarize_exercises(results.students),
         "heat": plot_score_heatmap(names, results.exercises, table).html,
-        "spread": plot_score_histogram(
-            [_compute_share(one, results) for one in results.students if has_handed_in(one)]
-        ).html,
+        "spread": plot_score_histogram(shares).html if shares else "",
         "misconceptions": [
             {"code": code, "count": count, "says": _explain_misconception(code)}
             for code, count in count_misconceptions(results.students)

@@ -117,24 +117,13 @@ def collect_results(
         for student in one.likely:
             maybe = f"perhaps {one.place.name} is theirs; it was not graded"
             remarks.setdefault(student, []).append(maybe)
-    partners = known.partners if known else {}
+    present = dict(found)
     for student in rows:
-        if normalize_name(student) in found:
-            continue
-        theirs = [
-            found[key] for one in partners.get(student, ()) if (key := normalize_name(one)) in found
-        ]
-        if len(theirs) == 1:
-            shared = replace(theirs[0], student=student)
-            found[f"{normalize_name(student)}"] = shared
-            continue
-        if theirs:
-            names = list_first([one.student for one in theirs], most=len(theirs), separator="; ")
-            said = f"nothing is theirs, and several of their group handed something in: {names}"
-            remarks.setdefault(student, []).append(said)
-        found[normalize_name(student)] = make_ungraded_student(
-            student, asked, handed_in=(), reason=""
-        )
+        if normalize_name(student) not in present:
+            own, said = _grade_absent(student, present, known, asked)
+            found[normalize_name(student)] = own
+            remarks.setdefault(student, []).extend(said)
+    remarks = {name: lines for name, lines in remarks.items() if lines}
     late = {one.student: "late" for one in handed_in if one.late}
     late |= known.late if known else {}
     return ClassResults(
@@ -146,6 +135,23 @@ def collect_results(
         remarks,
         late,
     )
+
+
+def _grade_absent(
+    student: str,
+    found: Mapping[str, GradedStudent],
+    known: Roster | None,
+    asked: Sequence[Exercise],
+) -> tuple[GradedStudent, list[str]]:
+    """The results of who handed nothing in: those of the partner who did, if there is one."""
+    partners = known.partners.get(student, ()) if known else ()
+    theirs = [found[key] for one in partners if (key := normalize_name(one)) in found]
+    if len(theirs) == 1:
+        return replace(theirs[0], student=student), []
+    names = list_first([one.student for one in theirs], most=len(theirs), separator="; ")
+    said = f"nothing is theirs, and several of their group handed something in: {names}"
+    nothing = make_ungraded_student(student, asked, handed_in=(), reason="")
+    return nothing, [said] if theirs else []
 
 
 def has_handed_in(one: GradedStudent) -> bool:

@@ -86,9 +86,8 @@ def class_(  # noqa: PLR0917 - click passes options by name
     Exit codes: 0 all answers were graded, 1 some could not be graded, 2 could not do it.
     """
     from grader.classroom.class_grading import GradedClass  # noqa: PLC0415 - the same
+    from grader.classroom.container import grade_in_container  # noqa: PLC0415 - the same
     from grader.classroom.exports import choose_exports  # noqa: PLC0415 - --help must not wait for it
-    from grader.classroom.identity import check_identities  # noqa: PLC0415 - the same
-    from grader.classroom.likeness import find_foreign_logs, find_likenesses  # noqa: PLC0415 - the same
     from grader.classroom.overrides import apply_overrides, read_overrides  # noqa: PLC0415 - the same
     from grader.classroom.results import collect_results  # noqa: PLC0415 - the same
     from grader.classroom.roster import read_class_roster  # noqa: PLC0415 - the same
@@ -97,45 +96,40 @@ def class_(  # noqa: PLR0917 - click passes options by name
 
     known = read_class_roster(roster) if roster else None
     formats = choose_exports(wanted, roster=known)
-    marks = read_overrides(overrides) if overrides else ()
     course = find_course(Path.cwd())
     if said := describe_other_code(course):
         print_error(said)
     out = output or folder.with_name(f"{folder.resolve().name.removesuffix('.zip')}-graded")
     if engine:
-        from grader.classroom.container import grade_in_container  # noqa: PLC0415 - the same
-
         return grade_in_container(click.get_current_context(), course=course, output=out)
     asked = _find_asked_exercises(only, course)
-    kept = find_secret(secret, make=False)
-    value = kept.value if kept else None
-    there = check_identities(
-        _find_submissions(folder, course, asked, known, student=student),
-        asked,
-        secret=value,
-        self_study=self_study,
-        partners=known.partners if known else {},
-    )
-    foreign = find_foreign_logs(there, packages) if packages else ()
-    _tell_problems(there)
+    value = kept.value if (kept := find_secret(secret, make=False)) else None
+    there = _find_submissions(folder, course, asked, known, student=student)
+    there = _check_submissions(there, asked, known, secret=value, self_study=self_study)
     run = _decide_running(asked, run=run, cluster=cluster)
     work = GradedClass(there, asked, course, value, run)
     graded = _run(work, out, processes=processes, cluster=cluster, again=again)
     if graded is None:
         return INTERRUPTED
-    results = collect_results(
-        name or folder.resolve().stem, graded, known, asked=asked, handed_in=there
-    )
-    results = replace(
-        results,
-        students=apply_overrides(results.students, marks),
-        numbers=describe_numbers(value),
-        likenesses=(*foreign, *find_likenesses(there, asked)),
-    )
+    title = name or folder.resolve().stem
+    results = collect_results(title, graded, known, asked=asked, handed_in=there)
+    alike = _find_alike(there, asked, packages)
+    changed = apply_overrides(results.students, read_overrides(overrides) if overrides else ())
+    results = replace(results, students=changed, numbers=describe_numbers(value), likenesses=alike)
     return _write_results(results, out, formats)
 
 
 COMMAND = class_
+
+
+def _find_alike(
+    there: "Sequence[Submission]", asked: "Sequence[Exercise]", packages: Path | None
+) -> tuple[str, ...]:
+    """What is alike in the work of two students, one line each."""
+    from grader.classroom.likeness import find_foreign_logs, find_likenesses  # noqa: PLC0415 - the same
+
+    foreign = find_foreign_logs(there, packages) if packages else ()
+    return (*foreign, *find_likenesses(there, asked))
 
 
 def _find_asked_exercises(only: tuple[str, ...], course: Path) -> "tuple[Exercise, ...]":
@@ -167,6 +161,23 @@ def _find_submissions(
     if stray := find_stray_files(folder, roster):
         print_error(f"left out, because no student has such a name: {', '.join(stray)}")
     return there
+
+
+def _check_submissions(
+    there: "Sequence[Submission]",
+    asked: "Sequence[Exercise]",
+    known: "Roster | None",
+    *,
+    secret: bytes | None,
+    self_study: bool,
+) -> "tuple[Submission, ...]":
+    """The submissions, with whose numbers they are about; prints what is not as it should be."""
+    from grader.classroom.identity import check_identities  # noqa: PLC0415 - --help must not wait for it
+
+    partners = known.partners if known else {}
+    found = check_identities(there, asked, secret=secret, self_study=self_study, partners=partners)
+    _tell_problems(found)
+    return found
 
 
 def _tell_problems(there: "Sequence[Submission]") -> None:

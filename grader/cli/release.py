@@ -115,7 +115,6 @@ def _release(
 ) -> int:
     from grader.classroom.bundle import pack_course  # noqa: PLC0415 - --help must not wait for it
     from grader.classroom.roster import read_class_roster  # noqa: PLC0415 - the same
-    from grader.classroom.secret import identify_secret  # noqa: PLC0415 - the same
     from grader.course import describe_other_code  # noqa: PLC0415 - the same
     from grader.package_files import select_package_files  # noqa: PLC0415 - the same
     from grader.release import StudentPackage, make_student_package, zip_files  # noqa: PLC0415 - the same
@@ -134,8 +133,6 @@ def _release(
     if secret and secret.new:
         secret.save()
         print_error(f"{secret.new}: a new secret. Keep this file, and show it to nobody.")
-    if secret:
-        print_error(f"the secret of these packages is {identify_secret(secret.value)}")
     packed = pack_course(course)
     value = secret.value if secret else b""
     packages = [StudentPackage(student, value, name, packed) for student in students]
@@ -150,20 +147,24 @@ def _release(
         for student, content in made:
             write_file(output / "students" / f"{make_folder_name(student)}.zip", content)
             step()
-    print_lines(
-        [style_line(f"{output / 'course.zip'}: for everybody, {len(everybody) / 1e6:.1f} MB")]
-    )
-    if students:
-        place = output / "students"
-        print_lines(
-            [
-                style_line(
-                    f"{place}: a zip file for each of {len(students)} students, to unpack "
-                    "into the same folder"
-                )
-            ]
-        )
+    _tell_made(output, len(everybody), len(students), secret)
     return DONE
+
+
+def _tell_made(output: Path, size: int, students: int, secret: "Secret | None") -> None:
+    """Print what was made: size [bytes] of the package for all, and how many students have one."""
+    from grader.classroom.secret import identify_secret  # noqa: PLC0415 - --help must not wait for it
+
+    lines = [f"{output / 'course.zip'}: for everybody, {size / 1e6:.1f} MB"]
+    if students:
+        lines.append(
+            f"{output / 'students'}: a zip file for each of {students} students, to unpack into "
+            "the same folder"
+        )
+    if secret:
+        mark = identify_secret(secret.value)
+        lines.append(f"Made with the secret {mark}; grade class shows the same characters.")
+    print_lines([style_line(one) for one in lines])
 
 
 def write_file(path: Path, content: bytes) -> None:

@@ -16,7 +16,8 @@ from sim.support.os_errors import refuse_os_errors
 
 COLUMN = "student"  # header of the column, unless the spec names another
 EXAMPLE = "roster.csv"
-NO_STUDENT = {"points possible", "student, test"}  # rows of Canvas's gradebook: points, a tester
+# Rows of Canvas's gradebook that are no students: of points, of posting, and of a tester.
+NO_STUDENT = {"points possible", "manual posting", "student, test"}
 
 
 @dataclass(frozen=True, kw_only=True)

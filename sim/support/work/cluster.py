@@ -16,6 +16,7 @@ from types import ModuleType
 from typing import Any
 
 from sim.core.errors import BadRequest
+from sim.support.extras import format_install_command
 
 ADDRESS = re.compile(r"((tcp|tls|wss?)://)?(\[[0-9a-fA-F:]+\]|[^\s/:]+):\d{1,5}/?")
 PATIENCE = 10.0  # [s] to wait for the answer of a scheduler
@@ -71,7 +72,7 @@ def _import_dask() -> ModuleType:
     except ImportError:
         raise BadRequest(
             "a cluster needs Dask, which is not installed",
-            advice='Install the extra "cluster": pip install "sysid-course[cluster]"',
+            advice=f"Install it: {format_install_command('cluster')}",
         ) from None
 
 
