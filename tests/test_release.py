@@ -128,7 +128,7 @@ def test_the_instructor_grades_what_the_class_issued(course, anns, tmp_path, mon
     secret = tmp_path / "class.secret"
     secret.write_bytes(SECRET + b"\n")
     command = ["class", str(tmp_path / "in"), "--exercise", "9", "--secret", str(secret)]
-    alone = ["class", str(tmp_path / "in2"), "--exercise", "9"]
+    alone = ["class", str(tmp_path / "in2"), "--exercise", "9", "--self-study"]
 
     def points(folder):
         rows = (tmp_path / folder / "gradebook.csv").read_text("utf-8-sig").splitlines()

@@ -106,8 +106,7 @@ def class_(  # noqa: PLR0917 - click passes options by name
     value = kept.value if (kept := find_secret(secret, make=False)) else None
     there = _find_submissions(folder, course, asked, known, student=student)
     there = _check_submissions(there, asked, known, secret=value, self_study=self_study)
-    run = _decide_running(asked, run=run, cluster=cluster)
-    work = GradedClass(there, asked, course, value, run)
+    work = GradedClass(there, asked, course, value, _decide_running(asked, run, cluster))
     graded = _run(work, out, processes=processes, cluster=cluster, again=again)
     if graded is None:
         return INTERRUPTED
@@ -202,7 +201,7 @@ def _tell_problems(there: "Sequence[Submission]") -> None:
         print_error(f"found on the roster: {list_first(matched, most=SHOWN, separator='; ')}")
 
 
-def _decide_running(asked: "Sequence[Exercise]", *, run: bool | None, cluster: str | None) -> bool:
+def _decide_running(asked: "Sequence[Exercise]", run: bool | None, cluster: str | None) -> bool:  # noqa: FBT001 - as the option
     """Whether students' code is run: as chosen, else where it is safe; prints what that means."""
     from grader.isolation import find_isolation_level  # noqa: PLC0415 - --help must not wait for it
 
