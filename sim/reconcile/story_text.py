@@ -17,17 +17,24 @@ from sim.reconcile.thresholds import NARROWER, PROBABLE, VISIBLE_FLOORS
 
 LEAST_ERROR = 1e-4  # [1] relative standard error below which only this limit is written
 FAULT, MAJOR, MINOR = "fault", "major", "minor"
+STOPPED = "The search was stopped before it had tried every effect."
 
 
 def write_headline(story: Story) -> str:
     """The verdict in a few plain sentences: what is missing, and how much that explains."""
-    faults = [one.effect for one in story.findings if one.kind == FAULT]
+    verdict = _write_verdict(story)
+    return verdict if story.complete else f"{STOPPED} {verdict}"
+
+
+def _write_verdict(story: Story) -> str:
+    faults = [one for one in story.findings if one.kind == FAULT]
     majors = [one for one in story.findings if one.kind != FAULT and one.size == MAJOR]
-    damaged = f"The log is {'also ' if majors else ''}damaged: {_join(faults)}."
+    damaged = _describe_damage(faults, also="also " if majors else "")
+    cause = _unknown_cause(story)
     if story.verdict == UNEXPLAINED:
         known = f"{_join([one.effect for one in majors])}, and " if majors else ""
         gaps = _gaps(story)
-        said = [f"The model is missing {known}something that no known effect explains.", gaps]
+        said = [f"The model is missing {known}something that {cause}.", gaps]
     elif majors:
         missing = _join([_name_with_rivals(one) for one in majors])
         doubt = "; these logs cannot tell which" if story.verdict == AMBIGUOUS else ""
@@ -36,14 +43,28 @@ def write_headline(story: Story) -> str:
     elif story.verdict == NOTHING_MISSING or not faults:
         return _nothing_missing(story)
     else:
-        rest = "something is missing that no known effect explains"
+        rest = f"something is missing that {cause}"
         rest = rest if story.remainder else "nothing big is missing"
         return f"{damaged} Apart from that, {rest}."
     if faults:
         said.append(damaged)
     if majors and story.remainder and story.verdict != UNEXPLAINED:
-        said.append("Something else remains that no known effect explains.")
+        said.append(f"Something else remains that {cause}.")
     return " ".join(said)
+
+
+def _describe_damage(faults: Sequence[Finding], *, also: str) -> str:
+    """The sentence about faults of the log, the surest first; empty without any."""
+    sure = [one.effect for one in faults if one.probability >= PROBABLE]
+    unsure = [one.effect for one in faults if one.effect not in sure]
+    if not sure:
+        return f"The log is probably {also}damaged: {_join(unsure)}." if unsure else ""
+    return f"The log is {also}damaged: {_join([*sure, *(f'probably {one}' for one in unsure)])}."
+
+
+def _unknown_cause(story: Story) -> str:
+    """What is said of a cause that was not found: a search that was stopped denies none."""
+    return "no known effect explains" if story.complete else "the search has not found so far"
 
 
 def list_effect_names(story: Story, size: str) -> list[str]:
@@ -75,10 +96,9 @@ def describe_effect(effect: str) -> str:
 
 def describe_size(one: Finding) -> str:
     """The size of a finding and its probability: ``major, 93 % likely``."""
-    if one.kind == FAULT:
-        return "damage to the log"
+    size = "damage to the log" if one.kind == FAULT else one.size
     share = f"{one.probability:.0%}".replace("%", " %")
-    return f"{one.size}, {'over 99 %' if share == '100 %' else share} likely"
+    return f"{size}, {'over 99 %' if share == '100 %' else share} likely"
 
 
 def describe_parameter(effect: str, parameter: str) -> str:
@@ -105,6 +125,24 @@ def format_parameter(name: str, one: ParameterEstimate) -> str:
     unit = "" if one.unit == "1" else f" {one.unit}"
     known = f" ± {error}{unit}" if error[0].isdigit() else f"{unit} ({error})"
     return f"{name} {value}{known}"
+
+
+def list_gains(story: Story) -> tuple[tuple[str, str, str], ...]:
+    """Name of each gain, the gain in the last model, and without the effects, as text."""
+    return tuple(
+        (
+            "angle" if name == "offset_rad" else name,
+            format_parameter("", one).strip(),
+            format_parameter("", story.gains_without[name]).strip(),
+        )
+        for name, one in story.gains.items()
+    )
+
+
+def describe_gains(story: Story) -> str:
+    """The heading of the gains: which effects the model has beside them."""
+    added = [name for size in (MAJOR, MINOR) for name in list_effect_names(story, size)]
+    return f"Gains with {_join(added)}" if added else "Gains, as sysid fit gives them"
 
 
 def list_inspections(one: Finding) -> tuple[tuple[str, str], ...]:
@@ -141,8 +179,11 @@ def _nothing_missing(story: Story) -> str:
     last = story.gap_after / story.noise_floor if story.noise_floor > 0.0 else math.inf
     if last > VISIBLE_FLOORS:
         small = f" (a little: {_join(minor)})" if minor else ""
-        return f"No known effect makes the simulation error much smaller{small}. {_error(story)}"
+        which = "known effect" if story.complete else "effect that was tried"
+        return f"No {which} makes the simulation error much smaller{small}. {_error(story)}"
     big = " big" if minor or story.remainder else ""
+    if not story.complete:
+        return f"So far it has found nothing{big}{little}. {_error(story)}"
     rest = " Something small remains that no known effect explains." if story.remainder else ""
     return f"Nothing{big} is missing{little}. {_error(story)}{rest}"
 
