@@ -13,7 +13,7 @@ from sim.reconcile.story import (
     ParameterEstimate,
     Story,
 )
-from sim.reconcile.thresholds import NARROWER, PROBABLE, VISIBLE_FLOORS
+from sim.reconcile.thresholds import PROBABLE, VISIBLE_FLOORS
 
 LEAST_ERROR = 1e-4  # [1] relative standard error below which only this limit is written
 FAULT, MAJOR, MINOR = "fault", "major", "minor"
@@ -30,10 +30,10 @@ def _write_verdict(story: Story) -> str:
     faults = [one for one in story.findings if one.kind == FAULT]
     majors = [one for one in story.findings if one.kind != FAULT and one.size == MAJOR]
     damaged = _describe_damage(faults, also="also " if majors else "")
-    cause = _unknown_cause(story)
     if story.verdict == UNEXPLAINED:
         known = f"{_join([one.effect for one in majors])}, and " if majors else ""
         gaps = _gaps(story)
+        cause = "no known effect explains" if story.complete else "the search has not found so far"
         said = [f"The model is missing {known}something that {cause}.", gaps]
     elif majors:
         missing = _join([_name_with_rivals(one) for one in majors])
@@ -43,13 +43,16 @@ def _write_verdict(story: Story) -> str:
     elif story.verdict == NOTHING_MISSING or not faults:
         return _nothing_missing(story)
     else:
-        rest = f"something is missing that {cause}"
-        rest = rest if story.remainder else "nothing big is missing"
+        rest = "nothing big is missing"
+        if story.remainder:
+            rest = "something is missing that no known effect explains"
+        if not story.complete:
+            rest = "it has found nothing so far"
         return f"{damaged} Apart from that, {rest}."
     if faults:
         said.append(damaged)
-    if majors and story.remainder and story.verdict != UNEXPLAINED:
-        said.append(f"Something else remains that {cause}.")
+    if majors and story.remainder and story.complete and story.verdict != UNEXPLAINED:
+        said.append("Something else remains that no known effect explains.")
     return " ".join(said)
 
 
@@ -62,11 +65,6 @@ def _describe_damage(faults: Sequence[Finding], *, also: str) -> str:
     return f"The log is {also}damaged: {_join([*sure, *(f'probably {one}' for one in unsure)])}."
 
 
-def _unknown_cause(story: Story) -> str:
-    """What is said of a cause that was not found: a search that was stopped denies none."""
-    return "no known effect explains" if story.complete else "the search has not found so far"
-
-
 def list_effect_names(story: Story, size: str) -> list[str]:
     """The names of the effects of one size that were found.
 
@@ -75,11 +73,6 @@ def list_effect_names(story: Story, size: str) -> list[str]:
         size: ``major`` or ``minor``.
     """
     return [one.effect for one in story.findings if one.kind != FAULT and one.size == size]
-
-
-def is_gap_narrower(before: float, after: float) -> bool:
-    """Whether a gap is narrower than it was."""
-    return after < NARROWER * before
 
 
 def format_gap(gap: float, story: Story) -> str:
@@ -163,14 +156,8 @@ def list_next_tests(story: Story) -> tuple[str, ...]:
 
 
 def list_remarks(story: Story) -> tuple[str, ...]:
-    """Remarks: what remains, a gap that does not shrink, and the notes."""
-    remarks = [story.remains] if story.remains else []
-    if list_effect_names(story, MAJOR) and not is_gap_narrower(story.gap_before, story.gap_after):
-        remarks.append(
-            "The finding does not make the gap smaller. Do not trust the finding before another "
-            "log confirms it."
-        )
-    return (*remarks, *story.notes)
+    """Remarks: what remains, and the notes."""
+    return (*((story.remains,) if story.remains else ()), *story.notes)
 
 
 def _nothing_missing(story: Story) -> str:
@@ -202,9 +189,7 @@ def _gaps(story: Story) -> str:
     with_ = f"With {all_} added, the simulation error"
     if len(added) > 1 and list_effect_names(story, MINOR):
         with_ = "With all found effects added, the simulation error"
-    if is_gap_narrower(story.gap_before, story.gap_after):
-        return f"{with_} drops from {before} to {after} times the sensor noise{_in_speed(story)}."
-    return f"{with_} does not drop: {before} times the sensor noise before, {after} times after."
+    return f"{with_} drops from {before} to {after} times the sensor noise{_in_speed(story)}."
 
 
 def _in_speed(story: Story) -> str:
