@@ -113,15 +113,21 @@ def reconcile(  # noqa: PLR0917 - click passes options by name
         names = ", ".join(file.name for file in files)  # a page travels; folders are private
         write_story(story, html, title=names)
     if paste:
-        found = _make_fit(story, logs["log"])
-        click.echo(make_paste_text(found, paste, season=int(season)), nl=False)
-    elif as_json:
-        click.echo(json.dumps(story.to_json(), allow_nan=False))
+        fit = _make_fit(story, logs["log"])
+        click.echo(make_paste_text(fit, paste, season=int(season)), nl=False)
     else:
-        from sim.report.story_terminal import show_story  # noqa: PLC0415 - only for people
-
-        show_story(story, title=", ".join(map(str, files)))
+        _print_story(story, files, as_json=as_json)
     return NOT_RIGHT if story.verdict in UNSURE or story.remainder else DONE
+
+
+def _print_story(story: "Story", files: tuple[Path, ...], *, as_json: bool) -> None:
+    """Print a story as JSON or as readable text."""
+    if as_json:
+        click.echo(json.dumps(story.to_json(), allow_nan=False))
+        return
+    from sim.report.story_terminal import show_story  # noqa: PLC0415 - only for people
+
+    show_story(story, title=", ".join(map(str, files)))
 
 
 def _warn_uncompiled() -> None:
