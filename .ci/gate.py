@@ -38,9 +38,9 @@ def main() -> None:
     started = time.monotonic()
     if isinstance(sys.stdout, io.TextIOWrapper):
         sys.stdout.reconfigure(errors="replace")  # a Windows console may lack a sign
-    needed_programs()
     with tempfile.TemporaryDirectory(prefix="gate-") as folder:
         environment = fresh_environment(Path(folder) / "env")
+        needed_programs(Path(folder) / "env")
         start, test = commands()
         say(f"README, first command: {start}")
         watch(start, environment)
@@ -170,14 +170,24 @@ def serves(address: str) -> bool:
         return False
 
 
-def needed_programs() -> None:
-    """Install what tests need beside Python, where the machine allows it; they skip without."""
+def needed_programs(folder: Path) -> None:
+    """Install what tests need beside Python, where the machine allows it; they skip without.
+
+    Args:
+        folder: the virtual environment, which also takes what comes from npm.
+    """
     install_program(
         ("chromium", "chromium-browser", "google-chrome", "chrome"),
         package="chromium",
         tests="browser tests",
     )
     install_program(("javac",), package="default-jdk-headless", tests="tests that compile Java")
+    npm = shutil.which("npm")
+    if npm and sys.platform == "linux" and os.geteuid() == 0:  # elsewhere the Hub's test is skipped
+        say("installing JupyterHub's proxy for the test of JupyterHub")
+        package = "configurable-http-proxy@5"
+        command = [npm, "install", "--silent", "--global", f"--prefix={folder}", package]
+        subprocess.run(command, check=False)
 
 
 def install_program(names: tuple[str, ...], *, package: str, tests: str) -> None:

@@ -92,6 +92,6 @@ def explain_no_grading(exercise: str, found: ClassPackage) -> BadRequest:
     """Why an exercise cannot be graded here, and how to practice all the same."""
     return BadRequest(
         f"{exercise} has numbers of {found.name}, which only your instructor can grade",
-        advice="Hand it in. To practice on other numbers, with feedback: grade "
-        f"{exercise} FILE --student practice",
+        advice="Hand it in. To practice on other numbers, with feedback about what you compute: "
+        f"grade {exercise} FILE --student practice",
     )

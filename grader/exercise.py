@@ -19,7 +19,8 @@ A folder ``exercises/exerciseN`` holds ``README.md`` with the task, ``hints.toml
     def consequence(subject)                   optional: what a wrong answer would do on the robot,
                                                a Consequence; None where there is nothing to see
 
-What does not fit there stands in modules beside it: ``from .drawn import draw``.
+What does not fit there stands in modules beside it: ``from .drawn import draw``. Answers that can
+be looked up stand in ``answer_key.py``: see ``grader.answer_key``.
 """
 
 import hashlib
@@ -29,6 +30,7 @@ import re
 import sys
 import tomllib
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -36,7 +38,7 @@ from types import ModuleType
 from typing import Any
 
 from grader.answer_names import find_unknown_names
-from grader.check import Check, NotRunError, Result, Status, run_checks, skip_check
+from grader.check import Check, NotReachedError, NotRunError, Result, Status, run_checks, skip_check
 from grader.consequence import Consequence
 from grader.submission import find_files, find_whole_answer, read_answers, read_text
 from sim.core.errors import BadRequest, Refusal
@@ -165,13 +167,16 @@ class Exercise:
     def prepare(self, student: str, *, say: Callable[[str], None]) -> None:
         """Make the files that the learner works on, if they are missing.
 
+        Nothing is made where all of it needs an answer key that a class's package lacks.
+
         Args:
             student: for whom.
             say: shows a line about what is going on.
         """
         maker = getattr(self.module, "prepare", None)
         if maker is not None:
-            maker(student, say=say)
+            with suppress(NotReachedError):
+                maker(student, say=say)
 
     def grade(self, given: Path | None, *, student: str, run: bool = True) -> Grade:
         """Grade an answer; of several files, the one that earns most.
@@ -212,7 +217,7 @@ class Exercise:
         asked = {"run": run} if self.runs_code else {}
         try:
             subject = self.module.read(file, student=student, **asked)
-        except (Refusal, NotRunError) as refusal:
+        except (Refusal, NotRunError, NotReachedError) as refusal:
             return replace(self._ungradable(str(refusal), student=student), file=file)
         results = run_checks(self.checks, subject)
         score, most = (sum(points) for points in zip(*_sum_points(results), strict=True))

@@ -216,4 +216,10 @@ MISCONCEPTIONS: dict[str, Misconception] = {
         lesson="10_swerve",
         section="Turning on the spot: the moment of inertia",
     ),
+    "M-HELD-OUT": Misconception(
+        "A log by which you choose effects cannot show how good the choice is: you kept what makes "
+        "its gap small. Only a log that you did not use for fitting or choosing shows this.",
+        lesson="09_reality_gap",
+        section="The held-out log, once",
+    ),
 }

@@ -5,6 +5,8 @@ file is packed if it is
 
     exercises/starters.toml and what it lists     the starters, as their authors wrote them
     README.md, hints.toml and checks.py           of an exercise, and the modules checks.py imports
+    answer_key.py                                 of an exercise, and the modules it imports, but
+                                                  not for a class that is graded
     lessons/NAME.py and lessons/NAME.ipynb        a notebook as it was derived, without outputs
     grader/ and sim/                              their Python files and page templates
     README.md, LICENSE, pyproject.toml            of the course
@@ -21,6 +23,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
+from grader.answer_key import FILE_NAME as KEY
 from grader.exercise import Exercise, list_exercises
 from grader.fingerprint import PACKAGES
 from grader.submission import explain_restore
@@ -82,12 +85,14 @@ class PackageFiles:
                 )
 
 
-def select_package_files(course: Path) -> PackageFiles:
+def select_package_files(course: Path, *, with_keys: bool = True) -> PackageFiles:
     """The files of a course that students get.
 
     Args:
         course: the course folder. Where it holds no grader/ or sim/, those of the running
             installation are taken.
+        with_keys: also the exercises' answer keys (``grader.answer_key``), so that ``grade`` can
+            check everything at home. A class that is graded gets none.
 
     Raises:
         BadRequest: it is not the whole course, or a starter or a notebook is not as it was written.
@@ -101,8 +106,11 @@ def select_package_files(course: Path) -> PackageFiles:
         )
     listed = _read_starters(course)
     chosen = {name: course / name for name in (*TOPS, STARTERS, *listed)}
+    keys: dict[str, Path] = {}
     for one in list_exercises(course):
-        chosen |= _name_files(_list_exercise_files(one), top=course)
+        chosen |= _name_files(_list_authored_files(one), top=course)
+        keys |= _name_files(_list_key_files(one), top=course)
+    chosen |= keys if with_keys else {}
     chosen |= _name_files(_list_lesson_files(course), top=course)
     packages = {one.name: _find_package_folder(course, one) for one in PACKAGES}
     for folder in packages.values():
@@ -112,7 +120,7 @@ def select_package_files(course: Path) -> PackageFiles:
     files = {name: _read_content(name, chosen[name], course) for name in sorted(chosen)}
     _refuse_changed(files, listed, course)
     every = [path for top in (*FOLDERS, *packages) for path in _list_files(course / top)]
-    left_out = _name_files(every, top=course).keys() - files.keys()
+    left_out = _name_files(every, top=course).keys() - files.keys() - keys.keys()
     return PackageFiles(files, tuple(sorted(left_out)))
 
 
@@ -167,12 +175,24 @@ def _read_starters(course: Path) -> dict[str, str]:
     return listed
 
 
-def _list_exercise_files(one: Exercise) -> set[Path]:
-    """The authored files of an exercise, without its starters."""
+def _list_authored_files(one: Exercise) -> set[Path]:
+    """The authored files of an exercise, without its starters and its answer key."""
     texts = {one.folder / name for name in AUTHORED}
     return {path for path in texts if path.is_file()} | find_imported_modules(
         one.folder / "checks.py"
     )
+
+
+def _list_key_files(one: Exercise) -> set[Path]:
+    """The answer key of an exercise, and the modules that only the key imports."""
+    return list_modules(one) - find_imported_modules(one.folder / "checks.py")
+
+
+def list_modules(one: Exercise) -> set[Path]:
+    """The modules of an exercise: checks.py, its answer key, and all that these import."""
+    key = one.folder / KEY
+    found = find_imported_modules(one.folder / "checks.py")
+    return found | find_imported_modules(key) if key.is_file() else found
 
 
 def find_imported_modules(module: Path) -> set[Path]:

@@ -1,6 +1,7 @@
 """Packages for students: the course without solutions, and each student's own numbers.
 
-course.zip               for everybody: no solutions, no tests, no secret
+course.zip               for everybody: no solutions, no tests, no secret; for a class that is
+                         graded, no answer keys
 students/NAME.zip        to be unpacked over it: data drawn and sealed with the class's secret
 """
 

@@ -85,32 +85,6 @@ def test_anything_else_gives_other_bytes_in_every_file(tmp_path, other):
     assert not [file for file in ours if ours[file] == theirs[file]]
 
 
-def test_no_two_logs_are_alike(tmp_path):
-    made = files(make_dataset(spec(tmp_path, DAMAGED)))
-
-    assert len(set(made.values())) == len(made)
-
-
-def test_two_processes_make_what_one_makes(tmp_path):
-    path = spec(tmp_path, PLAIN.replace("count = 2", "count = 30"))  # 60 logs: worth two
-
-    one = make_dataset(path, "one", "--processes", 1)
-    two = make_dataset(path, "two", "--processes", 2)
-
-    assert len(files(one)) == 60
-    assert files(one) == files(two)
-    assert key(one) == key(two)
-
-
-def test_a_job_does_not_depend_on_the_others(tmp_path):
-    jobs = jobs_of(spec(tmp_path, DAMAGED))
-
-    there = {job.name: making.make_log(job).contents for job in jobs}
-    back = {job.name: making.make_log(job).contents for job in reversed(jobs)}
-
-    assert there == back
-
-
 def test_more_students_leave_the_logs_of_the_others_as_they_are(tmp_path, capsys):
     before = files(make_dataset(spec(tmp_path, DAMAGED)))
 
@@ -189,7 +163,7 @@ def test_a_number_says_nothing_about_what_was_done_to_a_log(tmp_path):
     fault = '[[logs]]\nmechanisms = "shooter"\n[[logs.faults]]\nname = "sign-flip"\n'
     jobs = jobs_of(spec(tmp_path, text.replace("{names}", names) + fault))
 
-    numbers = [job.name[-2:] for job in jobs if job.strikes]
+    numbers = [job.name[-2:] for job in jobs if job.draw_faults()]
 
     assert len(numbers) == 40
     assert set(numbers) == {
@@ -218,5 +192,27 @@ def test_the_example_can_be_made_as_it_is(tmp_path, capsys):
     folder = make_dataset(path)
 
     assert f"sysid dataset {path} -o week3" in capsys.readouterr().out
-    assert len(files(folder)) == 2 * (2 * 2 + 3 + 2)  # students x (mechanisms x clean + damaged)
+    assert len(files(folder)) == 2 * (4 + 4 + 4)  # students x (clean + damaged + swerve)
     assert sysid("dataset", path, "--example") == 2  # what is there is not overwritten
+
+
+def test_what_the_example_commands_does_not_tell_damaged_logs_from_clean_ones(tmp_path):
+    path = tmp_path / "week3.toml"
+    sysid("dataset", path, "--example")
+    commanded = {}
+
+    for entry in key(make_dataset(path))["logs"]:
+        (file,) = entry["files"]
+        log = sim.read(tmp_path / "data" / file, units=entry["units"])
+        voltages = tuple((run.test, round(float(abs(run.voltage).max()), 1)) for run in log.runs)
+        commanded.setdefault(entry["mechanism"], set()).add(voltages)
+    kinds = {True: set(), False: set()}
+    for job in jobs_of(path):
+        kinds[bool(job.table.faults)].add(job.mechanism)
+        if job.table.faults and job.table.faults[0].chance < 1.0:
+            kinds[False].add(job.mechanism)
+
+    assert {mechanism: len(found) for mechanism, found in commanded.items()} == dict.fromkeys(
+        commanded, 1
+    )
+    assert kinds[True] == kinds[False] == set(commanded)

@@ -1,7 +1,6 @@
 """The key of a dataset and its secret: what they tell, to whom, and what the data do not tell."""
 
 import hashlib
-import tracemalloc
 from dataclasses import replace
 
 import numpy as np
@@ -9,7 +8,6 @@ import pytest
 from dataset_made import DAMAGED, PLAIN, SECRET, files, key, make_dataset, spec, sysid
 
 import sim
-from sim.bench.dataset.key import Journal, read_key, write_key
 from sim.bench.dataset.secret import Secret
 from sim.bench.mechanisms import MECHANISMS
 from sim.core.units import find_unit
@@ -177,24 +175,3 @@ def test_a_refused_request_makes_no_secret(tmp_path):
 
 def test_a_secret_does_not_show_in_a_message():
     assert SECRET not in repr(Secret(SECRET.encode(), hidden=True))
-
-
-def test_a_key_of_any_length_takes_the_memory_of_one_entry(tmp_path):
-    secret = Secret(b"a secret for a test", hidden=True)
-    most = []
-    for count in (200, 2_000):
-        journal = Journal(tmp_path / f"{count}.key.json", secret=secret)
-        journal.start(
-            {"files": {f"log-{n:05}.csv": "0" * 64}, "plan": "p" * 500} for n in range(count)
-        )
-        tracemalloc.start()
-        written = write_key(tmp_path / f"{count}.key.json", journal, dataset="d", secret=secret)
-        most.append(tracemalloc.get_traced_memory()[1])
-        tracemalloc.stop()
-        journal.close()
-        found = read_key(tmp_path / f"{count}.key.json", secret=secret)
-        assert written == count == len(found)
-        assert [min(entry["files"]) for entry in found] == [f"log-{n:05}.csv" for n in range(count)]
-
-    short, long = most
-    assert long - short < 1_800 * 400  # [bytes] an entry has 600, its place in the journal 200

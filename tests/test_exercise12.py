@@ -130,6 +130,33 @@ def test_gaps_that_were_made_up_cost_half_a_point(tmp_path):
     assert grade_answer(text, "ann", tmp_path)["held-out"].points == 2.5
 
 
+@pytest.mark.parametrize("student", ["ann", "ben", "zoë"])
+def test_names_count_only_with_parameters_that_narrow_the_held_out_gap(student, tmp_path):
+    made_up = re.sub(
+        r' = "([-+.\de]+) ', lambda one: f' = "{3.0 * float(one[1]):.6g} ', truth(student)
+    )
+    without = "\n".join(line for line in truth(student).splitlines() if not line.startswith('"'))
+
+    assert sum(one.points for one in grade_answer(made_up, student, tmp_path).values()) == 0
+    results = grade_answer(without, student, tmp_path)
+    assert sum(one.points for one in results.values()) == 0
+    assert "counts only with parameters" in results["first-effect"].seen
+
+
+def test_the_gaps_of_the_validation_are_not_those_of_the_held_out_log(tmp_path):
+    variant = ROOM.draw("ann")
+    log, unit = variant.validation, ROOM.noise(variant.validation)
+    gaps = {
+        f"gap_{name}": ROOM.gap(ROOM.with_gains(variant.log, parts), log) / unit
+        for name, parts in (("before", ()), ("after", variant.mechanism.hidden))
+    }
+    for name, value in gaps.items():
+        text = re.sub(rf"{name} = .*", f"{name} = {value:.3g}", truth("ann"))
+        result = grade_answer(text, "ann", tmp_path)["held-out"]
+
+        assert (result.points, result.misconception) == (2.5, "M-HELD-OUT")
+
+
 @pytest.mark.parametrize(
     ("written", "right"),
     [
@@ -142,10 +169,10 @@ def test_gaps_that_were_made_up_cost_half_a_point(tmp_path):
 )
 def test_a_list_of_names_may_be_written_in_many_ways(tmp_path, written, right):
     name = ROOM.draw("ann").hidden[0]
+    lines = truth("ann").partition("\n")[2]
     for spelled in (name, name.upper(), name.replace("-", "_")):
-        result = grade_answer(f"effects = {written.format(spelled)}\n", "ann", tmp_path)[
-            "first-effect"
-        ]
+        text = f"effects = {written.format(spelled)}\n{lines}"
+        result = grade_answer(text, "ann", tmp_path)["first-effect"]
 
         assert (result.status == "passed") == right
 

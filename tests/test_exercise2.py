@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from grader.answer_key import load_answer_key
 from grader.check import WrongAnswer
 from grader.cli import run_command
 from grader.exercise import Exercise
@@ -24,6 +25,7 @@ from sim.physics.motors import compute_theoretical_kv, find_motor
 
 ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise2", ROOT / "exercises" / "exercise2")
+KEY = load_answer_key(OWN.module.__name__)
 CLASS = [f"student {number}" for number in range(50)]
 GOOD = ["gear-ratio", "wheel-size", "logged-voltage", "dragging-belt"]  # for a sound mechanism
 
@@ -44,9 +46,9 @@ def toml(value):
 
 
 def causes(variant):
-    if variant.evident:
-        return [variant.evident, "motor-type"]
-    return [one for one in GOOD if variant.valid(one)]
+    if KEY.find_evident(variant):
+        return [KEY.find_evident(variant), "motor-type"]
+    return [one for one in GOOD if KEY.is_possible(one, variant)]
 
 
 def right(variant, theory):
@@ -200,7 +202,7 @@ def test_a_list_may_be_written_in_many_ways(copy, written, status):
 @pytest.mark.parametrize(
     ("listed", "points"),
     [
-        (["motor-type", "unpowered-motor"], 2),
+        (["motor-type", "unpowered-motor"], 1),
         (["unpowered-motor", "wheel-size"], 2),
         (["wheel-size", "logged-voltage"], 0),
         (["wheel-size", "motor-type", "logged-voltage"], 2),
@@ -348,8 +350,8 @@ def allowed(variant, given):
 
 
 def test_every_list_of_causes_in_every_order_is_graded_by_what_the_file_says(copy):
-    """A point each for possible causes only, for cheap ones first, and for what the file shows."""
-    judge_list = OWN.module.judge_list
+    """A point each for possible causes, their order and the evidence; less for other causes."""
+    judge_list = KEY.judge_list
     cost = dict.fromkeys(["gear-ratio", "wheel-size", "motor-type", "velocity-unit"], 1)
     cost |= {"logged-voltage": 2, "unpowered-motor": 2, "dragging-belt": 3, "dry-bearing": 3}
     words = [*cost, "mass", "constant-friction", "sensor-noise"]
@@ -366,23 +368,27 @@ def test_every_list_of_causes_in_every_order_is_graded_by_what_the_file_says(cop
             later = [cost[one] for one in possible]
             rest = later[1:] if possible[:1] == shown else later
             named = shown[0] in causes if shown else len(set(later)) > 1
-            points = (possible == causes) + (rest == sorted(rest)) + named
-            points = points if len(possible) > 1 else 0
+            points = 1 + (1 + (rest == sorted(rest)) if named else 0) + len(possible) - len(causes)
+            points = max(points, 0) if len(possible) > 1 else 0
             unnamed = []
             try:
                 judge_list(causes, variant)
                 found = 3
             except WrongAnswer as wrong:
-                found = wrong.earned
+                found = max(wrong.earned, 0)
                 unnamed = [one for one in causes if one not in left and one not in wrong.hint]
 
             assert (found, unnamed) == (points, []), (student, variant.planted, causes)
 
 
-def test_whoever_lists_everything_does_not_get_full_marks(copy):
+def test_whoever_lists_everything_earns_nothing(copy):
     for student in CLASS[:12]:
+        everything = graded(copy, student=student, inspection=[*KEY.KINDS])["inspection"]
+        assert everything.points == 0
         variant = OWN.module.draw(student)
-        words = [one for one in (*GOOD, "motor-type", "velocity-unit") if variant.valid(one)]
+        words = [
+            one for one in (*GOOD, "motor-type", "velocity-unit") if KEY.is_possible(one, variant)
+        ]
         found = graded(copy, student=student, inspection=words)["inspection"]
 
         assert found.status == "failed"

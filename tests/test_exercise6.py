@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from grader.answer_key import load_answer_key
 from grader.cli import run_command
 from grader.exercise import Exercise
 from grader.variant import make_folder_name
@@ -25,6 +26,7 @@ from sim.physics.model import Model
 
 ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise6", ROOT / "exercises" / "exercise6")
+KEY = load_answer_key(OWN.module.__name__)
 DRAWN = sys.modules[OWN.module.draw.__module__]
 RULES = sys.modules[OWN.module.broken.__module__]
 PLAN = sys.modules[OWN.module.Plan.__module__]
@@ -58,12 +60,12 @@ def written(kind, plan):
     }
 
 
-def right(variant):
+def right(student):
     """Everything as it should be."""
     answers = {}
-    for kind, machine in variant.machines.items():
+    for kind, machine in OWN.module.draw(student).machines.items():
         answers |= written(kind, DRAWN.sound(machine))
-    morning = variant.morning
+    morning = KEY.draw_morning(student)
     answers |= {f"check_{item}": word for item, word in morning.decisions.items()}
     return answers | {
         "steps": STEPS,
@@ -102,7 +104,7 @@ def test_fifty_students_can_solve_theirs_from_what_they_are_given(copy):
 
 def test_plans_away_from_every_bound_pass(copy):
     for student in CLASS:
-        results = grade_answer(copy, student=student, **right(OWN.module.draw(student)))
+        results = grade_answer(copy, student=student, **right(student))
 
         assert {check.status for check in results.values()} == {"passed"}
         assert sum(check.points for check in results.values()) == 10  # as the course lists it
@@ -222,12 +224,10 @@ def test_acceleration_scatters_on_the_bench_as_the_rule_says():
 def test_a_student_gets_the_same_numbers_every_time_and_nobody_elses():
     ann, again, ben = (OWN.module.draw(name) for name in ("ann", "Ann", "ben"))
 
-    assert (ann.machines, ann.morning) == (again.machines, again.morning)
+    assert ann.machines == again.machines
+    assert KEY.draw_morning("ann") == KEY.draw_morning("Ann")
     assert ann.machines != ben.machines
-    assert {ann.morning.stick, *(OWN.module.draw(one).morning.stick for one in CLASS)} == {
-        True,
-        False,
-    }
+    assert {KEY.draw_morning(one).stick for one in ("ann", *CLASS)} == {True, False}
 
 
 def test_what_the_file_tells_is_what_is_graded(copy):
@@ -264,7 +264,7 @@ def test_nothing_a_learner_reads_is_a_plan_or_favors_the_word_that_is_right(copy
             near = [float(one) for one in re.findall(rf"(\d+\.\d+) {per}(?!/s)\b", told)]
 
             assert [one for one in near if abs(one - value) < 0.02 * value] == []
-    for word in (variant.morning.roborio, "/home/systemcore/logs", "last-two-weeks"):
+    for word in (KEY.draw_morning(student).roborio, "/home/systemcore/logs", "last-two-weeks"):
         assert not any(word in one for one in said if "Choose one of" not in one)
 
 
@@ -393,24 +393,33 @@ def test_a_word_may_be_written_in_many_ways(copy, name, check, given, status):
 
 @pytest.mark.parametrize(("go", "no_go"), [("GO", "NO GO"), ("go!", "nogo"), ("yes", "no")])
 def test_a_decision_may_be_written_in_many_ways(copy, go, no_go):
-    decisions = OWN.module.draw("ann").morning.decisions
+    decisions = KEY.draw_morning("ann").decisions
     words = {f"check_{item}": go if word == "go" else no_go for item, word in decisions.items()}
 
     assert grade_answer(copy, **words)["checklist"].status == "passed"
 
 
-def test_decisions_and_limits_earn_their_share(copy):
-    variant = OWN.module.draw("ann")
-    answers = right(variant) | {"check_log": "perhaps", "limit_a": "perhaps"}
+@pytest.mark.parametrize("word", ["go", "no-go"])
+def test_the_same_decision_about_everything_earns_little(copy, word):
+    same = {f"check_{item}": word for item in KEY.draw_morning("ann").seen}
+    limits = {"limit_a": "bypassed", "limit_b": "bypassed"}
+    results = [grade_answer(copy, student=one, **same, **limits) for one in CLASS]
+
+    assert np.mean([one["checklist"].points for one in results]) < 0.2
+    assert {one["limits"].points for one in results} == {0}
+
+
+def test_each_wrong_word_cancels_a_right_one(copy):
+    answers = right("ann") | {"check_log": "perhaps", "limit_a": "perhaps"}
     results = grade_answer(copy, **answers)
 
-    assert results["checklist"].points == pytest.approx(5 / 6)
-    assert results["limits"].points == 0.25
+    assert results["checklist"].points == pytest.approx(4 / 6)  # five right, one wrong
+    assert results["limits"].points == 0  # one right, one wrong
 
 
 def test_a_limit_in_the_controller_called_bypassed_is_named_and_the_other_is_not(copy):
     for student in CLASS[:8]:
-        effects = OWN.module.draw(student).morning.effects
+        effects = KEY.draw_morning(student).effects
         for name, effect in effects.items():
             wrong = effects | {name: "acts" if effect == "bypassed" else "bypassed"}
             found = grade_answer(copy, student=student, **wrong)["limits"]
@@ -432,9 +441,8 @@ def test_numbers_that_were_changed_are_written_anew(copy):
 
 def test_a_mark_beyond_the_end_of_the_run_is_wrong(copy):
     """Meters written as millimeters: the timeout would end the test, but such a mark is no plan."""
-    variant = OWN.module.draw("ann")
-    answers = right(variant)
-    for kind, machine in variant.machines.items():
+    answers = right("ann")
+    for kind, machine in OWN.module.draw("ann").machines.items():
         if machine.travel is None:
             continue
         found = grade_answer(copy, **{**answers, f"{kind}_release": 60.0 * machine.travel})

@@ -86,6 +86,14 @@ def test_the_standstill_may_be_trimmed_instead_of_dropped_by_a_threshold():
         assert points(trimmed, student=student)["ks"] == 2
 
 
+@pytest.mark.parametrize("median", [1, 3, 5])
+def test_who_keeps_everything_earns_nothing_for_it(median):
+    for student in ("ann", "ben", "zoë"):
+        earned = points(DRAWN.Preparation({}, 0.0, median), student=student)
+
+        assert (earned["kept"], earned["reach"]) == (0, 0)
+
+
 def test_what_is_lost_costs_half_a_point_for_each_test():
     reference = variant("ann").reference
 
@@ -95,7 +103,7 @@ def test_what_is_lost_costs_half_a_point_for_each_test():
 
     assert kept((0.0, 2.0), RAMPS[0]) == (1.5, 1.5)
     assert kept((0.0, 2.0), *RAMPS) == (1.0, 1.0)
-    assert kept((0.2, 2.0), *STEPS) == (1.0, 1.0)
+    assert kept((0.2, 0.5), *STEPS) == (1.0, 1.0)
     assert kept((90.0, 91.0), *RAMPS, *STEPS) == (0.0, 0.0)
 
 

@@ -5,30 +5,25 @@ student answers everything in the authored way and hands it in as another school
 gone through with the code of this folder, and once more with what pip makes of the wheel.
 """
 
-import contextlib
 import csv
 import json
 import os
 import re
 import shlex
 import shutil
-import signal
 import subprocess
 import sys
 import zipfile
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
-from urllib.request import urlopen
 
 import pytest
 from authored import authored_answer, mistakes_of
 from wheel import LEFT_OUT, build_wheel
 
 from grader.exercise import list_exercises
-from grader.serve.student_folders import can_separate, prepare_separation
 from grader.variant import make_folder_name, use_class_secret
-from sim.core.errors import BadRequest
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -88,16 +83,15 @@ STUDENTS = (
 
 
 def commands(heading: str) -> list[list[str]]:
-    """The commands that the guide prints under a heading, as a shell would split them."""
+    """Our commands that the guide prints under a heading, as a shell would split them."""
     guide = (ROOT / "INSTRUCTORS.md").read_text(encoding="utf-8")
     section = guide.partition(f"\n## {heading}")[2].partition("\n## ")[0]
     blocks = re.findall(r"```shell\n(.*?)```", section, flags=re.DOTALL)
-    return [shlex.split(line) for block in blocks for line in block.splitlines()]
+    lines = [shlex.split(line) for block in blocks for line in block.splitlines()]
+    return [words for words in lines if words[0] in PROGRAMS]
 
 
-def start(
-    words: list[str], *, cwd: Path, installed: Path = ROOT, **how: object
-) -> "subprocess.Popen[str]":
+def start(words: list[str], *, cwd: Path, installed: Path = ROOT) -> "subprocess.Popen[str]":
     """Start one of our commands as a terminal would; ``installed`` is where its code lies."""
     code = f"from {PROGRAMS[words[0]]} import main; main()"
     environment = {**os.environ, "PYTHONPATH": str(installed), "COLUMNS": "200", "PYTHONUTF8": "1"}
@@ -105,7 +99,7 @@ def start(
         environment.pop(name, None)
     return subprocess.Popen(
         [sys.executable, "-P", "-c", code, *words[1:]], cwd=cwd, env=environment, encoding="utf-8",
-        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, **how,
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
     )  # fmt: skip
 
 
@@ -259,33 +253,6 @@ def test_without_the_secret_nothing_is_graded_on_other_numbers(course, at_home, 
     assert not (tmp_path / "in-graded").exists()
 
 
-@pytest.mark.skipif(os.name == "nt", reason="a server on Windows is not ended by a signal")
-def test_the_class_is_served_as_the_guide_says(course, packages):
-    assert packages.is_dir()
-    (serve,) = (words for words in commands("A class") if words[1] == "serve")
-    apart = []
-    try:
-        if not can_separate():
-            apart = ["--unprotected"]
-        else:
-            prepare_separation(course.parent / "homes")
-    except BadRequest:  # Python or the folder is root's alone
-        apart = ["--unprotected"]
-    running = start([*serve, *apart, "--port", "0", "--host", "127.0.0.1"], cwd=course)
-    try:
-        assert running.stdout is not None
-        line = next(row for row in running.stdout if "http://" in row)
-        with urlopen(line.split()[-1], timeout=60) as page:  # noqa: S310 - our own server's
-            assert page.status == 200
-        assert (course.parent / "homes" / "codes.csv").is_file()
-    finally:
-        running.send_signal(signal.SIGINT)
-        with contextlib.suppress(subprocess.TimeoutExpired):
-            running.communicate(timeout=20)
-        running.kill()
-        running.communicate()
-
-
 def test_datasets_and_pages_are_made_as_the_guide_says(course):
     for words in commands("Your own damaged datasets"):
         say(words, cwd=course)
@@ -306,6 +273,7 @@ def test_the_exports_of_the_guide_are_written(course, packages):
 
     assert zipfile.is_zipfile(course.parent / "autograder.zip")
     assert "grade class" in (course.parent / "grade.yml").read_text(encoding="utf-8")
+    assert (course.parent / "hub" / "jupyterhub_config.py").is_file()
 
 
 def test_the_day_is_the_same_from_a_wheel(wheel, tmp_path):
@@ -350,7 +318,7 @@ def test_every_command_in_the_guides_sentences_does_what_it_says(at_home, tmp_pa
         "sysid effects": ("", 0, "drag"),
         "sysid faults": ("", 0, "encoder-slip"),
     }  # fmt: skip
-    elsewhere = {"grade serve", "grade watch"}
+    elsewhere = {"grade watch"}
     assert spans - elsewhere == {*expected} | {one for one in spans if "SUBMISSION" in one}
     for span, (typed, code, words) in expected.items():
         said = say(shlex.split(typed or span), cwd=home, code=code)

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from exercises.exercise6.preflight import WHY
+from exercises.exercise6.answer_key import WHY
 from exercises.exercise12.drawn import TESTS
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine

@@ -2,9 +2,6 @@
 
 import multiprocessing
 import zipfile
-from concurrent.futures import Future
-from concurrent.futures.process import BrokenProcessPool
-from types import SimpleNamespace
 
 import pytest
 from small_course import RIGHT, lay_out
@@ -86,35 +83,6 @@ def test_what_hangs_dies_or_eats_memory_is_named_and_stops_nobody(course, tmp_pa
     assert multiprocessing.active_children() == []
     _, again = grade_answer(course, there, tmp_path / "out", seconds=4.0)
     assert again == []  # what hung is not tried again
-
-
-def break_with_first_task(*_, **__):
-    future = Future()
-    future.set_exception(BrokenProcessPool("All workers expired"))
-    return future
-
-
-def refuse_tasks(*_, **__):
-    raise RuntimeError("Unexpected error within the Pool")
-
-
-@pytest.mark.parametrize("schedule", [break_with_first_task, refuse_tasks])
-@pytest.mark.parametrize("broken", [1, workers.POOLS])
-def test_a_pool_that_breaks_is_replaced(course, tmp_path, monkeypatch, schedule, broken):
-    there = hand_in(tmp_path / "in", ann="", eve="")
-    score, reason = (3.0, "") if broken < workers.POOLS else (0.0, workers.ENDED)
-    whole, begun = workers.ProcessPool, []
-    broken_pool = SimpleNamespace(schedule=schedule, stop=lambda: None, join=lambda: None)
-
-    def start(*args, **named):
-        begun.append(None)
-        return broken_pool if len(begun) <= broken else whole(*args, **named)
-
-    monkeypatch.setattr(workers, "ProcessPool", start)
-    results, _ = grade_answer(course, there, tmp_path / "out", seconds=30.0)
-
-    assert {name: one[0] for name, one in results.items()} == {"ann": score, "eve": score}
-    assert all((one[1] or "") == reason for one in results.values())
 
 
 def test_ctrl_c_ends_a_run_whose_worker_hangs(course, tmp_path):

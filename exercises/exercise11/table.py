@@ -82,7 +82,6 @@ ROWS = (
         "recommended",
         ("angle",),
         "Can one guessed voltage hold it at every angle?",
-        argued=(("optional", "light"),),
     ),
     Row(
         "elevator",
@@ -97,7 +96,7 @@ ROWS = (
         "optional",
         ("if-speed", "on-off"),
         "Does it matter how fast it turns? On every robot, or on some?",
-        argued=(("usually not", "on-off"), ("recommended", "if-speed"), ("always", "shot")),
+        argued=(("usually not", "on-off"), ("recommended", "if-speed")),
     ),
     Row(
         "climber",

@@ -3,6 +3,7 @@
 import math
 import re
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -48,6 +49,8 @@ SURE = 20.0  # [BIC] odds of about twenty thousand to one
 NARROWER = 0.985  # [of the gap without] what a refit by chance does not do
 SAME = (0.6, 1.6)  # [of the gap graded] what another honest way to compute it may give
 BASE = (0.3, 3.0)  # [of the same] of a base that another method fitted
+COPIED = 0.006  # [of a gap] that a number with three digits may differ from it
+NARROW = 0.95  # [of the gap with gains alone] above which effects do nothing for the held-out log
 REPORTED = 0.5  # points for the two gaps
 OTHER_FIT = (
     "The grader fits kS, kV and kA to your log itself, as try_it.py does. Another program, such as "
@@ -57,10 +60,17 @@ OTHER_FIT = (
 
 @dataclass(frozen=True)
 class Answers:
-    """What the checks look at."""
+    """What the checks look at.
+
+    Args:
+        given: the answers by name.
+        variant: the learner's own mechanism.
+        names_only: whether only names are asked for, as in a mystery.
+    """
 
     given: Mapping[str, object]
     variant: Variant
+    names_only: bool = False
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -80,6 +90,12 @@ class Answers:
         if names not in self._fitted:
             self._fitted[names] = with_gains(self.variant.log, parts)
         return self._fitted[names]
+
+    def measure_gaps(self, log: "Log") -> tuple[float, float]:
+        """The gaps of a log with gains alone and with the effects [noises]; raises WrongAnswer."""
+        unit = noise(log)
+        before, after = (gap(self.fitted(some), log) / unit for some in ([], self.parts))
+        return before, after
 
     @cached_property
     def _fitted(self) -> "dict[tuple[str, ...], Model]":
@@ -129,7 +145,7 @@ def draw_mystery(rng: "np.random.Generator", *, level: int) -> Mystery:
         example=", ".join(("delay", "backlash", "cogging")[:count]),
         solution=", ".join(variant.hidden),
         checks=(first_effect, all_effects),
-        read=lambda text: Answers({"effects": _split_names(text)}, variant),
+        read=lambda text: Answers({"effects": _split_names(text)}, variant, names_only=True),
     )
 
 
@@ -153,11 +169,34 @@ def first_effect(answers: Answers) -> None:
     """The first effect is the one that matters most."""
     first = answers.names[0]
     if first == answers.variant.hidden[0]:
+        _require_narrower(answers)
         return
     hint = "another effect alone makes the gap of the validation smaller than this one does"
     if first in answers.variant.hidden:
         hint = f"it is one of the hidden effects, but {hint}"
     raise WrongAnswer(f'"{first}"', hint=f"{hint}{_alone(answers)}")
+
+
+def _require_narrower(answers: Answers) -> None:
+    """Names count only with parameters that make the gap of the held-out log smaller.
+
+    Raises:
+        NotReachedError: the parameters cannot be read.
+        WrongAnswer: the gap does not get smaller.
+    """
+    if answers.names_only:
+        return
+    try:
+        before, after = answers.measure_gaps(answers.variant.held_out)
+    except WrongAnswer as wrong:
+        raise NotReachedError(f"counts only with parameters: {wrong.seen}") from None
+    if after > NARROW * before:
+        raise WrongAnswer(
+            ", ".join(answers.names),
+            hint="names count only if their effects make the gap of the held-out log smaller. "
+            f"With your parameters it goes from {before:.3g} to {after:.3g} times the noise. Write "
+            "the parameters that try_it.py prints for your own log",
+        )
 
 
 def _alone(answers: Answers) -> str:
@@ -180,6 +219,7 @@ def all_effects(answers: Answers) -> None:
     """All effects that are missing are named, and no others."""
     named, hidden = {*answers.names}, {*answers.variant.hidden}
     if named == hidden:
+        _require_narrower(answers)
         return
     hint = "each of these is right, but something is still missing: look at the remaining gap"
     if named > hidden:
@@ -193,8 +233,12 @@ def all_effects(answers: Answers) -> None:
             "helps a little, too. Try the effects that look like yours, and keep the one with "
             "the smallest gap of the validation"
         )
-    some = named > hidden or named < hidden
-    raise WrongAnswer(", ".join(answers.names), hint=hint, earned=1.0 if some else 0.0)
+    earned = 0.0
+    if named > hidden or named < hidden:
+        with suppress(WrongAnswer, NotReachedError):
+            _require_narrower(answers)
+            earned = 1.0
+    raise WrongAnswer(", ".join(answers.names), hint=hint, earned=earned)
 
 
 @check(points=3)
@@ -203,8 +247,7 @@ def held_out(answers: Answers) -> str | None:
     shown = answers.variant.held_out
     unit = noise(shown)
     floor = max(1.0, gap(answers.variant.mechanism.model, shown) / unit)
-    before = gap(answers.fitted([]), shown) / unit
-    after = gap(answers.fitted(answers.parts), shown) / unit
+    before, after = answers.measure_gaps(shown)
     seen = f"the gap goes from {before:.3g} to {after:.3g} times the noise"
     if after <= FLOOR * floor:
         return _reported(answers, before=before, after=after, seen=seen)
@@ -232,12 +275,13 @@ def _reported(answers: Answers, *, before: float, after: float, seen: str) -> st
         What the grader measured; and for a gap that is right but another number, why.
     """
     others = []
+    chosen_by = answers.measure_gaps(answers.variant.validation)
     rows = (("gap_before", before, after, BASE), ("gap_after", after, before, SAME))
-    for name, expected, other, bounds in rows:
+    for (name, expected, other, bounds), validation in zip(rows, chosen_by, strict=True):
         asked = AskedNumber(name, expected, "", Band(0.0, 0.0))
         try:
             value = read_answer_number(answers.given.get(name), asked)
-            _check_near(value, expected, bounds, other=other)
+            _check_near(value, expected, bounds, other=other, validation=validation)
         except WrongAnswer as wrong:
             wrong.seen, wrong.earned = f"{name}: {wrong.seen}", 3.0 - REPORTED
             raise
@@ -247,8 +291,20 @@ def _reported(answers: Answers, *, before: float, after: float, seen: str) -> st
 
 
 def _check_near(
-    value: float, expected: float, bounds: tuple[float, float], *, other: float
+    value: float, expected: float, bounds: tuple[float, float], *, other: float, validation: float
 ) -> None:
+    """Refuse a gap that is not the one of the held-out log.
+
+    Args:
+        value: as the learner wrote it.
+        expected: what the grader measured.
+        bounds: shares of it between which a value may be that of another honest fit.
+        other: the other of the two gaps of the held-out log.
+        validation: this gap of the validation log.
+    """
+    if _is_copied(value, validation) and not _is_copied(value, expected):
+        hint = "this is the gap of the validation log. Which log did nobody use to choose effects?"
+        raise WrongAnswer(f"{value:g}", hint=hint, misconception="M-HELD-OUT")
     if not bounds[0] * expected <= value <= bounds[1] * expected:
         hint = (
             "this is not the gap of your model on the held-out log, in times the noise. Write "
@@ -257,6 +313,11 @@ def _check_near(
         if SAME[0] * other <= value <= SAME[1] * other:
             hint = "this is the other gap: gap_before is with gains alone, gap_after with effects"
         raise WrongAnswer(f"{value:g}", hint=hint)
+
+
+def _is_copied(value: float, printed: float) -> bool:
+    """Whether a gap is one that try_it.py printed, with three digits."""
+    return abs(value - printed) <= COPIED * printed
 
 
 @check(points=2)

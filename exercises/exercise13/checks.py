@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from grader.answer import AnswerKey, judge_number, make_number_check, read_answer_number
+from grader.answer_key import load_answer_key
 from grader.check import WrongAnswer, check
 from grader.choice_answer import check_choice
 from grader.student_files import Made, write_student_files
@@ -22,7 +23,6 @@ ANSWER_NAMES = (
     "slip_current", "top_speed", "max_torque",
 )  # fmt: skip
 HERE = Path(__file__).resolve().parent
-RATES = ("volts", "radians-per-second", "degrees-per-second", "rotations-per-second")
 RAMP, TIMEOUT = 0.5, 8.0  # [V/s], [s] of both routines
 
 
@@ -168,20 +168,7 @@ lever = make_number_check(
 @check(points=1)
 def rate_unit(answers: Answers) -> None:
     """What the entry Rotational_Rate is measured in."""
-
-    def why(found: str) -> tuple[str, str]:
-        if found == "volts":
-            return (
-                "the routine calls it volts because SysId knows only volts. What does the "
-                "program do with the number?"
-            ), "M-UNITS"
-        return (
-            "compare it with the gyro's velocity at the end of a ramp: they are about equal only "
-            "after you convert one"
-        ), "M-UNITS"
-
-    also = {"rad/s": RATES[1], "deg/s": RATES[2], "rot/s": RATES[3], "V": RATES[0]}
-    check_choice(answers.given.get("rate_unit"), RATES[1], RATES, why=why, also=also)
+    load_answer_key(__name__).judge_rate_unit(answers.given.get("rate_unit"))
 
 
 ka_turning = make_number_check(

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from grader.answer import LARGEST, AnswerKey, AskedNumber, Band, judge_number, read_answer_number
+from grader.answer_key import load_answer_key
 from grader.check import WrongAnswer, check
 from grader.choice_answer import check_choice
 from grader.student_files import write_student_files
@@ -12,7 +13,6 @@ from grader.submission import read_answers
 from grader.wrong_number import Scene
 
 from .drawn import draw
-from .ranked import judge_list
 from .slips import lookalikes, rarer
 from .team import FLAGS, VERDICTS, Variant
 from .team import verdict as find_verdict
@@ -202,9 +202,9 @@ def verdict(answers: Answers) -> None:
 
 
 @check(points=3)
-def inspection(answers: Answers) -> str | None:
+def inspection(answers: Answers) -> None:
     """The causes to check, in the order in which you would check them."""
-    return judge_list(answers.given.get("inspection"), answers.variant)
+    load_answer_key(__name__).judge_list(answers.given.get("inspection"), answers.variant)
 
 
 @check(points=1)

@@ -11,26 +11,6 @@ OK, WATCH = 8.0, 20.0  # [%] above theory
 FRICTION = 0.5  # [V] of kS that deserves a look: 4 % of 12 V
 FULL = 12.0  # [V] the voltage the data sheets are for
 
-KINDS = {  # word -> where to look for it; "" cannot move kV
-    "gear-ratio": "units",
-    "wheel-size": "units",
-    "velocity-unit": "units",
-    "motor-type": "units",
-    "logged-voltage": "electrical",
-    "unpowered-motor": "electrical",
-    "dragging-belt": "mechanical",
-    "dry-bearing": "mechanical",
-    "mass": "",
-    "constant-friction": "",
-    "sensor-noise": "",
-}
-BRAKES = ("dragging-belt", "dry-bearing")
-RULED_OUT_BY = {  # cause -> what the student's file says about it
-    "gear-ratio": "ratio",
-    "wheel-size": "radius",
-    "logged-voltage": "logged_voltage",
-}
-ORDER = ("units", "electrical", "mechanical")
 VERDICTS = ("bookkeeping", "ok", "watch", "inspect")
 FLAGS = ("fine", "watch", "stop")
 
@@ -127,31 +107,6 @@ class Variant:
         if self.friction > self.measured * self.speed:
             return "stop"
         return "watch" if self.friction > FRICTION else "fine"
-
-    @property
-    def evident(self) -> str:
-        """The one cause that the student's own file shows; empty if nothing went wrong."""
-        return self.planted[0] if self.planted else ""
-
-    def ruled_out(self, word: str) -> str:
-        """Return which line of the student's file rules a cause out; empty if none does.
-
-        A sound mechanism rules out nothing: its student names causes for another day.
-        """
-        if not self.planted or word in self.planted:
-            return ""
-        if word in BRAKES:
-            return "" if self.evident in BRAKES else "mechanic"
-        return RULED_OUT_BY.get(word, "")
-
-    def valid(self, word: str) -> bool:
-        """Whether a cause can be behind a kV that is off as this one is, by physics alone."""
-        if word == "wheel-size" and not self.parts.diameter:
-            return False
-        if word == "unpowered-motor" and self.parts.motors == 1:
-            return False
-        down = KINDS[word] == "units" or word == "logged-voltage"
-        return bool(KINDS[word]) and (down or self.verdict != "bookkeeping")
 
 
 def verdict(percent: float) -> str:

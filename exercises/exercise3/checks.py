@@ -1,13 +1,13 @@
 """Exercise 3: gravity and friction from the voltages that hold, and what to do with them."""
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from grader.answer import HALF, AnswerKey, make_number_check, read_answer_number
+from grader.answer_key import load_answer_key
 from grader.check import WrongAnswer, check
-from grader.choice_answer import check_choice
 from grader.consequence import Consequence
 from grader.student_files import write_student_files
 from grader.submission import read_answers
@@ -24,9 +24,6 @@ ANSWER_NAMES = (
 )  # fmt: skip
 HERE = Path(__file__).resolve().parent
 GIVEN = "given.toml"
-
-TYPES = ("Simple", "Arm", "Elevator")
-CLASSES = ("SimpleMotorFeedforward", "ArmFeedforward", "ElevatorFeedforward")
 
 
 @dataclass(frozen=True)
@@ -95,16 +92,20 @@ elevator_ks = make_number_check(
 )
 
 
+def _judge_word(name: str, answers: Answers) -> None:
+    load_answer_key(__name__).judge_word(name, answers.given.get(name))
+
+
 @check(points=1)
 def elevator_type(answers: Answers) -> None:
     """SysId's analysis type for the elevator."""
-    _word("elevator_type", "Elevator", answers, choices=TYPES)
+    _judge_word("elevator_type", answers)
 
 
 @check(points=1)
 def elevator_class(answers: Answers) -> None:
     """WPILib's feedforward class for the elevator."""
-    _word("elevator_class", "ElevatorFeedforward", answers, choices=CLASSES)
+    _judge_word("elevator_class", answers)
 
 
 arm_kg = make_number_check(
@@ -116,13 +117,13 @@ arm_ks = make_number_check("arm_kS", "The arm's kS, the voltage that friction ta
 @check(points=1)
 def arm_type(answers: Answers) -> None:
     """SysId's analysis type for the arm."""
-    _word("arm_type", "Arm", answers, choices=TYPES)
+    _judge_word("arm_type", answers)
 
 
 @check(points=1)
 def arm_class(answers: Answers) -> None:
     """WPILib's feedforward class for the arm."""
-    _word("arm_class", "ArmFeedforward", answers, choices=CLASSES)
+    _judge_word("arm_class", answers)
 
 
 @check(points=2)
@@ -145,20 +146,3 @@ def arm_offset(answers: Answers) -> str | None:
         misconception=code,
         earned=2 * HALF if close else 0.0,
     )
-
-
-def _word(name: str, right: str, answers: Answers, *, choices: Sequence[str]) -> None:
-    """Hold a word against the right one, however it is written."""
-    also = {"SimpleMotorFeedforwardMeters": CLASSES[0]} if choices is CLASSES else {}
-
-    def why(found: str) -> tuple[str, str]:
-        ask = f"Choose one of: {', '.join(choices)}."
-        if found.startswith("Simple"):
-            says = "Simple has no gravity term. Does yours stay where it is without a voltage? "
-            return says + ask, "M-NO-KG-IN-SYSID"
-        says = (
-            "Is the voltage against gravity the same everywhere, or does it change with an angle? "
-        )
-        return says + ask, ""
-
-    check_choice(answers.given.get(name), right, choices, why=why, also=also)

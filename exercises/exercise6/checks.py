@@ -5,9 +5,11 @@ from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from grader.answer import AskedNumber, Band, read_answer_number
-from grader.check import WrongAnswer, check
+from grader.answer_key import load_answer_key
+from grader.check import NotReachedError, WrongAnswer, check
 from grader.choice_answer import normalize_choice
 from grader.consequence import Consequence
 from grader.student_files import write_student_files
@@ -16,22 +18,22 @@ from grader.submission import read_answers
 from .drawn import Variant, draw
 from .outcome import outcome
 from .plan import Machine, Plan, dynamic, quasistatic
-from .preflight import CHOICES, judge_all, judge_choice, judge_steps
 from .rules import LONGEST, broken
 
 FILES = ("answers.toml",)
 FILE_MADE = "given.toml"
 HERE = Path(__file__).resolve().parent
 KINDS = ("drivetrain", "elevator", "turret", "shooter")
+ITEMS = ("travel", "battery", "encoder", "log", "guard", "driver_station")  # of the checklist
 POINTS = 1.5  # for a mechanism's plan
 LEAST = 0.001  # of any part of a plan: less than that is nothing
 MOST = {"ramp": ("V/s", 100.0), "step": ("V", 12.0), "timeout": ("s", 600.0)}  # as SysIdRoutine's
 GAINS = {"kS": ("ks", "V"), "kG": ("kg", "V"), "kV": ("kv", "V·s/{}"), "kA": ("ka", "V·s²/{}")}
 ANSWER_NAMES = (
     *(f"{kind}_{part}" for kind in KINDS for part in (*MOST, "release")),
-    "steps",
-    *CHOICES,
-)
+    *(f"check_{item}" for item in ITEMS),
+    "steps", "log_2026", "log_2027", "limit_a", "limit_b", "schedule",
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -40,29 +42,35 @@ class Answers:
 
     given: Mapping[str, object]
     variant: Variant
+    student: str
+
+    @property
+    def morning(self) -> Any:  # noqa: ANN401 - of a module that a class's package lacks
+        """What the learner sees on the morning; raises NotReachedError in a class's package."""
+        return load_answer_key(__name__).draw_morning(self.student)
 
 
 def prepare(student: str, *, say: Callable[[str], None]) -> None:
     """Write down the learner's numbers, where they are not there as they were made."""
-    made = {FILE_MADE: _told(draw(student))}
+    lines = ["# Your own numbers for exercise 6. Only read here; answers go into answers.toml."]
+    for machine in draw(student).machines.values():
+        lines += ["", *_describe_machine(machine)]
+    with suppress(NotReachedError):  # of a class's package, which has no answers to the words
+        lines += _describe_morning(load_answer_key(__name__).draw_morning(student))
+    made = {FILE_MADE: "\n".join(lines) + "\n"}
     write_student_files(made, exercise=HERE, student=student, what="numbers", say=say)
 
 
-def _told(variant: Variant) -> str:
-    """The learner's mechanisms, and what is seen on the morning of the tests."""
-    lines = ["# Your own numbers for exercise 6. Only read here; answers go into answers.toml."]
-    for machine in variant.machines.values():
-        lines += ["", *_described(machine)]
-    morning = variant.morning
-    lines += ["", "[morning]  # what you see on the morning of the tests"]
+def _describe_morning(morning: Any) -> list[str]:  # noqa: ANN401 - of a module that a class's package lacks
+    """What is seen on the morning of the tests."""
+    lines = ["", "[morning]  # what you see on the morning of the tests"]
     lines += [f'{item} = "{seen}"' for item, seen in morning.seen.items()]
     stick = "a USB stick, formatted as FAT32," if morning.stick else "no USB stick"
     lines += ["", "[robot]", f'usb = "{stick} is in the roboRIO"']
-    lines += [f'{name} = "{told}"' for name, told in morning.limits.items()]
-    return "\n".join(lines) + "\n"
+    return [*lines, *(f'{name} = "{told}"' for name, told in morning.limits.items())]
 
 
-def _described(machine: Machine) -> list[str]:
+def _describe_machine(machine: Machine) -> list[str]:
     """One mechanism: gains are estimates, from the parts."""
     unit = machine.symbol
     lines = [f"[{machine.kind}]  # gains are estimates, computed from the parts"]
@@ -98,7 +106,7 @@ def read(path: Path, *, student: str) -> Answers:
         UnreadableFile: the file cannot be read.
     """
     given = {name.lower(): value for name, value in read_answers(path).items()}
-    return Answers(given, draw(student))
+    return Answers(given, draw(student), student)
 
 
 def consequence(answers: Answers) -> Consequence | None:
@@ -193,36 +201,35 @@ def _positive(
 @check(points=1)
 def checklist(answers: Answers) -> None:
     """Six decisions on the morning of the tests: go or no-go."""
-    decisions = answers.variant.morning.decisions
-    right = {f"check_{item}": decision for item, decision in decisions.items()}
-    judge_all(answers.given, right, points=1.0)
+    right = {f"check_{item}": word for item, word in answers.morning.decisions.items()}
+    load_answer_key(__name__).judge_all(answers.given, right, points=1.0)
 
 
 @check(points=1)
 def steps(answers: Answers) -> None:
     """The four steps of system identification, in order."""
-    judge_steps(answers.given.get("steps"))
+    load_answer_key(__name__).judge_steps(answers.given.get("steps"))
 
 
 @check(points=0.5)
 def log_2026(answers: Answers) -> None:
     """Where your roboRIO keeps its log, season 2026."""
-    judge_choice("log_2026", answers.given, answers.variant.morning.roborio)
+    load_answer_key(__name__).judge_choice("log_2026", answers.given, answers.morning.roborio)
 
 
 @check(points=0.5)
 def log_2027(answers: Answers) -> None:
     """Where a Systemcore keeps its log, season 2027."""
-    judge_choice("log_2027", answers.given, CHOICES["log_2027"].always)
+    load_answer_key(__name__).judge_choice("log_2027", answers.given)
 
 
 @check(points=0.5)
 def limits(answers: Answers) -> None:
     """What a test does to two limits: they act, or are bypassed."""
-    judge_all(answers.given, answers.variant.morning.effects, points=0.5)
+    load_answer_key(__name__).judge_all(answers.given, answers.morning.effects, points=0.5)
 
 
 @check(points=0.5)
 def schedule(answers: Answers) -> None:
     """When in the season to run the tests."""
-    judge_choice("schedule", answers.given, CHOICES["schedule"].always)
+    load_answer_key(__name__).judge_choice("schedule", answers.given)

@@ -1,4 +1,4 @@
-"""Four mechanisms and one morning for each learner, drawn so that every plan can be made."""
+"""Four mechanisms for each learner, drawn so that every plan can be made."""
 
 import math
 from collections.abc import Mapping
@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 from grader.variant import cache_draws, make_student_rng
 
-from .morning import Morning, morning
 from .plan import Machine, Plan, dynamic, quasistatic
 from .rules import GRIP, QUARTER, SIGNAL, broken
 
@@ -60,11 +59,10 @@ MOST_DRAWS = 500  # a few are enough; so many would be our fault
 
 @dataclass(frozen=True)
 class Variant:
-    """One learner's mechanisms, and the morning on which they are tested."""
+    """One learner's mechanisms."""
 
     machines: Mapping[str, Machine]
     built: "Mapping[str, Mechanism]"
-    morning: Morning
 
 
 @cache_draws
@@ -73,7 +71,7 @@ def draw(student: str) -> Variant:
     machines, built = {}, {}
     for kind in MOTORS:
         machines[kind], built[kind] = _feasible(student, kind)
-    return Variant(machines, built, morning(make_student_rng(student, "exercise6 morning")))
+    return Variant(machines, built)
 
 
 def _feasible(student: str, kind: str) -> "tuple[Machine, Mechanism]":

@@ -4,6 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from grader.variant import make_student_rng
+
 if TYPE_CHECKING:
     import numpy as np
 
@@ -111,8 +113,9 @@ class Morning:
         return FOLDERS[0] if self.stick else FOLDERS[1]
 
 
-def morning(rng: "np.random.Generator") -> Morning:
-    """Draw a morning on which some things are not as they should be."""
+def draw_morning(student: str) -> Morning:
+    """A learner's morning, always the same one; some things are not as they should be."""
+    rng = make_student_rng(student, "exercise6 morning")
     items = list(SEEN)
     bad = set(rng.permutation(items)[: int(rng.integers(LEAST_BAD, MOST_BAD + 1))].tolist())
     decisions = {item: "no-go" if item in bad else "go" for item in items}

@@ -1,5 +1,6 @@
 """Exercise 8: what to cut from a damaged log, graded by the fit that comes of it."""
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -9,12 +10,13 @@ from grader.student_files import format_log, write_student_files
 from grader.submission import read_answers
 
 from .blame import blame
-from .drawn import NOTHING, Variant, draw
+from .drawn import Variant, draw
 from .left import Left, left
 from .preparation import POINTS, TESTS, Preparation, earned, fitted, read_preparation
 
 FILES = ("answers.toml",)
 ANSWER_NAMES = (*(test.replace("-", "_") for test in TESTS), "threshold", "median")
+LATE = 0.15  # [s] after a careful cut before a stop: who cuts by eye may be so late
 HERE = Path(__file__).resolve().parent
 
 
@@ -115,12 +117,22 @@ def _preparation(answers: Answers) -> Preparation:
 
 
 def _left(answers: Answers) -> tuple[Left, ...]:
-    """What is left of each test; who does nothing at all keeps everything, and earns nothing."""
-    preparation = _preparation(answers)
-    if preparation == NOTHING:
-        raise NotReachedError("checked after you cut or filter something")
-    variant = answers.variant
+    """What is left of each test, once both stops are cut."""
+    _require_stops_cut(answers)
+    preparation, variant = _preparation(answers), answers.variant
     return left(variant.log, preparation, valid=variant.valid, clean=variant.clean)
+
+
+def _require_stops_cut(answers: Answers) -> None:
+    """What is kept counts only where both stops are cut: who keeps everything has not chosen.
+
+    Raises:
+        NotReachedError: a test is kept longer than until its mechanism hits a stop.
+    """
+    windows = _preparation(answers).keep
+    for test, (_, end) in answers.variant.reference.keep.items():
+        if windows.get(test, (0.0, math.inf))[1] > end + LATE:
+            raise NotReachedError("counts after you cut the ends of tests that do not look right")
 
 
 def _gain(name: str, answers: Answers) -> None:

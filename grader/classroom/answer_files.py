@@ -24,7 +24,7 @@ from pathlib import Path, PurePosixPath
 from grader.class_package import PLACE as ISSUED
 from grader.classroom.submitted_files import MAX_TOTAL, SubmittedFile, format_file_name
 from grader.exercise import Exercise
-from grader.package_files import IGNORED, digest_starter, find_imported_modules, read_listed_files
+from grader.package_files import IGNORED, digest_starter, list_modules, read_listed_files
 from grader.submission import LARGEST
 from sim.support.printable import list_first
 
@@ -414,7 +414,7 @@ def _find_declared(name: str, content: bytes, exercise: Exercise) -> str:
 @cache
 def _name_given_files(exercise: Exercise) -> frozenset[str]:
     """The names of the files of an exercise's folder that nobody fills in."""
-    modules = {path.name for path in find_imported_modules(exercise.folder / "checks.py")}
+    modules = {path.name for path in list_modules(exercise)}
     listed = read_listed_files(exercise).keys() - {*_own_names(exercise)}
     return frozenset({*modules, *listed, *OURS})
 

@@ -1,18 +1,18 @@
 """Grade a class: known results are reused, and one student's failure never stops the others."""
 
 from collections.abc import Callable
+from contextlib import closing
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from grader.classroom.bundle import pack_course
-from grader.classroom.grading import GradedStudent, GradingJob, grade_student, make_ungraded_student
+from grader.classroom.grading import GradedStudent, GradingJob, make_ungraded_student
 from grader.classroom.store import ResultStore, digest_job
 from grader.classroom.submissions import Submission
 from grader.classroom.workers import grade_in_workers
 from grader.exercise import Exercise
 from grader.fingerprint import fingerprint_folders
-from sim.support.work.cluster import run_jobs_on_cluster
 
 
 @dataclass(frozen=True)
@@ -132,15 +132,14 @@ def grade_class(
     """
     found = list(plan.kept)
     store.open()
-    grading = (
-        run_jobs_on_cluster(grade_student, plan.jobs, address=cluster)
-        if cluster
-        else grade_in_workers(plan.jobs, processes=processes, stop_if_asked=stop_if_asked)
+    grading = grade_in_workers(
+        plan.jobs, processes=processes, cluster=cluster, stop_if_asked=stop_if_asked
     )
-    for one in grading:
-        store.put(one)
-        found.append(one)
-        say()
+    with closing(grading):
+        for one in grading:
+            store.put(one)
+            found.append(one)
+            say()
     everything = {one.name for one in asked.exercises}
     unread = (
         make_ungraded_student(

@@ -33,10 +33,9 @@ MODULES = {
     "export": "export",
     "mystery": "mystery",
     "release": "release",
-    "serve": "serve",
     "watch": "watch",
 }
-COURSE_PACKAGES = ("pebble", "tomlkit", "tree_sitter", "tree_sitter_java")  # of the extra `course`
+COURSE_PACKAGES = ("tomlkit", "tree_sitter", "tree_sitter_java")  # of the extra `course`
 
 
 class ExerciseOrCommand(click.Group):
@@ -64,7 +63,7 @@ class ExerciseOrCommand(click.Group):
         formatter.write_usage("grade", "start [FOLDER] [--no-lab] [--student NAME]")
         formatter.write_usage(
             "grade",
-            "watch | mystery | doctor | class FOLDER | release | export | serve FOLDER  [--help]",
+            "watch | mystery | doctor | class FOLDER | release | export  [--help]",
         )
         self.format_help_text(ctx, formatter)
         self.commands["exercise"].format_options(ctx, formatter)

@@ -220,8 +220,8 @@ def _run(
     """Grade what is left; None where it was stopped."""
     from grader.classroom.class_grading import grade_class, plan_grading  # noqa: PLC0415 - --help must not wait
     from grader.classroom.store import ResultStore  # noqa: PLC0415 - the same
+    from sim.support.work.executor import count_available_cores  # noqa: PLC0415 - the same
     from sim.support.work.interrupt import deferred_interrupt  # noqa: PLC0415 - the same
-    from sim.support.work.process_pool import count_available_cores  # noqa: PLC0415 - the same
     from sim.support.work.progress_bar import progress_bar  # noqa: PLC0415 - the same
 
     store = ResultStore(out)

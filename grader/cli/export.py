@@ -21,7 +21,7 @@ ONLY = click.option(
 
 @click.group()
 def export() -> None:
-    """Make an autograder for Gradescope or GitHub Classroom."""
+    """Make an autograder for Gradescope or GitHub Classroom, or a configuration of JupyterHub."""
 
 
 COMMAND = export
@@ -113,6 +113,19 @@ def github(output: Path, only: tuple[str, ...]) -> int:
     _, asked = _find_asked_exercises(only)
     write_file(output, make_workflow([one.name for one in asked]).encode())
     print_lines([style_line(f"{output}: for the repository that students start from")])
+    return DONE
+
+
+@export.command()
+@click.option("-o", "--output", type=PATH, required=True, help="../hub/jupyterhub_config.py")
+def jupyterhub(output: Path) -> int:
+    """Write a configuration of JupyterHub: students need nothing but a browser.
+
+    The folder around that of the file has to hold roster.csv and packages. Run jupyterhub next to
+    the file, as root on Linux.
+    """
+    write_file(output, (Path(__file__).parents[1] / "jupyterhub_config.py").read_bytes())
+    print_lines([style_line(f"{output}: run jupyterhub in this folder, as root")])
     return DONE
 
 

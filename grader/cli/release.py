@@ -48,9 +48,9 @@ def release(  # noqa: PLR0917 - click passes options by name
 ) -> int:
     """Make the students' package.
 
-    It is the course without solutions, keys and secret. With a roster, each student also gets
-    numbers and logs of their own. Only the owner of the secret can make them again, and grade them:
-    grade class FOLDER --secret FILE.
+    It is the course without solutions and secret. With a roster, each student also gets numbers and
+    logs of their own, and no answer keys. Only the owner of the secret can make these numbers
+    again, and grade them: grade class FOLDER --secret FILE.
     """
     from grader.classroom.secret import find_secret  # noqa: PLC0415 - --help must not wait for it
 
@@ -120,14 +120,14 @@ def _release(
     from grader.package_files import select_package_files  # noqa: PLC0415 - the same
     from grader.release import StudentPackage, make_student_package, zip_files  # noqa: PLC0415 - the same
     from grader.variant import make_folder_name  # noqa: PLC0415 - the same
-    from sim.support.work.process_pool import count_available_cores, run_jobs_locally  # noqa: PLC0415 - the same
+    from sim.support.work.executor import count_available_cores, run_jobs  # noqa: PLC0415 - the same
     from sim.support.work.progress_bar import progress_bar  # noqa: PLC0415 - the same
 
     students = tuple(read_class_roster(roster).rows) if roster else ()
     said = describe_other_code(course)
     if said:
         print_error(said)
-    chosen = select_package_files(course)
+    chosen = select_package_files(course, with_keys=not students)
     chosen.refuse_secret(secret.value if secret else b"")
     report_left_out(chosen.left_out)
     everybody = zip_files(chosen.files)
@@ -141,7 +141,7 @@ def _release(
     packages = [StudentPackage(student, value, name, packed) for student in students]
     write_file(output / "course.zip", everybody)
     with progress_bar("students", len(packages)) as (step, _):
-        made = run_jobs_locally(
+        made = run_jobs(
             make_student_package,
             packages,
             processes=processes or count_available_cores(),

@@ -1,5 +1,6 @@
 """``sysid dataset``."""
 
+from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,10 +11,8 @@ from sim.core.errors import BadRequest
 from sim.support.command_line import DONE, INTERRUPTED, NOT_RIGHT, print_error, quote_path
 
 if TYPE_CHECKING:
+    from sim.bench.dataset.folder import DatasetPlace
     from sim.bench.dataset.plan import LogJob
-    from sim.bench.dataset.run import DatasetPlace
-    from sim.bench.dataset.secret import Secret
-    from sim.bench.dataset.spec import Spec
 
 
 WORTH = 50  # [logs] per process at least: for fewer, starting it takes longer than it saves
@@ -57,56 +56,50 @@ def dataset(  # noqa: PLR0917 - click passes options by name
         return _write_example(spec)
     if output is None:
         raise click.UsageError("Missing option '-o': a folder for the logs.")
-    from sim.bench.dataset.key import choose_key_path  # noqa: PLC0415 - as all below: --help must not wait
+    from sim.bench.dataset.folder import DatasetPlace, check_separation  # noqa: PLC0415 - as all below: --help must not wait
+    from sim.bench.dataset.key import choose_key_path  # noqa: PLC0415
     from sim.bench.dataset.plan import plan_jobs  # noqa: PLC0415
-    from sim.bench.dataset.run import DatasetPlace  # noqa: PLC0415
     from sim.bench.dataset.secret import find_secret  # noqa: PLC0415
     from sim.bench.dataset.spec import read_spec  # noqa: PLC0415
 
     asked = read_spec(spec)
-    place = DatasetPlace(output, key or choose_key_path(output))
-    place.check_separation(spec=spec, secret=asked.secret)
+    key = key or choose_key_path(output)
+    check_separation(output, key=key, spec=spec, secret=asked.secret)
     secret = find_secret(asked, make=not check)
+    place = DatasetPlace(output, key, asked.name, secret, overwrite)
     jobs = plan_jobs(asked, secret)
     if check:
-        return _check(place, jobs, secret)
-    return _make(
-        asked,
-        place,
-        jobs,
-        secret=secret,
-        overwrite=overwrite,
-        processes=processes,
-        cluster=cluster,
-    )
+        return _check(place, jobs)
+    return _make(place, jobs, processes=processes, cluster=cluster)
 
 
 def _make(
-    asked: "Spec",
     place: "DatasetPlace",
     jobs: "tuple[LogJob, ...]",
     *,
-    secret: "Secret",
-    overwrite: bool,
     processes: int | None,
     cluster: str | None,
 ) -> int:
     """Make the logs that are missing, with a progress bar; the exit code."""
-    from sim.bench.dataset.making import make_log  # noqa: PLC0415 - --help must not wait
-    from sim.bench.dataset.run import check_folder, finish_dataset, rehearse_jobs  # noqa: PLC0415 - the same
-    from sim.support.work.cluster import run_jobs_on_cluster  # noqa: PLC0415 - the same
+    from sim.bench.dataset.making import make_log, rehearse_logs  # noqa: PLC0415 - --help must not wait
+    from sim.support.work.executor import count_available_cores, run_jobs  # noqa: PLC0415 - the same
     from sim.support.work.interrupt import deferred_interrupt  # noqa: PLC0415 - the same
-    from sim.support.work.process_pool import count_available_cores, run_jobs_locally  # noqa: PLC0415 - the same
     from sim.support.work.progress_bar import progress_bar  # noqa: PLC0415 - the same
 
-    found = check_folder(place, jobs, secret=secret, overwrite=overwrite)
-    rehearse_jobs(found.todo)
+    kept = place.survey(jobs)
+    todo = [job for job in jobs if job.name not in kept]
+    rehearse_logs(todo)
+    secret = place.secret
     if secret.new:
         secret.save()
         click.echo(f"{secret.new}: a new secret. Keep this file, and show it to nobody.", err=True)
+    made = run_jobs(
+        make_log, todo, processes=processes or count_available_cores(), worth=WORTH, cluster=cluster
+    )
     with (
-        progress_bar("logs", len(jobs), done=len(found.kept)) as (step, done),
+        progress_bar("logs", len(jobs), done=len(kept)) as (step, done),
         deferred_interrupt() as stop_if_noted,
+        closing(made),
     ):
 
         def say() -> None:
@@ -114,21 +107,7 @@ def _make(
             stop_if_noted()
 
         try:
-            finish_dataset(
-                place,
-                found,
-                maker=lambda todo: (
-                    run_jobs_on_cluster(make_log, todo, address=cluster)
-                    if cluster
-                    else run_jobs_locally(
-                        make_log, todo, processes=processes or count_available_cores(), worth=WORTH
-                    )
-                ),
-                dataset=asked.name,
-                secret=secret,
-                overwrite=overwrite,
-                say=say,
-            )
+            place.make_logs(jobs, kept, made, say)
         except KeyboardInterrupt:
             stopped = True
         else:
@@ -137,16 +116,14 @@ def _make(
         text = f"stopped with {done()} of {len(jobs)} logs done. Run the same command to continue."
         print_error(text, name="sysid")
         return INTERRUPTED
-    kept = f", {len(found.kept)} of them made earlier" if found.kept else ""
-    click.echo(f"{place.folder}: {len(jobs)} logs{kept}. The truth about them: {place.key}")
+    earlier = f", {len(kept)} of them made earlier" if kept else ""
+    click.echo(f"{place.folder}: {len(jobs)} logs{earlier}. The truth about them: {place.key}")
     return DONE
 
 
-def _check(place: "DatasetPlace", jobs: "tuple[LogJob, ...]", secret: "Secret") -> int:
+def _check(place: "DatasetPlace", jobs: "tuple[LogJob, ...]") -> int:
     """Print which logs have changed or are missing; the exit code."""
-    from sim.bench.dataset.checking import verify_dataset  # noqa: PLC0415 - --help must not wait for it
-
-    wrong = verify_dataset(place.folder, jobs, key=place.key, secret=secret)
+    wrong = list(place.verify(jobs))
     for line in wrong:
         click.echo(line)
     if not wrong:

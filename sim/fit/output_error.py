@@ -41,7 +41,7 @@ from sim.fit.open_loop_fallback import (
     replay_open_loop,
 )
 from sim.fit.result import Fit
-from sim.fit.run_lags import fit_run_lags
+from sim.fit.run_differences import fit_run_differences
 from sim.fit.search import (
     TRACKING,
     drop_outliers,
@@ -141,7 +141,7 @@ def _fit_problem(log: Log, *, type: str) -> Fit:  # noqa: A002 - as above
         raise _refuse_motion(log)
     every = problem
     problem, likeliest, replay = _choose_lags(problem, plain)
-    problem, likeliest, replay = _add_run_lags(
+    problem, likeliest, replay = _add_run_differences(
         problem, likeliest, replay, every=every, period=_sample_period(log.runs)
     )
     problem, likeliest, replay = _add_everyday_effects(problem, likeliest, replay)
@@ -207,7 +207,7 @@ def _choose_lags(
     return problem, best, replay if best is found else replay_open_loop(problem, best)
 
 
-def _add_run_lags(
+def _add_run_differences(
     problem: PredictionErrorProblem,
     point: Estimate,
     replay: OpenLoopReplay,
@@ -215,10 +215,10 @@ def _add_run_lags(
     every: PredictionErrorProblem,
     period: float,
 ) -> tuple[PredictionErrorProblem, Estimate, OpenLoopReplay]:
-    """Problem, estimate and replay with a lag for each run, or unchanged if it is no better."""
+    """Problem, estimate and replay with runs that differ, or unchanged if it is no better."""
     if _is_incomplete(problem, point, replay):
         return problem, point, replay
-    extended, found = fit_run_lags(problem, point, every=every, period=period)
+    extended, found = fit_run_differences(problem, point, every=every, period=period)
     if found is point:
         return problem, point, replay
     found = _add_short_lags(extended, found)

@@ -32,6 +32,11 @@ def first_line(change: Callable[[str, float], str]) -> Callable[[str], str]:
     return edit_text
 
 
+def shift_parameters(text: str) -> str:
+    """Every parameter three times as large."""
+    return LINE.sub(lambda one: f"{one['name']} = {3.0 * float(one['value']):.6g}", text)
+
+
 def gaps_swapped(text: str) -> str:
     """Each gap in the place of the other."""
     before, after = (
@@ -157,5 +162,12 @@ MISTAKES = (
         make_wrong_answer("gap_after", "0.2"),
         "held-out",
         "not the gap of your model",
+    ),
+    Mistake(
+        "parameters that were made up",
+        ANSWERS,
+        shift_parameters,
+        "first-effect",
+        "names count only if their effects make the gap",
     ),
 )

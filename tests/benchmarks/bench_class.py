@@ -22,7 +22,7 @@ from bench_grade import loaded, spent
 from class_made import ROOT, SECRET, asked, make_class
 
 from grader.variant import use_class_secret
-from sim.support.work.process_pool import count_available_cores
+from sim.support.work.executor import count_available_cores
 
 CORES = count_available_cores()
 TARGET = 300.0  # [s] for 500 students

@@ -18,10 +18,10 @@ import numpy as np
 
 from grader.exercise import Exercise, list_exercises
 from grader.variant import make_folder_name, use_class_secret
-from sim.support.work.process_pool import run_jobs_locally
+from sim.support.work.executor import run_jobs
 
 ROOT = Path(__file__).resolve().parents[2]
-SECRET = b"a benchmark's class, which has nothing to hide"
+SECRET = b"a benchmark's class that has nothing to hide"
 SHARES = {"right": 0.5, "half": 0.1, "mistaken": 0.3, "missing": 0.1}
 SLOW = "exercise12"
 TOGETHER = 10  # [students] of whom one solves what is slow
@@ -78,7 +78,7 @@ def make_class(students: int, *, course: Path, out: Path, processes: int) -> Map
         for first in range(0, students, TOGETHER)
     ]
     kinds = dict.fromkeys(SHARES, 0)
-    for made in run_jobs_locally(make_some, jobs, processes=processes, worth=1):
+    for made in run_jobs(make_some, jobs, processes=processes, worth=1):
         for kind, count in made.kinds.items():
             kinds[kind] += count
     shutil.rmtree(course)

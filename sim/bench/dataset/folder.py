@@ -1,176 +1,232 @@
-"""The folder of a dataset: files are written atomically, and foreign files are left alone."""
+"""The folder of a dataset: make it, continue one that was interrupted, and verify it.
+
+Files are written atomically, and foreign files are left alone.
+"""
 
 import hashlib
 import os
-from collections.abc import Iterable, Mapping, Sequence
-from contextlib import suppress
+import time
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from sim.bench.dataset.key import Entry
+from sim.bench.dataset.key import Entry, encode, read_key, write_key
+from sim.bench.dataset.making import MadeLog
 from sim.bench.dataset.plan import LogJob
+from sim.bench.dataset.secret import Secret
 from sim.core.errors import BadRequest
+from sim.support.atomic_file import atomic_path
+from sim.support.os_errors import refuse_os_errors
+from sim.support.printable import list_first
 
+LISTED = 3  # files in a message, at most
 MODIFIED = 946_684_800  # [s] 2000-01-01: real times would show how long each log took
+WRITE = (
+    "Make room there, or name a folder you may write to; then run the same command again: what is "
+    "finished is kept."
+)
+SAVE, PART = (
+    1.0,
+    0.05,
+)  # [s] between two writes of the key at least, and [share] of the time at most
 
 
 @dataclass(frozen=True)
-class FolderSurvey:
-    """Which files of a planned dataset are in its folder already.
+class DatasetPlace:
+    """The folder of a dataset, and its key.
 
     Args:
-        kept: entries of the finished logs.
-        todo: jobs of the other logs.
-        foreign: files with the name of a planned one, but another content.
-        stale: entries of finished files that are no longer planned.
+        folder: folder of the log files.
+        key: path of the key with the ground truth.
+        dataset: name of the dataset.
+        secret: secret with which the key is sealed.
+        overwrite: whether files of other datasets may be replaced.
     """
 
-    kept: tuple[Entry, ...]
-    todo: tuple[LogJob, ...]
-    foreign: tuple[str, ...]
-    stale: tuple[Entry, ...]
+    folder: Path
+    key: Path
+    dataset: str
+    secret: Secret
+    overwrite: bool = False
 
-
-def survey_folder(folder: Path, jobs: Sequence[LogJob], *, known: Iterable[Entry]) -> FolderSurvey:
-    """Compare a folder with the files of a planned dataset.
-
-    Args:
-        folder: folder of the dataset; need not exist.
-        jobs: the planned jobs.
-        known: entries of logs that were finished earlier.
-
-    Raises:
-        BadRequest: it is not a folder, or cannot be read.
-    """
-    entries = {entry["plan"]: entry for entry in known}
-    kept, todo, foreign = [], [], []
-    try:
-        if folder.exists() and not folder.is_dir():
-            raise BadRequest(
-                "this is not a folder", where=str(folder), advice="Name another with -o."
-            )
-        for job in jobs:
-            entry = entries.pop(job.fingerprint, None)
-            hashes = {file: compute_file_digest(folder / file) for file in job.files}
-            there = {file: found for file, found in hashes.items() if found}
-            if entry and hashes == entry["files"]:
-                kept.append(entry)
-                continue
-            todo.append(job)
-            foreign += [
-                file for file, found in there.items() if not entry or entry["files"][file] != found
-            ]
-        stale = [
-            entry
-            for entry in entries.values()
-            if any((folder / file).exists() for file in entry["files"])
-        ]
-    except OSError as error:
-        raise _cannot(error, folder) from None
-    return FolderSurvey(tuple(kept), tuple(todo), tuple(foreign), tuple(stale))
-
-
-def compute_file_digest(path: Path) -> str:
-    """SHA-256 of a file; empty if there is none.
-
-    Raises:
-        OSError: it exists, but cannot be read.
-    """
-    try:
-        with path.open("rb") as stream:
-            return hashlib.file_digest(stream, "sha256").hexdigest()
-    except FileNotFoundError:
-        return ""
-
-
-def list_unknown_logs(folder: Path, *, known: Iterable[str]) -> tuple[str, ...]:
-    """Log files in the folder that do not belong to the dataset."""
-    mine = set(known)
-    endings = {Path(file).suffix for file in mine}
-    found = (
-        path.relative_to(folder).as_posix()
-        for path in sorted(folder.rglob("*"))
-        if path.suffix in endings
-    )
-    return tuple(file for file in found if file not in mine)
-
-
-class DatasetFolder:
-    """The folder that a dataset is written to; each file is written atomically.
-
-    Args:
-        folder: folder of the dataset; created if needed.
-        mine: files in it that may be replaced; None if all may.
-    """
-
-    def __init__(self, folder: Path, *, mine: Iterable[str] | None) -> None:
-        self.folder = folder
-        self.mine = None if mine is None else set(mine)
-        self._made: list[Path] = []
-
-    def create(self) -> None:
-        """Create the folder.
-
-        Raises:
-            BadRequest: it cannot be created.
-        """
-        self._create_folder(self.folder)
-
-    def write_files(self, contents: Mapping[str, bytes]) -> None:
-        """Write the files of one log.
+    def survey(self, jobs: Sequence[LogJob]) -> dict[str, Entry]:
+        """Entries of the finished logs by the names of their jobs.
 
         Args:
-            contents: path in the folder -> bytes of the file.
+            jobs: the planned jobs.
+
+        Raises:
+            BadRequest: there are files, or a key, of another dataset; or one cannot be read.
+        """
+        try:
+            known = {entry["plan"]: entry for entry in read_key(self.key, secret=self.secret)}
+        except BadRequest:
+            if not self.overwrite:
+                raise
+            known = {}
+        if self.folder.exists() and not self.folder.is_dir():
+            raise BadRequest(
+                "this is not a folder", where=str(self.folder), advice="Name another with -o."
+            )
+        kept = {}
+        foreign: set[str] = set()
+        for job in jobs:
+            entry = known.pop(job.fingerprint, None)
+            made = entry["files"] if entry else dict.fromkeys(job.files, "")
+            digests = {file: self._compute_digest(file) for file in job.files}
+            if entry and digests == made:
+                kept[job.name] = entry
+            foreign |= {
+                file
+                for file in job.files
+                if digests[file] not in {"", made[file]} and made[file] is not None
+            }
+        stale = {file for entry in known.values() for file in entry["files"]}
+        foreign |= {file for file in stale if (self.folder / file).exists()}
+        if foreign and not self.overwrite:
+            raise BadRequest(
+                "these files are in the folder, but do not belong to this spec and secret: "
+                f"{list_first(sorted(foreign), most=LISTED)}",
+                where=str(self.folder),
+                advice="Name another folder with -o, move these files away, or add --overwrite: it "
+                "replaces files, and the key no longer contains those that the spec lacks.",
+            )
+        return kept
+
+    def make_logs(
+        self,
+        jobs: Sequence[LogJob],
+        kept: Mapping[str, Entry],
+        made: Iterable[MadeLog],
+        say: Callable[[], None],
+    ) -> None:
+        """Write logs and the key.
+
+        Args:
+            jobs: the planned jobs.
+            kept: entries of the logs that are finished already.
+            made: the other logs, in any order.
+            say: called after each log; an exception from it stops the run, with all files complete.
+
+        Raises:
+            BadRequest: a log cannot be made, or a file cannot be written.
+        """
+        entries = {
+            job.name: encode(
+                kept.get(job.name) or {"files": dict.fromkeys(job.files), "plan": job.fingerprint}
+            )
+            for job in jobs
+        }
+        with refuse_os_errors("cannot be written", self.folder, advice=WRITE):
+            self.folder.mkdir(parents=True, exist_ok=True)
+        self._write_key(entries)
+        saved, took = time.monotonic(), 0.0
+        try:
+            for one in made:
+                digests = {file: compute_digest(content) for file, content in one.contents.items()}
+                for file, content in one.contents.items():
+                    self.write_file(file, content)
+                entries[one.job.name] = encode(
+                    {"files": digests, **one.truth, "plan": one.job.fingerprint}
+                )
+                if time.monotonic() - saved > max(SAVE, took / PART):
+                    begin = time.monotonic()
+                    self._write_key(entries)
+                    saved = time.monotonic()
+                    took = saved - begin
+                say()
+        finally:
+            self._write_key(entries)
+
+    def write_file(self, file: str, content: bytes) -> None:
+        """Write one file, unless it is there already.
 
         Raises:
             BadRequest: the disk is full, for example, or another program wrote such a file.
         """
-        for file, content in contents.items():
-            path = self.folder / file
-            part = path.with_name(f".{path.name}.part")
-            self._create_folder(path.parent)
-            if self.mine is not None and file not in self.mine and path.exists():
-                raise BadRequest(
-                    "another program wrote this file in the meantime",
-                    where=str(path),
-                    advice="Let the other program finish, then run the same command again.",
-                )
-            try:
+        path = self.folder / file
+        found = self._compute_digest(file)
+        if found == compute_digest(content):
+            return
+        if found and not self.overwrite:
+            raise BadRequest(
+                "another program wrote or changed this file in the meantime",
+                where=str(path),
+                advice="Let it finish, move this file away, then run the same command again.",
+            )
+        with refuse_os_errors("cannot be written", path, advice=WRITE):
+            path.parent.mkdir(parents=True, exist_ok=True)
+            with atomic_path(path) as part:
                 part.write_bytes(content)
                 os.utime(part, (MODIFIED, MODIFIED))
-                part.replace(path)
-            except OSError as error:
-                raise _cannot(error, path) from None
-            finally:
-                with suppress(OSError):  # it exists only after an error
-                    part.unlink()
 
-    def remove_empty_folders(self) -> None:
-        """Remove the folders that were created here and are empty."""
-        for folder in reversed(self._made):
-            with suppress(OSError):  # it is not empty
-                folder.rmdir()
+    def verify(self, jobs: Sequence[LogJob]) -> Iterator[str]:
+        """The differences between the dataset, its key and the jobs of a spec, a line each.
 
-    def _create_folder(self, folder: Path) -> None:
-        """Create a folder and its parents, and remember which were missing."""
-        missing = []
-        try:
-            while not folder.exists():
-                missing.append(folder)
-                folder = folder.parent
-            for one in reversed(missing):
-                folder = one
-                folder.mkdir(exist_ok=True)
-                self._made.append(folder)
-        except OSError as error:
-            raise _cannot(error, folder) from None
+        Raises:
+            BadRequest: there is no key, its seal is broken, or a file cannot be read.
+        """
+        entries = read_key(self.key, secret=self.secret)
+        if not entries:
+            raise BadRequest(
+                "there is no file with the key",
+                where=str(self.key),
+                advice="Run sysid dataset again until it has finished, or name the key with --key.",
+            )
+        digests = {file: made for entry in entries for file, made in entry["files"].items()}
+        plans = {file: entry["plan"] for entry in entries for file in entry["files"]}
+        planned = {file: job.fingerprint for job in jobs for file in job.files}
+        for file, made in digests.items():
+            found = self._compute_digest(file)
+            if made and found != made:
+                yield f"{'changed' if found else 'missing'}: {file}"
+        endings = {Path(file).suffix for file in digests}
+        for path in sorted(self.folder.rglob("*")):
+            file = path.relative_to(self.folder).as_posix()
+            if path.suffix in endings and file not in digests:
+                yield f"in no key: {file}"
+        other = sum(plans[file] != planned.get(file) for file in plans)
+        new = sum(not digests.get(file) for file in planned)
+        if other:
+            yield f"of another spec: {other} of {len(digests)} files"
+        if new:
+            yield f"not made yet: {new} of {len(planned)} files"
+
+    def _write_key(self, entries: Mapping[str, str]) -> None:
+        write_key(self.key, entries.values(), dataset=self.dataset, secret=self.secret)
+
+    def _compute_digest(self, file: str) -> str:
+        """SHA-256 of a file; empty if there is none.
+
+        Raises:
+            BadRequest: it exists, but cannot be read.
+        """
+        path = self.folder / file
+        with refuse_os_errors("cannot be read", path, advice="Allow reading it."):
+            return compute_digest(path.read_bytes()) if path.exists() else ""
 
 
-def _cannot(error: OSError, path: Path) -> BadRequest:
-    """The error for a path that cannot be written."""
-    return BadRequest(
-        f"cannot be written ({error.strerror or error})",
-        where=str(path),
-        advice="Make room there, or name a folder you may write to; then run the same command "
-        "again: what is finished is kept.",
-    )
+def check_separation(folder: Path, **places: Path | None) -> None:
+    """Refuse a folder of data that would also contain its key, spec or secret.
+
+    Args:
+        folder: folder of the data.
+        places: path of the key, the spec and the secret.
+
+    Raises:
+        BadRequest: one of them is in the folder of the data.
+    """
+    for name, path in places.items():
+        if path is not None and path.resolve().is_relative_to(folder.resolve()):
+            raise BadRequest(
+                f"the {name} lies in the folder of the data, so whoever gets the data "
+                "would get it too",
+                where=str(path),
+                advice="Name another folder with -o"
+                + (", or another place with --key." if name == "key" else "."),
+            )
+
+
+def compute_digest(content: bytes) -> str:
+    """SHA-256 of a file's content."""
+    return hashlib.sha256(content).hexdigest()

@@ -1,4 +1,4 @@
-"""Turn a spec into jobs: one log each, with all random choices and a seed for the rest.
+"""Turn a spec into jobs: one log each, with a seed for all its random choices.
 
 A job contains everything it needs, so it gives the same bytes on any process of any machine, in any
 order. The secret determines the order in which logs are numbered, so a number does not show which
@@ -7,50 +7,19 @@ faults or effects a log has.
 
 import hashlib
 import json
-from collections.abc import Iterator
-from dataclasses import asdict, dataclass
-from typing import Any
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict, dataclass, replace
+from typing import Any, TypeVar
 
 import numpy as np
 
-from sim.bench.dataset.logs import FaultChoice, HiddenEffectChoice, LogSettings, LogTable
-from sim.bench.dataset.secret import Secret, derive_log_seed
-from sim.bench.dataset.spec import Spec
-from sim.bench.dataset.student import make_folder_name
-from sim.bench.dataset.table import NumberRange
+from sim.bench.dataset.secret import Secret
+from sim.bench.dataset.spec import EffectChoice, FaultChoice, LogTable, Spec
+from sim.bench.dataset.student import make_folder_name, normalize_name
 
 EFFECT, FAULT, MECHANISM, RECORD, DAMAGE = range(5)  # independent random streams of a job
 
-
-@dataclass(frozen=True)
-class HiddenEffect:
-    """An effect that is hidden in a log's mechanism.
-
-    Args:
-        effect: name of the effect.
-        size: [1] 1 is ordinary.
-    """
-
-    effect: str
-    size: float
-
-
-@dataclass(frozen=True)
-class PlannedFault:
-    """A fault of a log.
-
-    Args:
-        fault: name of the fault.
-        severity: [1] 1 is ordinary.
-        test: name of the damaged test; None lets the fault choose.
-        at: [s] since the test's first sample, drawn when the log is made; None lets the fault
-            choose.
-    """
-
-    fault: str
-    severity: float
-    test: str | None
-    at: NumberRange | None
+Choice = TypeVar("Choice", EffectChoice, FaultChoice)
 
 
 @dataclass(frozen=True)
@@ -59,25 +28,19 @@ class LogJob:
 
     Args:
         name: path of its files in the dataset's folder, without suffix.
-        where: place in the spec, for messages.
         student: name of the student; empty if there is none.
         mechanism: name of the mechanism.
-        drawn: whether it is a random variant of that mechanism.
-        settings: settings of the tests.
-        effects: effects, hidden in this order.
-        strikes: faults, made in this order.
+        where: place in the spec, for messages.
+        table: table of the spec that it belongs to.
         formats: formats in which it is written.
         seed: seed of its random streams.
     """
 
     name: str
-    where: str
     student: str
     mechanism: str
-    drawn: bool
-    settings: LogSettings
-    effects: tuple[HiddenEffect, ...]
-    strikes: tuple[PlannedFault, ...]
+    where: str
+    table: LogTable
     formats: tuple[str, ...]
     seed: int
 
@@ -90,17 +53,45 @@ class LogJob:
     def fingerprint(self) -> str:
         """A digest of everything that its files depend on."""
         content: dict[str, Any] = asdict(self)
-        del content["where"]
+        del content["where"], content["table"]["mechanisms"], content["table"]["count"]
         return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
     def make_random_stream(self, *which: int) -> np.random.Generator:
         """The random generator of a purpose, independent of those of other purposes."""
-        return make_random_stream(self.seed, *which)
+        return np.random.Generator(
+            np.random.PCG64(np.random.SeedSequence(self.seed, spawn_key=which))
+        )
+
+    def draw_effects(self) -> list[tuple[str, float]]:
+        """Name and size of each hidden effect."""
+        drawn = self._draw(self.table.effects, EFFECT)
+        return [(draw_one(one.name, rng), one.size.draw(rng)) for one, rng in drawn]
+
+    def draw_faults(self) -> list[tuple[FaultChoice, str, float, str | None]]:
+        """Choice, name, severity and test of each fault; None lets the fault choose the test."""
+        return [
+            (
+                one,
+                draw_one(one.name, rng),
+                one.severity.draw(rng),
+                draw_one(one.test, rng) if one.test else None,
+            )
+            for one, rng in self._draw(self.table.faults, FAULT)
+        ]
+
+    def _draw(
+        self, choices: Sequence[Choice], stream: int
+    ) -> Iterator[tuple[Choice, np.random.Generator]]:
+        """Those of the choices that this log gets, each with a random generator of its own."""
+        for number, one in enumerate(choices):
+            rng = self.make_random_stream(stream, number)
+            if rng.random() < one.chance:
+                yield one, rng
 
 
-def make_random_stream(seed: int, *which: int) -> np.random.Generator:
-    """One of the independent random generators of a seed, chosen by the numbers ``which``."""
-    return np.random.Generator(np.random.PCG64(np.random.SeedSequence(seed, spawn_key=which)))
+def draw_one(names: Sequence[str], rng: np.random.Generator) -> str:
+    """One of the names."""
+    return names[int(rng.integers(len(names)))]
 
 
 def plan_jobs(spec: Spec, secret: Secret) -> tuple[LogJob, ...]:
@@ -110,71 +101,26 @@ def plan_jobs(spec: Spec, secret: Secret) -> tuple[LogJob, ...]:
         spec: the specification.
         secret: secret from which the seeds are derived.
     """
-    return tuple(
-        job
-        for student in spec.students or ("",)
-        for job in _number_jobs(list(_list_seeds(spec, secret, student)), spec, student)
-    )
-
-
-def _list_seeds(spec: Spec, secret: Secret, student: str) -> Iterator[tuple[int, LogTable, str]]:
-    """Seed, place in the spec and mechanism of each log of a student."""
-    for block, logs in enumerate(spec.logs, start=1):
-        for mechanism in logs.mechanisms:
-            for number in range(1, logs.count + 1):
-                seed = derive_log_seed(
-                    secret,
-                    dataset=spec.name,
-                    student=student,
-                    block=block,
-                    mechanism=mechanism,
-                    number=number,
-                )
-                yield seed, logs, mechanism
-
-
-def _number_jobs(
-    found: list[tuple[int, LogTable, str]], spec: Spec, student: str
-) -> Iterator[LogJob]:
-    """Jobs, shuffled by their seeds and numbered."""
-    folder = f"{make_folder_name(student)}/" if student else ""
-    digits = max(2, len(str(len(found))))
-    shuffled = sorted(found, key=lambda one: one[0])
-    for number, (seed, logs, mechanism) in enumerate(shuffled, start=1):
-        yield LogJob(
-            name=f"{folder}log-{number:0{digits}}",
-            where=logs.where,
-            student=student,
-            mechanism=mechanism,
-            drawn=logs.drawn,
-            settings=logs.settings,
-            effects=tuple(_effects(logs.effects, seed)),
-            strikes=tuple(_strikes(logs.faults, seed)),
-            formats=spec.formats,
-            seed=seed,
-        )
-
-
-def _effects(choices: tuple[HiddenEffectChoice, ...], seed: int) -> Iterator[HiddenEffect]:
-    """Draw the hidden effects of a log."""
-    for number, one in enumerate(choices):
-        rng = make_random_stream(seed, EFFECT, number)
-        if rng.random() < one.chance:
-            yield HiddenEffect(_one_of(one.names, rng), one.size.draw(rng))
-
-
-def _strikes(choices: tuple[FaultChoice, ...], seed: int) -> Iterator[PlannedFault]:
-    """Draw the faults of a log."""
-    for number, one in enumerate(choices):
-        rng = make_random_stream(seed, FAULT, number)
-        if rng.random() < one.chance:
-            yield PlannedFault(
-                fault=_one_of(one.names, rng),
-                severity=one.severity.draw(rng),
-                test=_one_of(one.tests, rng) if one.tests else None,
-                at=one.at,
+    jobs: list[LogJob] = []
+    for student in spec.students or ("",):
+        owner = normalize_name(student) if student else ""
+        folder = f"{make_folder_name(student)}/" if student else ""
+        logs = [
+            LogJob(
+                name="",
+                where=f"{spec.where}, [[logs]] number {block}",
+                student=student,
+                mechanism=mechanism,
+                table=table,
+                formats=spec.formats,
+                # It does not change when students or further logs are added.
+                seed=secret.derive_seed(spec.name, owner, block, mechanism, number),
             )
-
-
-def _one_of(names: tuple[str, ...], rng: np.random.Generator) -> str:
-    return names[int(rng.integers(len(names)))]
+            for block, table in enumerate(spec.logs, start=1)
+            for mechanism in table.mechanisms
+            for number in range(1, table.count + 1)
+        ]
+        digits = max(2, len(str(len(logs))))
+        shuffled = enumerate(sorted(logs, key=lambda job: job.seed), start=1)
+        jobs += [replace(job, name=f"{folder}log-{n:0{digits}}") for n, job in shuffled]
+    return tuple(jobs)

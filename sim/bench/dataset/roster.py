@@ -10,12 +10,26 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from sim.bench.dataset.student import check_student_name, normalize_name
-from sim.bench.dataset.table import TomlTable
-from sim.core.errors import BadRequest, Refusal
+from sim.bench.dataset.table import key, read_table, refusals_at, text, texts
+from sim.core.errors import BadRequest
+from sim.support.os_errors import refuse_os_errors
 
 COLUMN = "student"  # header of the column, unless the spec names another
 EXAMPLE = "roster.csv"
 NO_STUDENT = {"points possible", "student, test"}  # rows of Canvas's gradebook: points, a tester
+
+
+@dataclass(frozen=True, kw_only=True)
+class RosterFile:
+    """The file of a roster, as a spec names it.
+
+    Args:
+        file: its path, seen from the spec's folder.
+        column: header of the column with the names.
+    """
+
+    file: str = key(text(EXAMPLE))
+    column: str = key(text(COLUMN), COLUMN)
 
 
 @dataclass(frozen=True)
@@ -51,14 +65,11 @@ def read_roster(path: Path, *, advice: str) -> Roster:
     Raises:
         BadRequest: it cannot be read, or a row has more cells than the first line.
     """
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        why = error.strerror if isinstance(error, OSError) else "it is not UTF-8"
-        raise BadRequest(
-            f"the roster cannot be read ({why})", where=str(path), advice=advice
-        ) from None
-    table = csv.reader(io.StringIO(text, newline=""), delimiter=_delimiter(text))
+    with refuse_os_errors("the roster cannot be read", path, advice=advice):
+        content = path.read_text(encoding="utf-8-sig")
+    first = content.partition("\n")[0]  # spreadsheets in some languages write a semicolon
+    delimiter = max(",;\t", key=first.count)
+    table = csv.reader(io.StringIO(content, newline=""), delimiter=delimiter)
     header = tuple(next(table, []))
     every = ((table.line_num, tuple(row)) for row in table)
     rows = tuple(row for row in every if _has_student(row[1]))
@@ -78,50 +89,43 @@ def _has_student(row: Sequence[str]) -> bool:
     return any(cell.strip() for cell in row) and not canvas
 
 
-def _delimiter(text: str) -> str:
-    """The delimiter of the cells; spreadsheets in some languages write a semicolon."""
-    first = text.partition("\n")[0]
-    return max(",;\t", key=first.count)
+def names_or_file(key: str, value: object) -> object:
+    """Read the spec's students: names, the path of a file, or a table with its path."""
+    if isinstance(value, list):
+        return texts("ann")(key, value)
+    return value if isinstance(value, dict) else text(EXAMPLE)(key, value)
 
 
-def read_students(table: TomlTable, *, folder: Path) -> tuple[str, ...]:
+def read_students(given: object, *, where: str, folder: Path) -> tuple[str, ...]:
     """The names of the students, in the order of the spec or file; empty if the spec has none.
 
     Args:
-        table: top table of the spec.
+        given: what ``names_or_file`` read.
+        where: path of the spec.
         folder: folder of the spec.
 
     Raises:
         BadRequest: no such file or column, an invalid name, or one that occurs twice.
     """
-    given = table.content.get("students")
-    if given is None:
-        return ()
-    if isinstance(given, list):
-        texts = table.read_texts("students", example="ann")
-        return make_distinct_names((f"{table.where}, students", text) for text in texts)
-    if isinstance(given, dict):
-        found = TomlTable(given, where=f"{table.where}, students", known=("file", "column"))
-        file = found.read_text("file", example=EXAMPLE)
-        column = found.read_text("column", example=COLUMN) if "column" in found else COLUMN
-    else:
-        file, column = table.read_text("students", example=EXAMPLE), COLUMN
-    return make_distinct_names(_cells(folder / file, column=column))
-
-
-def _cells(path: Path, *, column: str) -> Iterable[tuple[str, str]]:
-    """Place and text of every cell of a column."""
+    place = f"{where}, students"
+    if isinstance(given, tuple):
+        return make_distinct_names((place, name) for name in given)
+    with refusals_at(place):
+        found = read_table(RosterFile, given if isinstance(given, dict) else {"file": given})
+    path = folder / found.file
     advice = "Give the path of a CSV file in UTF-8, seen from the spec's folder."
     roster = read_roster(path, advice=advice)
-    place = roster.find_column([column])
-    if place is None:
+    column = roster.find_column([found.column])
+    if column is None:
         raise BadRequest(
-            f"no column {column!r} in its first line",
+            f"no column {found.column!r} in its first line",
             where=str(path),
             advice=f'Name one that is there: students = {{ file = "{path.name}", column = "…" }}',
         )
-    for number, row in roster.rows:
-        yield f"{path}, line {number}", row[place] if place < len(row) else ""
+    return make_distinct_names(
+        (f"{path}, line {number}", row[column] if column < len(row) else "")
+        for number, row in roster.rows
+    )
 
 
 def make_distinct_names(found: Iterable[tuple[str, str]]) -> tuple[str, ...]:
@@ -134,17 +138,14 @@ def make_distinct_names(found: Iterable[tuple[str, str]]) -> tuple[str, ...]:
         BadRequest: an invalid name, or one that occurs twice.
     """
     names: dict[str, str] = {}
-    for where, text in found:
-        try:
-            name = check_student_name(text)
-        except Refusal as refusal:
-            raise BadRequest(refusal.what, where=where, advice=refusal.advice) from None
-        if normalize_name(name) in names:
-            raise BadRequest(
-                f"{name!r} and {names[normalize_name(name)]!r} are the same student",
-                where=where,
-                advice="List each student only once. Two students need names that differ in more "
-                "than upper and lower case.",
-            )
-        names[normalize_name(name)] = name
+    for where, given in found:
+        with refusals_at(where):
+            name = check_student_name(given)
+            if normalize_name(name) in names:
+                raise BadRequest(
+                    f"{name!r} and {names[normalize_name(name)]!r} are the same student",
+                    advice="List each student only once. Two students need names that differ in "
+                    "more than upper and lower case.",
+                )
+            names[normalize_name(name)] = name
     return tuple(names.values())

@@ -12,13 +12,12 @@ import json
 import os
 import re
 import secrets
-from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
 from sim.bench.dataset.spec import ENDING, Spec
-from sim.bench.dataset.student import normalize_name
 from sim.core.errors import BadRequest
+from sim.support.os_errors import refuse_os_errors
 
 VARIABLE = "SYSID_SECRET"  # environment variable with the secret itself
 FEWEST = 16  # [characters] a shorter secret could be guessed
@@ -52,20 +51,10 @@ class Secret:
         """The seal (HMAC) of a content, which can only be computed with the secret."""
         return self._code("seal", content).hex()
 
-    def seal_pieces(self, pieces: Iterable[bytes]) -> str:
-        """The seal of a content in pieces, so that it need not fit in memory."""
-        code = hmac.new(self._derive_key("seal"), digestmod=hashlib.sha256)
-        for piece in pieces:
-            code.update(piece)
-        return code.hexdigest()
-
     def _code(self, purpose: str, content: bytes) -> bytes:
-        """The HMAC of a content for a purpose."""
-        return hmac.digest(self._derive_key(purpose), content, hashlib.sha256)
-
-    def _derive_key(self, purpose: str) -> bytes:
-        """The HMAC key of a purpose."""
-        return hmac.digest(self.value, f"sysid dataset {purpose}".encode(), hashlib.sha256)
+        """The HMAC of a content, with a key of its own for each purpose."""
+        key = hmac.digest(self.value, f"sysid dataset {purpose}".encode(), hashlib.sha256)
+        return hmac.digest(key, content, hashlib.sha256)
 
     def save(self) -> None:
         """Write a new secret to its file, for its owner only.
@@ -75,34 +64,11 @@ class Secret:
         """
         if self.new is None:
             return
-        try:
+        advice = f"Name a file in a folder you may write to, or set {VARIABLE}."
+        with refuse_os_errors("the new secret cannot be written", self.new, advice=advice):
             file = os.open(self.new, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
             with os.fdopen(file, "wb") as stream:
                 stream.write(self.value + b"\n")
-        except OSError as error:
-            raise BadRequest(
-                f"the new secret cannot be written ({error.strerror})",
-                where=str(self.new),
-                advice=f"Name a file in a folder you may write to, or set {VARIABLE}.",
-            ) from None
-
-
-def derive_log_seed(
-    secret: Secret, *, dataset: str, student: str, block: int, mechanism: str, number: int
-) -> int:
-    """The seed of one log; it does not change when students or further logs are added.
-
-    Args:
-        secret: the secret.
-        dataset: name of the dataset.
-        student: name of the student; empty if there is none.
-        block: number of the ``[[logs]]`` table in the spec, from 1.
-        mechanism: name of the mechanism.
-        number: number of the log of that mechanism, from 1.
-    """
-    return secret.derive_seed(
-        dataset, normalize_name(student) if student else "", block, mechanism, number
-    )
 
 
 def find_secret(spec: Spec, *, make: bool) -> Secret:
@@ -156,16 +122,12 @@ def read_secret(path: Path) -> bytes:
     Raises:
         BadRequest: the file cannot be read, is empty, or looks like a table or another text.
     """
-    try:
-        kept = path.read_bytes().strip()
-    except FileNotFoundError:
-        return b""
-    except OSError as error:
-        raise BadRequest(
-            f"the secret cannot be read ({error.strerror})",
-            where=str(path),
-            advice=f"Allow reading it, or set {VARIABLE}.",
-        ) from None
+    advice = f"Allow reading it, or set {VARIABLE}."
+    with refuse_os_errors("the secret cannot be read", path, advice=advice):
+        try:
+            kept = path.read_bytes().strip()
+        except FileNotFoundError:
+            return b""
     if not kept:
         raise BadRequest(
             "this file should hold a secret, but it is empty",

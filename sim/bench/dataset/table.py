@@ -1,20 +1,28 @@
-"""Read a TOML table key by key; an unknown or wrong key is refused by name and place."""
+"""Read a TOML table into a dataclass; an unknown or wrong key is refused by name and place.
+
+A field of the dataclass is a key with a reader: a function of the key and its value in the file,
+which returns the value as the program needs it.
+"""
 
 import json
 import math
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import MISSING, dataclass, field, fields
 from difflib import get_close_matches
-from typing import TYPE_CHECKING, NoReturn
+from typing import TYPE_CHECKING, Any, TypeVar
 
-from sim.core.errors import BadRequest
+from sim.core.errors import BadRequest, Refusal
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     import numpy as np
 
 SHOWN = 40  # [characters] of a wrong value in a message, at most
+LARGEST = 1e300  # numbers are below it; what is larger counts as infinite
+ENDS = 2  # [numbers] of a range
+
+Reader = Callable[[str, Any], Any]
+Table = TypeVar("Table")
 
 
 @dataclass(frozen=True)
@@ -34,165 +42,173 @@ class NumberRange:
         return float(rng.uniform(self.least, self.most))
 
 
-class TomlTable:
-    """A TOML table whose keys are checked.
+@contextmanager
+def refusals_at(where: str) -> Iterator[None]:
+    """A context whose refusals name a place, and the place in it if they have one."""
+    try:
+        yield
+    except Refusal as refusal:
+        place = f"{where}, {refusal.where}" if refusal.where else where
+        raise BadRequest(refusal.what, where=place, advice=refusal.advice) from None
 
-    Its methods raise BadRequest if a value is missing or wrong.
+
+def key(read: Reader, default: object = MISSING) -> Any:  # noqa: ANN401 - as ``dataclasses.field``
+    """A field that is a key of a table; without a default, the table must have it."""
+    return field(default=default, metadata={"read": read})
+
+
+def read_table(kind: type[Table], content: object) -> Table:
+    """A table as a dataclass.
 
     Args:
+        kind: the dataclass, whose fields are made by ``key``.
         content: the parsed table.
-        where: file and place of the table, for messages.
-        known: all keys that it may have.
 
     Raises:
-        BadRequest: it has another key; the message names the most similar known one.
+        BadRequest: a key is unknown or missing, or its value is wrong.
+    """
+    keys = {one.name: one for one in fields(kind) if one.metadata}  # type: ignore[arg-type]
+    if not isinstance(content, dict):
+        advice = "Write each line as key = value."
+        raise BadRequest(f"there are no keys here, only {show(content)}", advice=advice)
+    for name in content:
+        if name not in keys:
+            raise BadRequest(f"unknown key {show(name)}", advice=suggest_word(name, tuple(keys)))
+    required = {name: MISSING for name, one in keys.items() if one.default is MISSING}
+    values = (required | content).items()
+    return kind(**{name: keys[name].metadata["read"](name, value) for name, value in values})
+
+
+def table(kind: type[Table]) -> Reader:
+    """A reader of a table."""
+
+    def read(name: str, value: object) -> Table:
+        with refusals_at(name):
+            return read_table(kind, value)
+
+    return read
+
+
+def tables(kind: type[Table], name: str) -> Reader:
+    """A reader of several tables, as a tuple; messages count them.
+
+    Args:
+        kind: the dataclass of each.
+        name: name between the double brackets in the file: ``logs.faults``.
     """
 
-    def __init__(self, content: object, *, where: str, known: Sequence[str]) -> None:
-        self.where = where
-        if not isinstance(content, dict):
-            self.refuse(
-                f"there are no keys here, only {_shown(content)}",
-                advice="Write each line as key = value.",
-            )
-        self.content: Mapping[str, object] = content
-        for key in content:
-            if key not in known:
-                self.refuse(f"unknown key {_shown(key)}", advice=suggest_word(key, known))
+    def read(key: str, value: object) -> tuple[Table, ...]:
+        if not isinstance(value, list):
+            raise refuse_value(key, value, f"Begin each with a line [[{name}]].")
+        found = []
+        for number, one in enumerate(value, start=1):
+            with refusals_at(f"[[{name}]] number {number}"):
+                found.append(read_table(kind, one))
+        return tuple(found)
 
-    def __contains__(self, key: str) -> bool:
-        return key in self.content
+    return read
 
-    def refuse(self, what: str, *, advice: str) -> NoReturn:
-        """Raise BadRequest with the place of this table."""
-        raise BadRequest(what, where=self.where, advice=advice)
 
-    def refuse_value(self, key: str, *, advice: str) -> NoReturn:
-        """Raise BadRequest about the value of a key."""
-        self.refuse(f"{key} is {_shown(self.content[key])}", advice=advice)
+def refuse_value(key: str, value: object, advice: str) -> BadRequest:
+    """The error for a wrong value of a key."""
+    return BadRequest(f"{key} is {show(value)}", advice=advice)
 
-    def read_text(self, key: str, *, example: str) -> str:
-        """Read a text that is not empty.
 
-        Args:
-            key: the key.
-            example: a valid value for the message of a refusal.
-        """
-        if key not in self:
-            self.refuse(f"{key} is missing", advice=f"Add, for example: {key} = {_shown(example)}")
-        value = self.content[key]
+def text(example: str) -> Reader:
+    """A reader of a text that is not empty."""
+
+    def read(key: str, value: object) -> str:
+        if value is MISSING:
+            advice = f"Add, for example: {key} = {show(example)}"
+            raise BadRequest(f"{key} is missing", advice=advice)
         if not (isinstance(value, str) and value.strip()):
-            self.refuse_value(key, advice=f"Give a text: {key} = {_shown(example)}")
+            raise refuse_value(key, value, f"Give a text: {key} = {show(example)}")
         return value.strip()
 
-    def read_texts(self, key: str, *, example: str) -> tuple[str, ...]:
-        """Read one text, or several in a list, always as a tuple."""
-        value = self.content.get(key)
+    return read
+
+
+def texts(example: str) -> Reader:
+    """A reader of one text, or several in a list, always as a tuple."""
+
+    def read(key: str, value: object) -> tuple[str, ...]:
         if not isinstance(value, list):
-            return (self.read_text(key, example=example),)
+            return (text(example)(key, value),)
         if not value or not all(isinstance(one, str) and one.strip() for one in value):
-            self.refuse_value(key, advice=f"Give texts: {key} = [{_shown(example)}]")
+            raise refuse_value(key, value, f"Give texts: {key} = [{show(example)}]")
         return tuple(one.strip() for one in value)
 
-    def read_choices(self, key: str, options: Iterable[str]) -> tuple[str, ...]:
-        """Read one or several of the allowed names, always as a tuple."""
-        options = tuple(options)
-        chosen = self.read_texts(key, example=options[0] if options else "")
+    return read
+
+
+def choices(options: Iterable[str]) -> Reader:
+    """A reader of one or several of the allowed names, always as a tuple."""
+    options = tuple(options)
+
+    def read(key: str, value: object) -> tuple[str, ...]:
+        chosen: tuple[str, ...] = texts(options[0])(key, value)
         for one in chosen:
             if one not in options:
-                self.refuse(f"{key} {_shown(one)} is unknown", advice=suggest_word(one, options))
-        for one in chosen:
+                raise BadRequest(f"{key} {show(one)} is unknown", advice=suggest_word(one, options))
             if chosen.count(one) > 1:
-                self.refuse(f"{key} names {_shown(one)} twice", advice="Name each once.")
+                raise BadRequest(f"{key} names {show(one)} twice", advice="Name each once.")
         return chosen
 
-    def read_flag(self, key: str, *, default: bool) -> bool:
-        """Read true or false."""
-        value = self.content.get(key, default)
-        if not isinstance(value, bool):
-            self.refuse_value(key, advice="Give true or false, without quotes.")
-        return value
+    return read
 
-    def read_integer(self, key: str, *, least: int, most: int, default: int | None = None) -> int:
-        """Read an integer within limits."""
-        advice = f"Give a whole number from {least} to {most}."
-        if key not in self and default is None:
-            self.refuse(f"{key} is missing", advice=advice)
-        value = self.content.get(key, default)
+
+def flag(key: str, value: object) -> bool:
+    """Read true or false."""
+    if not isinstance(value, bool):
+        raise refuse_value(key, value, "Give true or false, without quotes.")
+    return value
+
+
+def integer(least: int, most: int) -> Reader:
+    """A reader of an integer within limits."""
+
+    def read(key: str, value: object) -> int:
         if not isinstance(value, int) or isinstance(value, bool) or not least <= value <= most:
-            self.refuse_value(key, advice=advice)
+            raise refuse_value(key, value, f"Give a whole number from {least} to {most}.")
         return value
 
-    def read_number(
-        self, key: str, *, default: float, above: float = -math.inf, most: float = math.inf
-    ) -> float:
-        """Read a number above one limit and up to another."""
-        value = _number(self.content.get(key, default))
-        if value is None or not above < value <= most:
-            self.refuse_value(key, advice=f"Give a number{_limits(above, most)}.")
-        return value
+    return read
 
-    def read_range(
-        self, key: str, *, default: float, least: float = -math.inf, most: float = math.inf
-    ) -> NumberRange:
-        """Read a number, or a list of the limits of a range."""
-        value = self.content.get(key, default)
-        ends = [_number(end) for end in (value if isinstance(value, list) else [value, value])]
-        advice = (
-            f"Give a number from {least:g} to {most:g}, or a range for random numbers: "
-            f"[{least:.1f}, {most:.1f}]."
-            if math.isfinite(least)
-            else "Give a number, or a range for random numbers: [1.0, 2.0]."
-        )
-        numbers = [end for end in ends if end is not None and least <= end <= most]
-        if len(ends) != 2 or numbers != sorted(numbers) or len(numbers) != len(ends):  # noqa: PLR2004 - the least and the most
-            self.refuse_value(key, advice=advice)
-        return NumberRange(*numbers)
 
-    def read_tables(self, key: str, *, name: str, known: Sequence[str]) -> tuple["TomlTable", ...]:
-        """Read a list of tables.
+def number(least: float, most: float) -> Reader:
+    """A reader of a number within limits."""
+    limits = f" from {least:g} to {most:g}" if math.isfinite(most) else f" of at least {least:g}"
 
-        Args:
-            key: the key.
-            name: name between the double brackets in the file.
-            known: all keys that each table may have.
-        """
-        value = self.content.get(key, [])
+    def read(key: str, value: object) -> float:
+        numeric = isinstance(value, int | float) and not isinstance(value, bool)
+        if not (numeric and least <= value <= most and value < LARGEST):  # type: ignore[operator]
+            raise refuse_value(key, value, f"Give a number{limits}.")
+        return float(value)  # type: ignore[arg-type]  # it is a number
+
+    return read
+
+
+def number_range(least: float, most: float) -> Reader:
+    """A reader of a number, or a list of the limits of a range."""
+
+    def read(key: str, value: object) -> NumberRange:
         if not isinstance(value, list):
-            self.refuse_value(key, advice=f"Begin each with a line [[{name}]].")
-        return tuple(
-            TomlTable(one, where=f"{self.where}, [[{name}]] number {number}", known=known)
-            for number, one in enumerate(value, start=1)
-        )
+            value = [value, value]
+        ends = [number(least, most)(key, end) for end in value]
+        if ends != sorted(ends) or len(ends) != ENDS:
+            raise refuse_value(key, value, "Give a range for random numbers: [1.0, 2.0].")
+        return NumberRange(*ends)
+
+    return read
 
 
 def suggest_word(word: str, options: Sequence[str]) -> str:
     """Advice for an unknown word: the option it probably means, or all options."""
     close = get_close_matches(word, options, n=1, cutoff=0.5)
-    if close:
-        return f"Did you mean {_shown(close[0])}?"
-    return f"Choose one of: {', '.join(options)}." if options else "There is none so far."
+    return f"Did you mean {show(close[0])}?" if close else f"Choose one of: {', '.join(options)}."
 
 
-def _number(value: object) -> float | None:
-    """A value as a finite number; None if it is not one, or true or false."""
-    if not isinstance(value, int | float) or isinstance(value, bool):
-        return None
-    try:
-        number = float(value)
-    except OverflowError:
-        return None
-    return number if math.isfinite(number) else None
-
-
-def _limits(above: float, most: float) -> str:
-    """The limits of a number, in words."""
-    low = f" above {above:g}" if math.isfinite(above) else ""
-    high = f"{',' if low else ''} at most {most:g}" if math.isfinite(most) else ""
-    return low + high
-
-
-def _shown(value: object) -> str:
+def show(value: object) -> str:
     """A value as JSON, shortened if it is long."""
-    text = json.dumps(value, ensure_ascii=False, default=str)
-    return text if len(text) <= SHOWN else text[: SHOWN - 1] + "…"
+    shown = json.dumps(value, ensure_ascii=False, default=str)
+    return shown if len(shown) <= SHOWN else shown[: SHOWN - 1] + "…"

@@ -1,5 +1,6 @@
-"""Run many jobs: in this process, on all cores, or on a cluster.
+"""Run many jobs: in child processes of this machine, or on a cluster.
 
-A job and its result are plain data that can be pickled; the work is a function of a module. Results
-come in the order in which jobs finish, and only a few jobs are submitted at a time.
+A job and its result are plain data that can be pickled; the work is a function of a module. An
+``Executor`` (``concurrent.futures``) takes the jobs: threads here, or a Dask cluster. Either way a
+child process of the thread does the job, so one that hangs or dies costs only its own job.
 """

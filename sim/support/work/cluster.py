@@ -1,39 +1,32 @@
 """Run jobs on a Dask cluster (extra ``cluster``).
 
-A worker gets a job and returns plain data, and this process writes it. So all machines need the
-same version of this package, but no shared disk. Jobs go through the network, with seeds, true
-parameters or students' answers: in a network that you do not trust, use ``tls://``.
+A worker does a job in a child process and returns plain data, and this process writes it. So all
+machines need the same version of this package, but no shared disk. Jobs go through the network,
+with seeds, true parameters or students' answers: if you do not trust it, use ``tls://``.
 """
 
 import logging
 import re
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import CancelledError
+from collections.abc import Iterator
+from concurrent.futures import CancelledError, Executor
 from contextlib import contextmanager
 from importlib import import_module
 from importlib.metadata import version
 from types import ModuleType
-from typing import Any, TypeVar
+from typing import Any
 
 from sim.core.errors import BadRequest
-from sim.support.work.process_pool import AHEAD, collect_results
-
-Job = TypeVar("Job")
-Result = TypeVar("Result")
 
 ADDRESS = re.compile(r"((tcp|tls|wss?)://)?(\[[0-9a-fA-F:]+\]|[^\s/:]+):\d{1,5}/?")
 PATIENCE = 10.0  # [s] to wait for the answer of a scheduler
 PACKAGE = "sysid-course"
 
 
-def run_jobs_on_cluster(
-    work: Callable[[Job], Result], jobs: Sequence[Job], *, address: str
-) -> Iterator[Result]:
-    """Results of jobs done on a Dask cluster, in the order in which they finish.
+@contextmanager
+def open_cluster(address: str) -> Iterator[tuple[Executor, int]]:
+    """The executor of a Dask cluster, and its number of threads.
 
     Args:
-        work: does one job; a function of a module of this package.
-        jobs: the jobs.
         address: address of the scheduler: ``tcp://10.0.0.5:8786``.
 
     Raises:
@@ -42,10 +35,9 @@ def run_jobs_on_cluster(
     """
     dask = _import_dask()
     with _disable_logging(), _connect(dask, address) as client:
-        workers = _count_workers(client, address)
+        threads = _count_threads(client, address)
         try:
-            executor = client.get_executor(pure=False)
-            yield from collect_results(executor, work, jobs, ahead=AHEAD * workers)
+            yield client.get_executor(pure=False), threads
         except Exception as error:  # Dask raises many types when a connection is lost
             lost = isinstance(error, CancelledError | OSError | dask.KilledWorker)
             if client.status == "running" and not lost:
@@ -100,8 +92,8 @@ def _connect(dask: ModuleType, address: str) -> Any:  # noqa: ANN401 - of a pack
         ) from None
 
 
-def _count_workers(client: Any, address: str) -> int:  # noqa: ANN401 - as above
-    """The number of workers.
+def _count_threads(client: Any, address: str) -> int:  # noqa: ANN401 - as above
+    """The number of threads of all workers.
 
     Raises:
         BadRequest: there are none, or one has another version of this package.
@@ -119,4 +111,4 @@ def _count_workers(client: Any, address: str) -> int:  # noqa: ANN401 - as above
                 f"the worker at {worker} {has}",
                 advice=f"Install {PACKAGE} {version(PACKAGE)} on every machine, as here.",
             )
-    return len(found)
+    return sum(client.nthreads().values())

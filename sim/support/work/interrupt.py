@@ -8,19 +8,6 @@ from types import FrameType
 
 
 @contextmanager
-def interrupts_blocked_for_children() -> Iterator[None]:
-    """A context whose child processes ignore Ctrl+C, so that only the parent gets it."""
-    if not _handles_interrupts():
-        yield
-        return
-    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before)
-
-
-@contextmanager
 def deferred_interrupt() -> Iterator[Callable[[], None]]:
     """A context in which the first Ctrl+C is only stored; a second one interrupts at once.
 

@@ -1,4 +1,4 @@
-"""Frames in step with the loop: each run has a lag of its own, and gains are found all the same."""
+"""Runs that differ, by the age of their frames or by friction: gains are found all the same."""
 
 import math
 from dataclasses import replace
@@ -14,7 +14,7 @@ from sim.core.log import Run
 from sim.estimation.measurements import measure_runs
 from sim.estimation.model_structure import ModelStructure
 from sim.fit import fit
-from sim.fit.run_lags import fit_run_lags
+from sim.fit.run_differences import fit_run_differences
 from sim.fit.search import fit_tracking, make_fit_problem
 from sim.physics.engine import NO_CORRECTION, RunBatch, filter_runs
 from sim.physics.model import Model, Part
@@ -70,7 +70,7 @@ def test_the_runs_differ_by_the_age_of_their_frames():
     log = recorded("drivetrain", "talonfx", seed=200)
     problem, point = simple_problem(log)
 
-    extended, found = fit_run_lags(problem, point, every=problem, period=0.02)
+    extended, found = fit_run_differences(problem, point, every=problem, period=0.02)
 
     lags = found.values["delay.lag"] + found.nuisance.lag_offset
     assert extended.lag_sd == pytest.approx(0.02 / math.sqrt(12.0))
@@ -81,7 +81,7 @@ def test_the_runs_differ_by_the_age_of_their_frames():
 def test_a_sensor_that_is_read_at_once_needs_no_lags():
     problem, point = simple_problem(recorded("drivetrain", "roborio", seed=200))
 
-    assert fit_run_lags(problem, point, every=problem, period=0.02) == (problem, point)
+    assert fit_run_differences(problem, point, every=problem, period=0.02) == (problem, point)
 
 
 def test_an_arm_with_a_slow_filter_keeps_the_first_voltages_of_its_steps():
@@ -111,3 +111,33 @@ def test_a_frame_that_is_read_twice_is_not_compared():
     (measured,) = measure_runs(repeated, friction=None)
 
     assert np.flatnonzero(np.isnan(measured.measured).all(axis=1)).tolist() == [100, 101]
+
+
+def frictions_by_run(name, shares, *, seed):
+    """A log whose runs have frictions of their own, as shares of that of the mechanism."""
+    mechanism = MECHANISMS[name]
+    logs = [
+        simulate(
+            replace(mechanism, friction=mechanism.friction * share),
+            Routine(),
+            rng=np.random.default_rng([seed, number]),
+        )
+        for number, share in enumerate(shares)
+    ]
+    return replace(logs[0], runs=tuple(log.runs[number] for number, log in enumerate(logs)))
+
+
+@pytest.mark.parametrize(("name", "seed"), [("drivetrain", 9), ("turret", 3), ("elevator", 5)])
+def test_friction_that_differs_by_run_is_not_taken_for_lag(name, seed):
+    shares = 1.0 + 0.04 * np.random.default_rng(seed).standard_normal(4)
+    found = fit(frictions_by_run(name, shares, seed=seed), type=MECHANISMS[name].type)
+    truth = MECHANISMS[name].friction
+
+    assert abs(found.gains["kS"] - truth * shares.mean()) < 2.0 * found.errors["kS"]
+    assert found.errors["kS"] == pytest.approx(0.02 * truth, rel=0.6)  # 4 % of four runs
+
+
+def test_friction_that_is_the_same_in_all_runs_keeps_its_small_error():
+    found = fit(frictions_by_run("drivetrain", np.ones(4), seed=9))
+
+    assert found.errors["kS"] < 0.001 * MECHANISMS["drivetrain"].friction

@@ -1,11 +1,35 @@
-"""A list of causes in the order in which one looks: cheap things first."""
+"""Which causes can be behind a kV, and in which order one looks: cheap things first.
+
+A class's package lacks this module: see ``grader.answer_key``.
+"""
 
 from grader.check import WrongAnswer
 from grader.choice_answer import read_choice
 
-from .team import KINDS, ORDER, Variant
+from .team import Variant
 
 LEAST, MOST = 2, 4  # causes to name: whoever names them all has not looked
+
+KINDS = {  # word -> where to look for it; "" cannot move kV
+    "gear-ratio": "units",
+    "wheel-size": "units",
+    "velocity-unit": "units",
+    "motor-type": "units",
+    "logged-voltage": "electrical",
+    "unpowered-motor": "electrical",
+    "dragging-belt": "mechanical",
+    "dry-bearing": "mechanical",
+    "mass": "",
+    "constant-friction": "",
+    "sensor-noise": "",
+}
+BRAKES = ("dragging-belt", "dry-bearing")
+RULED_OUT_BY = {  # cause -> what the student's file says about it
+    "gear-ratio": "ratio",
+    "wheel-size": "radius",
+    "logged-voltage": "logged_voltage",
+}
+ORDER = ("units", "electrical", "mechanical")
 
 Problem = tuple[str, str]  # what to tell the student, and the misconception's code
 DISAGREES = {  # line of the student's file -> what it says of a cause it rules out
@@ -21,8 +45,9 @@ DISAGREES = {  # line of the student's file -> what it says of a cause it rules 
 def judge_list(raw: object, variant: Variant) -> None:
     """Grade a list of causes: one point each for possible causes, their order and the evidence.
 
-    The three points do not depend on each other, but order and evidence need at least two
-    possible causes.
+    Evidence needs at least two possible causes, and the order counts only with the evidence: else a
+    list that fits everybody earned it. Each cause that is not possible, and each one too many,
+    costs a point: so a list of everything earns nothing.
 
     Raises:
         WrongAnswer: it is no such list, or a point is lost; the hint names every reason.
@@ -31,16 +56,17 @@ def judge_list(raw: object, variant: Variant) -> None:
     refused = {one: why for one in causes if (why := _refused(one, variant))}
     possible = [one for one in causes if one not in refused]
     found = [(f"{one}: {says}", code) for one, (says, code) in refused.items()]
+    lost = len(refused)
     if len(causes) > MOST:
         found.append((f"name at most {MOST}: the list says what to check first", ""))
-    lost = 1 if found else 0
+        lost += len(causes) - MOST
     if len(possible) < LEAST:
         found.append((f"name at least {LEAST} causes that are possible", ""))
         lost = 3
     else:
-        further = [_about_order(possible, variant), _about_evidence(possible, variant)]
-        found += [(one, "") for one in further if one]
-        lost += sum(bool(one) for one in further)
+        order, evidence = _about_order(possible, variant), _about_evidence(possible, variant)
+        found += [(one, "") for one in (order, evidence) if one]
+        lost += 2 if evidence else 1 if order else 0
     if found:
         codes = {code for _, code in found if code}
         raise WrongAnswer(
@@ -51,18 +77,45 @@ def judge_list(raw: object, variant: Variant) -> None:
         )
 
 
+def find_evident(variant: Variant) -> str:
+    """The one cause that the student's own file shows; empty if nothing went wrong."""
+    return variant.planted[0] if variant.planted else ""
+
+
+def is_possible(word: str, variant: Variant) -> bool:
+    """Whether a cause can be behind a kV that is off as this one is, by physics alone."""
+    if word == "wheel-size" and not variant.parts.diameter:
+        return False
+    if word == "unpowered-motor" and variant.parts.motors == 1:
+        return False
+    down = KINDS[word] == "units" or word == "logged-voltage"
+    return bool(KINDS[word]) and (down or variant.verdict != "bookkeeping")
+
+
+def _find_ruling_line(word: str, variant: Variant) -> str:
+    """The line of the student's file that rules a cause out; empty if none does.
+
+    A sound mechanism rules out nothing: its student names causes for another day.
+    """
+    if not variant.planted or word in variant.planted:
+        return ""
+    if word in BRAKES:
+        return "" if find_evident(variant) in BRAKES else "mechanic"
+    return RULED_OUT_BY.get(word, "")
+
+
 def _refused(cause: str, variant: Variant) -> Problem | None:
     """Why a cause cannot be behind this kV, by physics or by the student's own file."""
-    if not variant.valid(cause):
+    if not is_possible(cause, variant):
         return _impossible(cause, variant)
-    line = variant.ruled_out(cause)
+    line = _find_ruling_line(cause, variant)
     return (DISAGREES[line], "") if line else None
 
 
 def _about_order(causes: list[str], variant: Variant) -> str:
     """What is wrong with the order; the cause that the file shows may also stand first."""
     kinds = [KINDS[one] for one in causes]
-    rest = kinds[1:] if causes[0] == variant.evident else kinds
+    rest = kinds[1:] if causes[0] == find_evident(variant) else kinds
     if rest == sorted(rest, key=ORDER.index):
         return ""
     return (
@@ -73,8 +126,9 @@ def _about_order(causes: list[str], variant: Variant) -> str:
 
 def _about_evidence(causes: list[str], variant: Variant) -> str:
     """What the list lacks: the cause that the file shows or, on a sound mechanism, two kinds."""
-    if variant.evident:
-        if variant.evident in causes:
+    evident = find_evident(variant)
+    if evident:
+        if evident in causes:
             return ""
         return (
             "one line of your given.toml does not agree with the others, or is not as it should"

@@ -1,28 +1,36 @@
-"""A lag for each run: the phase between a sensor's frames and the loop that logs them.
+"""What differs from run to run: the phase of a sensor's frames, and the friction.
 
 A device sends a frame every 20 ms, and a robot program logs the latest one every 20 ms. The age of
 a logged frame depends on the times at which the two loops started. It is up to a period, constant
-in a run, and different in the next run. With one lag for all runs, each is early or late by some
-milliseconds, which biases kS and kA.
+in a run, and different in the next run. A gear warms up, a chain lies differently: the friction of
+a run differs by a few percent, too (``random_friction.py``). With one lag and one friction for all
+runs, each run is early or late by some milliseconds, or too strong by some millivolts, which biases
+kS and kA.
 
-The lag of run i is that of all runs plus d_i ~ N(0, λ²). λ is the standard deviation of a uniform
-distribution over one period. Whether the runs differ is decided by their likelihood with the d_i
-integrated out (Laplace's approximation):
+In a ramp the two are nearly the same: friction that is larger by ΔkS delays the motion by ΔkS over
+the ramp rate. Only the dynamic tests tell them apart, and the priors. So they compete: no
+difference, lags d_i ~ N(0, λ²), frictions δ_i ~ N(0, τ²), or both. λ is the standard deviation of a
+uniform distribution over one period. The most likely wins, with d and δ integrated out (Laplace's
+approximation); where lags and frictions are about as likely, both stay:
 
-    -2 log L + Σ (d_i/λ)² + Σ log(1 + λ² a_i)        a_i = |∂ (whitened innovations)/∂d_i|²
+    -2 log L + Σ (d_i/λ)² + Σ (δ_i/τ)² + Σ log det(1 + D J_iᵀ J_i D)      D = diag(λ, τ)
+
+J_i has the derivatives of the whitened innovations by d_i and δ_i. The gains' errors come from the
+information with d and δ marginalized, so that what a ramp cannot tell apart widens them.
 
 Source: N. Laird and J. Ware, "Random-effects models for longitudinal data", Biometrics 38, 1982.
 """
 
 import math
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
 from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.optimize import levenberg_marquardt, make_joint_jacobian
-from sim.estimation.random_friction import compute_laplace_correction
+from sim.estimation.random_friction import get_friction_sd
 from sim.fit.search import ROUGHLY, STEPS, drop_outliers, fit_open_loop, fit_tracking, refine
 
 WORTH = 8.0  # [of -2 log L] improvement from which on they are included
@@ -33,49 +41,54 @@ SLOPE_STEP = 1e-4  # [s] to both sides, for the slope of a reading
 SHARED = "delay"
 
 
-def fit_run_lags(
+def fit_run_differences(
     problem: PredictionErrorProblem,
     point: Estimate,
     *,
     every: PredictionErrorProblem,
     period: float,
 ) -> tuple[PredictionErrorProblem, Estimate]:
-    """Fit a lag for each run, if it improves the fit enough.
+    """Fit a lag, a friction, or both for each run, if it improves the fit enough.
 
     Args:
         problem: the measurements.
-        point: the best estimate with one lag, or none.
+        point: the best estimate without differences between the runs.
         every: the measurements with their outliers: an outlier of a model with one lag may show
             that the runs differ.
         period: [s] time between samples of the log.
 
     Returns:
-        The problem with run lags and the new estimate, or both unchanged if the lags do not explain
-        enough.
+        The problem with these differences and the new estimate, or both unchanged if the
+        differences do not explain enough.
     """
-    extended = replace(problem, lag_sd=period / UNIFORM)
+    lag_sd = period / UNIFORM
     white = problem.whiten(point, point.innovations)
     joint = make_joint_jacobian(problem, point, fine=True)
-    slopes = extended.compute_lag_jacobian(point)
-    if not joint.compute_improvement(white, slopes, extended.lag_sd) > WORTH:
+    lagged = replace(problem, lag_sd=lag_sd)
+    hints = (
+        joint.compute_improvement(white, lagged.compute_lag_jacobian(point), lag_sd),
+        joint.compute_improvement(
+            white, problem.compute_friction_jacobian(point), get_friction_sd(point.values)
+        ),
+    )
+    if not max(hints) > WORTH:
         return problem, point
     common = fit_tracking(every, point.structure, point.values)
-    extended = replace(every, lag_sd=period / UNIFORM)
-    begin = _with_shared_lag(extended, common, least=0.5 * period)
-    tracked = levenberg_marquardt(extended, begin, steps=2 * STEPS, enough=ROUGHLY)
-    lags = tracked.values["delay.lag"] + tracked.nuisance.lag_offset
-    if lags.min() < -EARLY * period:
-        return problem, point  # a reading cannot be newer than the voltage of its sample
-    slopes = extended.compute_lag_jacobian(tracked)
-    correction = compute_laplace_correction(extended.lag_sd, slopes)
-    if not tracked.cost + correction < common.cost - WORTH:
+    lags, frictions, both = (
+        _fit_rival(replace(every, lag_sd=sd, varying_friction=friction), common, period)
+        for sd, friction in ((lag_sd, False), (0.0, True), (lag_sd, True))
+    )
+    unclear = abs(lags.evidence - frictions.evidence) < WORTH
+    best = both if unclear else min(lags, frictions, both, key=lambda one: one.evidence)
+    if not best.evidence < common.cost - WORTH:
         return problem, point
+    extended, tracked = best.problem, best.estimate
     extended = drop_outliers(extended, tracked)
     tracked = levenberg_marquardt(
         extended, _reevaluate(extended, tracked), steps=STEPS, enough=ROUGHLY
     )
     found = fit_open_loop(extended, tracked)
-    framed = _correct_jitter(extended, found)
+    framed = _correct_jitter(extended, found) if extended.lag_sd else extended
     if framed is extended:
         return extended, found
     regular = refine(framed, _reevaluate(framed, found))
@@ -83,6 +96,50 @@ def fit_run_lags(
         return extended, found
     framed = _correct_jitter(extended, regular)
     return framed, fit_open_loop(framed, _reevaluate(framed, regular))
+
+
+class _Rival(NamedTuple):
+    """Runs that may differ in some way: -2 log L with the differences integrated out."""
+
+    evidence: float
+    problem: PredictionErrorProblem
+    estimate: Estimate
+
+
+def _fit_rival(problem: PredictionErrorProblem, common: Estimate, period: float) -> _Rival:
+    """Fit runs that may differ.
+
+    Args:
+        problem: the measurements, with the differences that are allowed.
+        common: the best estimate without differences.
+        period: [s] time between samples of the log.
+    """
+    begin = _reevaluate(problem, common)
+    if problem.lag_sd:
+        begin = _with_shared_lag(problem, common, least=0.5 * period)
+    found = levenberg_marquardt(problem, begin, steps=2 * STEPS, enough=ROUGHLY)
+    if problem.lag_sd:
+        lags = found.values["delay.lag"] + found.nuisance.lag_offset
+        if lags.min() < -EARLY * period:  # a reading cannot be newer than its sample's voltage
+            return _Rival(math.inf, problem, found)
+    return _Rival(found.cost + _compute_occam_factor(problem, found), problem, found)
+
+
+def _compute_occam_factor(problem: PredictionErrorProblem, point: Estimate) -> float:
+    """Σ log det(1 + D JᵀJ D), the correction of -2 log L for integrating over the differences."""
+    table = problem.compute_jacobian(point)
+    runs = len(problem.records)
+    sds = [sd for sd, _ in problem.list_nuisance_priors(point)]
+    first = len(point.structure.searched_names) + runs  # after the parameters and the starts
+    own = [
+        sd * table[:, first + place * runs : first + (place + 1) * runs]
+        for place, sd in enumerate(sds[1:])
+    ]
+    return sum(
+        float(np.linalg.slogdet(np.eye(len(own)) + columns.T @ columns)[1])
+        for number in range(runs)
+        for columns in (np.stack([one[:, number] for one in own], axis=1),)
+    )
 
 
 def _with_shared_lag(problem: PredictionErrorProblem, point: Estimate, *, least: float) -> Estimate:

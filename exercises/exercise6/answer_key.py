@@ -1,4 +1,7 @@
-"""Words about the morning of the tests, and what to say of a wrong one."""
+"""Words about the morning of the tests: which are right, and what to say of a wrong one.
+
+A class's package lacks this module and all that only it imports: see ``grader.answer_key``.
+"""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -6,7 +9,9 @@ from dataclasses import dataclass, field
 from grader.check import WrongAnswer
 from grader.choice_answer import check_choice, read_choice
 
-from .morning import FOLDERS, SEEN
+from .morning import FOLDERS, SEEN, draw_morning
+
+__all__ = ["CHOICES", "draw_morning", "judge_all", "judge_choice", "judge_steps"]
 
 DECISIONS = ("go", "no-go")
 STEPS = ("wire-routine", "run-tests", "inspect-and-fit", "place-gains")
@@ -96,35 +101,41 @@ CHOICES: Mapping[str, Choice] = {
 }
 
 
-def judge_choice(name: str, given: Mapping[str, object], right: str) -> None:
-    """Hold a word against the right one.
+def judge_choice(name: str, given: Mapping[str, object], right: str = "") -> None:
+    """Hold a word against the right one; where none is named, the one that is always right.
 
     Raises:
         WrongAnswer: it is another, or none.
     """
     choice = CHOICES[name]
     try:
-        check_choice(given.get(name), right, choice.words, why=choice.why, also=choice.also)
+        check_choice(
+            given.get(name), right or choice.always, choice.words, why=choice.why, also=choice.also
+        )
     except WrongAnswer as wrong:
         wrong.seen = f"{name}: {wrong.seen}"
         raise
 
 
 def judge_all(given: Mapping[str, object], right: Mapping[str, str], *, points: float) -> None:
-    """Hold several words against the right ones; each earns its share.
+    """Hold several words against the right ones; each wrong word cancels a right one.
+
+    So who writes the same word everywhere, or guesses, earns about nothing.
 
     Raises:
         WrongAnswer: one of them is another, or none; the first of these is told.
     """
-    wrong = []
+    problems, wrong = [], 0
     for name, expected in right.items():
         try:
             judge_choice(name, given, expected)
         except WrongAnswer as why:
-            wrong.append(why)
-    if wrong:
-        wrong[0].earned = points * (1.0 - len(wrong) / len(right))
-        raise wrong[0]
+            problems.append(why)
+            wrong += given.get(name) not in (None, "")
+    if problems:
+        hits = len(right) - len(problems)
+        problems[0].earned = points * (hits - wrong) / len(right)  # a check earns 0 at least
+        raise problems[0]
 
 
 def judge_steps(raw: object) -> None:

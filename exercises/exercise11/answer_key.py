@@ -1,0 +1,142 @@
+"""The questions and their right answers, and what is said about wrong ones.
+
+A class's package lacks this module and all that only it imports: see ``grader.answer_key``.
+"""
+
+from collections.abc import Mapping
+
+from grader.answer import AnswerKey, judge_number, read_answer_number
+from grader.check import NotReachedError, WrongAnswer, shorten
+from grader.choice_answer import check_choice, read_choice
+
+from .drawn import QUESTIONS, Variant, draw
+from .knowledge import STORIES
+from .question import judged
+from .table import DECISIONS, REASONS, ROWS, WRONG, Row
+
+__all__ = [
+    "QUESTIONS",
+    "ROWS",
+    "draw",
+    "judge_answer",
+    "tell_questions",
+]
+
+ROUNDED = 0.0015  # [share] a slip is named for who writes three digits, too
+ALSO = {"usually not needed": "usually not", "not": "usually not", "no": "usually not"}
+
+
+def tell_questions(variant: Variant) -> str:
+    """All questions, their options under the learner's own letters."""
+    parts = ["# Your own questions for exercise 11\n\nWrite your letters into answers.toml.\n"]
+    for name, one in QUESTIONS.items():
+        story, _, tier = name.partition("_")
+        if story in STORIES and tier == "answer":
+            parts.append(f"## {story}\n\n{STORIES[story].format(**variant.numbers)}\n")
+            if story == "KC2":
+                parts.append(
+                    "### KC2_volts\n\nWhich voltage does the feedforward give at the target "
+                    "speed?\nOne minute has 60 seconds.\n"
+                )
+        parts.append(_asked(name, one.asks.format(**variant.numbers), variant))
+    rows = "".join(f"- {row.name}: {row.told}\n" for row in ROWS)
+    reasons = "".join(f"- **{one}** {REASONS[name]}\n" for one, name in variant.reasons.items())
+    parts.append(
+        f"## Seven mechanisms\n\n{rows}\n"
+        f"Should a team characterize this mechanism? {', '.join(DECISIONS)}.\n"
+    )
+    parts.append(f"### Reasons\n\n{reasons}")
+    return "\n".join(parts)
+
+
+def _asked(name: str, asks: str, variant: Variant) -> str:
+    letters = variant.letters[name].items()
+    return f"### {name}\n\n{asks}\n\n" + "".join(f"- **{one}** {o.text}\n" for one, o in letters)
+
+
+def judge_answer(
+    name: str, given: Mapping[str, object], variant: Variant, *, points: float
+) -> str | None:
+    """Judge one answer.
+
+    Args:
+        name: of the answer.
+        given: name in lower case -> answer.
+        variant: the learner's own numbers and letters.
+        points: for a right answer.
+
+    Returns:
+        A note, if there is something to say about a right answer.
+
+    Raises:
+        WrongAnswer: it is not right.
+        NotReachedError: it is a reason, and its decision is not right.
+    """
+    raw = given.get(name.lower())
+    if name in QUESTIONS:
+        return judged(QUESTIONS[name].chosen(raw, variant.letters[name]), points=points)
+    if name == "KC2_volts":
+        return _judge_volts(raw, variant, points=points)
+    row = next(one for one in ROWS if one.name == name.removesuffix("_reason"))
+    judge = _judge_decision if name == row.name else _judge_reason
+    return judge(row, given, variant)
+
+
+def _judge_volts(raw: object, variant: Variant, *, points: float) -> str | None:
+    """Judge the voltage that the feedforward gives."""
+    asked = variant.volts
+    value = read_answer_number(raw, asked)
+    if not asked.is_right(value):
+        for slipped, says, code in variant.slips:
+            if abs(value - slipped) <= ROUNDED * slipped:
+                raise WrongAnswer(f"{value:.4g} V", hint=says, misconception=code)
+    return judge_number(
+        asked.name, {asked.name: raw}, AnswerKey({asked.name: asked}), points=points
+    )
+
+
+def _judge_decision(row: Row, given: Mapping[str, object], variant: Variant) -> str | None:
+    """Judge whether to characterize a mechanism."""
+    raw = given.get(row.name)
+    found = read_choice(raw, DECISIONS, also=ALSO)
+    if row.argues(found, _read_reason(row, given, variant)):
+        return "Accepted: with that reason, your choice may be the better one."
+
+    def why(_: str) -> tuple[str, str]:
+        return f"{row.ask} Choose one of: {', '.join(DECISIONS)}.", ""
+
+    check_choice(raw, row.decision, DECISIONS, why=why, also=ALSO)
+    return None
+
+
+def _judge_reason(row: Row, given: Mapping[str, object], variant: Variant) -> None:
+    """Judge a reason, which counts only with a decision that is right."""
+    chosen = _read_reason(row, given, variant, asked=True)
+    try:
+        decided = read_choice(given.get(row.name), DECISIONS, also=ALSO)
+    except WrongAnswer:
+        raise NotReachedError("checked together with the decision") from None
+    if row.argues(decided, chosen):
+        return
+    if chosen not in row.reasons:
+        own, code = WRONG.get(chosen, ("", ""))
+        other = f"this is no reason for '{decided}' here: {row.told}. {row.ask}"
+        raise WrongAnswer(f'"{REASONS[chosen]}"', hint=own or other, misconception=code)
+    if decided != row.decision:
+        raise NotReachedError("a reason counts only together with a decision that is right")
+
+
+def _read_reason(
+    row: Row, given: Mapping[str, object], variant: Variant, *, asked: bool = False
+) -> str:
+    """The reason that was given, a key of ``REASONS``; empty if none was, unless it is asked."""
+    raw = given.get(f"{row.name}_reason")
+    letters = variant.reasons
+    text = raw.strip().strip(".)").lower() if isinstance(raw, str) else ""
+    if text in letters:
+        return letters[text]
+    if not asked:
+        return ""
+    seen = "nothing yet" if raw is None or raw == "" else f"{shorten(raw)}, which is none of them"
+    ask = "Write the letter of a reason: the list is at the end of your questions.md."
+    raise WrongAnswer(seen, hint=ask)
