@@ -238,7 +238,9 @@ def test_gains_stand_with_the_effect_and_without_it(pages):
     assert data["errors"] == {"kS": 0.004, "kV": 0.01, "kA": 0.02}
     assert data["without_effects"]["gains"]["kV"] == 2.2
     assert data["without_effects"]["errors"]["kV"] == 0.05
-    assert "Gains, as sysid fit gives them" in told(STORIES["nothing missing"])
+    assert "Gains of the model without effects" in told(STORIES["nothing missing"])
+    assert "may be off by more than their errors" in told(STORIES["unexplained"])
+    assert "may be off by more than their errors" in pages["unexplained"]
 
 
 @pytest.mark.parametrize("name", ["nothing missing", "explained", "unexplained"])

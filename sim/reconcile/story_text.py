@@ -135,7 +135,14 @@ def list_gains(story: Story) -> tuple[tuple[str, str, str], ...]:
 def describe_gains(story: Story) -> str:
     """The heading of the gains: which effects the model has beside them."""
     added = [name for size in (MAJOR, MINOR) for name in list_effect_names(story, size)]
-    return f"Gains with {_join(added)}" if added else "Gains, as sysid fit gives them"
+    return f"Gains with {_join(added)}" if added else "Gains of the model without effects"
+
+
+def write_gain_caution(story: Story) -> str:
+    """A sentence about how far the gains can be trusted; empty if the model is complete."""
+    if story.verdict != UNEXPLAINED:
+        return ""
+    return "The model lacks something, so these gains may be off by more than their errors."
 
 
 def list_inspections(one: Finding) -> tuple[tuple[str, str], ...]:

@@ -34,6 +34,7 @@ from sim.reconcile.story_text import (
     list_inspections,
     list_next_tests,
     list_remarks,
+    write_gain_caution,
     write_headline,
 )
 from sim.report.page_file import choose_page_path, load_templates, write_page_file
@@ -104,6 +105,7 @@ def render_story(story: Story, *, title: str) -> str:
             findings=[_describe_finding(one, story) for one in story.findings],
             gains=list_gains(story),
             gains_title=describe_gains(story),
+            caution=write_gain_caution(story),
             overview=_html(make_findings_table(story)),
             tests=list_next_tests(story),
             shrinking=_html(plot_gap_by_round(story)),

@@ -20,6 +20,7 @@ from sim.reconcile.story_text import (
     list_inspections,
     list_next_tests,
     list_remarks,
+    write_gain_caution,
     write_headline,
 )
 
@@ -117,6 +118,8 @@ def _print_gains(say: _WrappedPrinter, story: Story) -> None:
     for name, with_, without in list_gains(story):
         beside = "" if with_ == without else f"; without: {without}"
         say(f"{name} {with_}{beside}", indent=2)
+    if caution := write_gain_caution(story):
+        say(caution)
 
 
 def _print_gaps(say: _WrappedPrinter, story: Story) -> None:
