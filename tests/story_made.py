@@ -62,6 +62,7 @@ DRAG = Finding(
     sentence="Drag pushes back with the square of speed.",
     inspect="Check whether grease has become stiff.",
     separating_test="",
+    probability=1.0,
 )
 SLIP = Finding(
     effect="encoder-slip",
@@ -74,6 +75,7 @@ SLIP = Finding(
     sentence="The velocity reads 40% too little for 0.1 s.",
     inspect="Tighten what holds the sensor.",
     separating_test="",
+    probability=1.0,
 )
 SAG = replace(
     DRAG,
@@ -88,6 +90,12 @@ UNSURE = replace(
     ambiguous_with=("stribeck",),
     separating_test="Record a coast. Only the voltage that drag takes grows with the speed.",
 )
+GAINS = {
+    "kS": ParameterEstimate(0.2, 0.004, "V"),
+    "kV": ParameterEstimate(2.0, 0.01, "V·s/ft"),
+    "kA": ParameterEstimate(0.3, 0.02, "V·s²/ft"),
+}
+WITHOUT = GAINS | {"kV": ParameterEstimate(2.2, 0.05, "V·s/ft")}
 TRIED = (
     TriedCandidate("drag", 812.0, 0.03, admitted=True, why=""),
     TriedCandidate("stribeck", 400.0, 1.2, admitted=False, why="widens the gap"),
@@ -117,6 +125,8 @@ def story(*findings, verdict="explained", chapters=2, **changes):
         chapters=told,
         shown=log,
         how="The gap is shown on the held-out log, which was not used for any fit.",
+        gains=GAINS,
+        gains_without=GAINS if chapters == 1 else WITHOUT,
         notes=("One run was too short.",),
     )
     return replace(made, **changes)

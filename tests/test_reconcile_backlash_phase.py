@@ -45,6 +45,7 @@ def named(effect):
     return Finding(
         effect=effect, kind="effect", size="major", ambiguous_with=(), parameters={},
         gap_before=2.0, gap_after=1.0, sentence="", inspect="", separating_test="",
+        probability=1.0,
     )  # fmt: skip
 
 

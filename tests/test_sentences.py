@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 from rich.console import Console
-from story_made import DRAG, PLACE, REMAINS, SAG, SLIP, STORIES, story
+from story_made import PLACE, REMAINS, SAG, SLIP, STORIES, story
 from wording import FOLDER, compare, read_parts
 
 import sim
@@ -21,6 +21,7 @@ from sim.cli import sysid
 from sim.inspect.contaminate import contaminate
 from sim.inspect.faults import FAULTS
 from sim.reconcile.story_text import list_inspections, list_next_tests, write_headline
+from sim.reconcile.verdict import STOPPED
 from sim.report.story_terminal import show_story
 from sim.support.command_line import run_command
 
@@ -44,7 +45,11 @@ def test_reconcile_tells_a_story_in_these_words():
     off, unsure = STORIES["nothing missing"], STORIES["ambiguous"].findings[0]
     one = STORIES["explained"]
     stories = STORIES | {
-        "a gap that does not shrink": story(DRAG, gap_after=1.2 * one.gap_before),
+        "stopped": replace(STORIES["unexplained"], complete=False, remains=STOPPED),
+        "stopped after drag": replace(one, complete=False, remainder=True, remains=STOPPED),
+        "perhaps damaged": story(
+            SLIP, replace(SLIP, effect="hard-stop", probability=0.7), chapters=1
+        ),
         "far off": replace(off, gap_after=3.0 * off.noise_floor),
         "all at once": story(
             SLIP, *STORIES["ambiguous"].findings, SAG, verdict="ambiguous", **REMAINS

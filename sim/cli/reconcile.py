@@ -1,14 +1,15 @@
 """``sysid reconcile``."""
 
 import json
-import math
 from collections.abc import Callable
 from contextlib import nullcontext
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
+from sim.cli.fit.paste import make_paste_text, paste_options
 from sim.cli.options import (
     FILE,
     as_json,
@@ -25,10 +26,10 @@ if TYPE_CHECKING:
     from contextlib import AbstractContextManager
 
     from sim.core.log import Log
+    from sim.fit import Fit
     from sim.reconcile import DamagedInterval, Story
 
 DROPOUT = "voltage-dropout"  # an inspection reports many short dropouts as one interval
-TIME_LIMIT = 20.0  # [s] of processor time
 UNSURE = ("unexplained", "ambiguous")  # verdicts with exit code 1
 
 
@@ -42,13 +43,16 @@ reconcile_options = combine_options(
         help="Distance from stop to stop, in the log's units, if known.",
     ),
     click.option(
-        "--time-limit",
+        "--effort",
         type=click.FloatRange(min=0.0, min_open=True),
-        metavar="SECONDS",
-        help="Processor time after which the search stops with the best model so far. "
-        "[default: 20; without Numba, no limit]",
+        metavar="X",
+        default=1.0,
+        show_default=True,
+        help="Search X times as long before the search stops with the best model so far.",
     ),
     click.option("--html", type=FILE, help="Write a page with every figure and number."),
+    paste_options,
+    click.option("--radius", type=float, help="Radius of wheel or drum [m], for --paste."),
 )
 
 
@@ -62,8 +66,11 @@ def reconcile(  # noqa: PLR0917 - click passes options by name
     validation: Path | None,
     held_out: Path | None,
     travel: float | None,
-    time_limit: float | None,
+    effort: float,
     html: Path | None,
+    paste: str | None,
+    season: str,
+    radius: float | None,  # noqa: ARG001 - the code of --paste reads it
     type_: str | None,
     units: str | None,
     motor: str | None,
@@ -72,9 +79,10 @@ def reconcile(  # noqa: PLR0917 - click passes options by name
 ) -> int:
     """Find effects that the model of a mechanism does not contain.
 
-    The command also shows how much these effects reduce the gap. FILES contain the four tests of
-    one mechanism. An effect is accepted only if the model with it predicts the runs of --validation
-    better; without --validation, each run is predicted from the others.
+    The command also shows how much these effects reduce the gap, and the gains of the model that
+    contains them. FILES contain the four tests of one mechanism. An effect is accepted only if the
+    model with it predicts the runs of --validation better; without --validation, each run is
+    predicted from the others.
 
     For example: sysid reconcile arm.wpilog --validation faster.wpilog --html arm.html
 
@@ -97,20 +105,29 @@ def reconcile(  # noqa: PLR0917 - click passes options by name
         if file is not None
     }
     _warn_uncompiled()
-    with _progress_display(visible=not as_json) as progress:
-        story = _solve(logs, type_=type_, travel=travel, time_limit=time_limit, progress=progress)
+    with _progress_display(visible=not (as_json or paste)) as progress:
+        story = _solve(logs, type_=type_, travel=travel, effort=effort, progress=progress)
     if html is not None:
         from sim.report.story import write_story  # noqa: PLC0415 - draws
 
         names = ", ".join(file.name for file in files)  # a page travels; folders are private
         write_story(story, html, title=names)
+    if paste:
+        fit = _make_fit(story, logs["log"])
+        click.echo(make_paste_text(fit, paste, season=int(season)), nl=False)
+    else:
+        _print_story(story, files, as_json=as_json)
+    return NOT_RIGHT if story.verdict in UNSURE or story.remainder else DONE
+
+
+def _print_story(story: "Story", files: tuple[Path, ...], *, as_json: bool) -> None:
+    """Print a story as JSON or as readable text."""
     if as_json:
         click.echo(json.dumps(story.to_json(), allow_nan=False))
-    else:
-        from sim.report.story_terminal import show_story  # noqa: PLC0415 - only for people
+        return
+    from sim.report.story_terminal import show_story  # noqa: PLC0415 - only for people
 
-        show_story(story, title=", ".join(map(str, files)))
-    return NOT_RIGHT if story.verdict in UNSURE or story.remainder else DONE
+    show_story(story, title=", ".join(map(str, files)))
 
 
 def _warn_uncompiled() -> None:
@@ -135,7 +152,7 @@ def _progress_display(*, visible: bool) -> "AbstractContextManager[Callable[[str
 
 
 def _solve(
-    logs: "Mapping[str, Log]", *, type_: str | None, travel: float | None, time_limit: float | None,
+    logs: "Mapping[str, Log]", *, type_: str | None, travel: float | None, effort: float,
     progress: Callable[[str, float], None],
 ) -> "Story":  # fmt: skip
     """The story of these logs; intervals in which an inspection finds damage are excluded."""
@@ -149,17 +166,29 @@ def _solve(
         held_out=logs.get("held_out"),
         type=type_ or log.type or "simple",
         travel=travel,
-        time_limit=time_limit or choose_time_limit(),
+        effort=effort,
         damages={name: inspect_damage(some) for name, some in logs.items()},
         progress=progress,
     )
 
 
-def choose_time_limit() -> float:
-    """The default limit of processor time [s]; infinite if the simulation is not compiled."""
-    from sim.physics.engine import engine_can_compile  # noqa: PLC0415 - --help must not wait for it
+def _make_fit(story: "Story", log: "Log") -> "Fit":
+    """The fit of a log, with the gains of a story's last model.
 
-    return TIME_LIMIT if engine_can_compile() else math.inf
+    Warnings about the model without effects do not concern these gains, unless they are grave.
+    """
+    from sim.fit import fit  # noqa: PLC0415 - --help must not wait for it
+
+    plain = fit(log, type=story.model.type).in_log_units()
+    if story.gains == story.gains_without:
+        return plain
+    return replace(
+        plain,
+        gains={name: one.value for name, one in story.gains.items()},
+        errors={name: one.error for name, one in story.gains.items() if one.error is not None},
+        parts=story.model.parts,
+        doubts=tuple(doubt for doubt in plain.doubts if doubt.grave),
+    )
 
 
 def inspect_damage(log: "Log") -> "tuple[DamagedInterval, ...]":

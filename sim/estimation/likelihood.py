@@ -19,6 +19,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
 from itertools import pairwise
+from threading import Lock
 from typing import TYPE_CHECKING
 from weakref import WeakKeyDictionary
 
@@ -46,6 +47,19 @@ LAG_STEP = 0.02  # [of its standard deviation] step of the derivative by a run's
 LARGEST = 1e100  # [1] innovation whose square is still a number
 SHORTEST = 0.02  # [sample periods] a shorter kA/kV cannot be measurements, and needs too fine steps
 PARALLEL = 10_000  # [samples] of a log from which on simulations run in parallel
+
+
+class SampleCounter:
+    """Number of simulated samples: the work of a search, the same on every machine."""
+
+    def __init__(self) -> None:
+        self.count = 0
+        self._lock = Lock()  # long logs are simulated in several threads
+
+    def add(self, samples: int) -> None:
+        """Count further samples."""
+        with self._lock:
+            self.count += samples
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,6 +105,8 @@ class PredictionErrorProblem:
         lag_sd: [s] standard deviation of the runs' lags about their mean; 0 if they are equal.
         backlash_allowance: [unit] how far backlash outside the model may shift a run's start.
         priors: parameter of an effect -> standard deviation of its normal prior about zero.
+        simulated: counts the samples that it has simulated, together with all problems made from it
+            by ``replace`` or ``select_runs``.
     """
 
     records: tuple[RunRecord, ...]
@@ -100,6 +116,7 @@ class PredictionErrorProblem:
     lag_sd: float = 0.0
     backlash_allowance: float = 0.0
     priors: Mapping[str, float] = field(default_factory=dict)
+    simulated: SampleCounter = field(default_factory=SampleCounter)
 
     @classmethod
     def from_records(
@@ -289,6 +306,7 @@ class PredictionErrorProblem:
     ) -> Array:  # fmt: skip
         schedule = self._schedule(kalman_filter)
         gain = kalman_filter.steady if schedule is None else schedule.gains
+        self.simulated.add(batch.time.size)
         return filter_runs(
             model, batch, kalman_gain=gain,
             position_offset=nuisance.position_offset, backlash_phase=nuisance.backlash_phase,

@@ -102,7 +102,7 @@ def measure_runs(
     """
     top = log.top_speed
     runs = [run for run in log.runs if len(run) > 3]  # noqa: PLR2004 - fewer have no third difference
-    step = _smallest_step([run.position for run in runs])
+    step = find_sensor_step([run.position for run in runs])
     fresh = [_select_fresh_readings(run, step=step) for run in runs]
 
     def measure(noise: SensorNoise | None = None) -> tuple[RunMeasurements, ...]:
@@ -166,7 +166,7 @@ def estimate_noise(measurements: tuple[RunMeasurements, ...]) -> SensorNoise:
     for third, values in zip(thirds, fresh, strict=True):
         every = np.concatenate(third) if third else np.zeros(1)
         spread = ROBUST * float(np.median(np.abs(every))) / math.sqrt(THIRD)
-        least = _smallest_step(values) / math.sqrt(12.0)  # the standard deviation of rounding
+        least = find_sensor_step(values) / math.sqrt(12.0)  # the standard deviation of rounding
         sizes.append(max(spread, least, 1e-12))
     columns = [
         np.concatenate([run.measured[:, column] for run in measurements]) for column in (0, 1)
@@ -204,7 +204,7 @@ def compute_noise_at_speed(measurements: Sequence[RunMeasurements], noise: Senso
     return float(np.sqrt(np.mean(np.square(grown)))) if grows else noise.velocity
 
 
-def _smallest_step(values: Sequence[Array]) -> float:
+def find_sensor_step(values: Sequence[Array]) -> float:
     """[unit] smallest difference of two readings of all runs: the step of the sensor.
 
     Differences of single precision's rounding are left out: they are the same sensor count.

@@ -146,7 +146,7 @@ def _fit_problem(log: Log, *, type: str) -> Fit:  # noqa: A002 - as above
     )
     problem, likeliest, replay = _add_everyday_effects(problem, likeliest, replay)
     searched, point, replay = fit_velocity_only(problem, likeliest, replay)
-    gains, errors = _gains_with_errors(
+    gains, errors = compute_gains_with_errors(
         point, compute_parameter_covariance(searched, point), type=type
     )
     # a gain is refused if noise alone leaves it undetermined; errors of the model are warnings
@@ -160,7 +160,7 @@ def _fit_problem(log: Log, *, type: str) -> Fit:  # noqa: A002 - as above
     refuse_unidentifiable(gains, least, log=log, type=type, hint=hint)
     refuse_unrelated(replay, log=log, hint=hint)
     for wide, spread in compute_gain_covariances(searched, point, replay):
-        others = _gains_with_errors(wide, spread, type=type)[1]
+        others = compute_gains_with_errors(wide, spread, type=type)[1]
         errors = {name: max(error, others[name]) for name, error in errors.items()}
     gains_only = replay
     if list_everyday_effects(point):
@@ -324,7 +324,7 @@ def _add_lags(
     return point
 
 
-def _gains_with_errors(
+def compute_gains_with_errors(
     point: Estimate,
     spread: Array,
     *,

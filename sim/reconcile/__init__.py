@@ -5,13 +5,13 @@
 Damaged intervals are excluded first, and the base model is fitted. Forward selection tries every
 effect of the catalogue on top of it, adds the likeliest that does not widen the gap on runs it was
 not fitted to, refits all parameters, and repeats. Backward elimination then removes effects that
-have become needless. The held-out log decides nothing: the gap is shown on it.
+have become needless. The held-out log chooses no effect: the gap is shown on it, and an effect with
+which that gap grows is not named.
 
 After the prediction-error method (Kristensen, Madsen and Jørgensen 2004).
 """
 
 import math
-import time
 from collections.abc import Callable, Mapping, Sequence
 
 from sim.core.errors import BadRequest, NotIdentifiable
@@ -22,12 +22,12 @@ from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import levenberg_marquardt
 from sim.estimation.run_nuisance import RunNuisance
-from sim.physics.engine import load_engine
 from sim.reconcile.backward_elimination import remove_needless_effects
 from sim.reconcile.cross_validation import Fold, make_folds, select_usable_folds
 from sim.reconcile.damage import DamagedInterval, judge_damage
 from sim.reconcile.findings import make_findings
 from sim.reconcile.forward_selection import select_effects
+from sim.reconcile.gains import estimate_gains, fit_without_effects
 from sim.reconcile.held_out import HeldOutLog
 from sim.reconcile.input_checks import check_logs
 from sim.reconcile.local_minimum import minimize_fully, scan_process_noise
@@ -38,7 +38,7 @@ from sim.reconcile.search_effort import STEPS
 from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound
 from sim.reconcile.story import Story
-from sim.reconcile.thresholds import SEARCH_SHARE
+from sim.reconcile.thresholds import SEARCH_BUDGET
 from sim.reconcile.verdict import reach_verdict
 
 __all__ = ["DamagedInterval", "Story", "reconcile"]
@@ -54,7 +54,7 @@ def reconcile(
     type: str,  # noqa: A002 - the field's own word
     travel: float | None = None,
     damages: Mapping[str, Sequence[DamagedInterval]] | None = None,
-    time_limit: float = math.inf,
+    effort: float = 1.0,
     progress: Callable[[str, float], None] = lambda _, __: None,
 ) -> Story:
     """Compare logs with the model of their mechanism and name the effects that it lacks.
@@ -63,13 +63,13 @@ def reconcile(
         log: runs to fit, the four tests at least.
         validation: other runs, by which an effect is admitted; None: each run is predicted by the
             others.
-        held_out: runs on which the gap is shown, used for nothing else; None shows the validation,
-            or the log itself.
+        held_out: runs on which the gap is shown, and which may refute an effect; None shows the
+            validation, or the log itself.
         type: the base model: ``simple``, ``elevator`` or ``arm``.
         travel: [log's unit] from stop to stop, if known.
         damages: ``log``, ``validation``, ``held_out`` -> what an inspection found there.
-        time_limit: [s] of processor time. The search ends at ``SEARCH_SHARE`` of it, with the best
-            model so far, and the verdict says so; the refits for the findings take the rest.
+        effort: [1] how many times ``SEARCH_BUDGET`` samples the search may simulate. Then it stops
+            with the best model so far, and the headline says so.
         progress: called with a step's description and the share done [1].
 
     Raises:
@@ -90,8 +90,6 @@ def reconcile(
     """
     if type not in TYPES:
         raise BadRequest(f"unknown type {type!r}", advice=f"Choose one of: {', '.join(TYPES)}.")
-    load_engine()  # compiled on first use, which is not counted as search time
-    deadline = time.process_time() + SEARCH_SHARE * time_limit
     damage = judge_damage(damages or {})
     recordings = Recordings(log, validation, held_out, type=type, damage=damage)
     check_logs(recordings, travel=travel)
@@ -100,12 +98,12 @@ def reconcile(
     shown = HeldOutLog.choose(recordings)
     progress("base model", 0.05)
     base = _fit_base_model(problem, recordings)
-    data = SelectionData(recordings.fitted_runs, problem, folds, progress, deadline)
+    data = SelectionData(recordings.fitted_runs, problem, folds, progress, effort * SEARCH_BUDGET)
     rounds = select_effects(data, base)
-    exceeded = time_limit if data.out_of_time() else math.inf  # before the refits that follow
+    complete = not data.is_budget_spent()  # before the refits that follow
     rounds = remove_needless_effects(data, rounds)
     progress("what remains", 0.9)
-    return _make_story(problem, rounds, shown, recordings, exceeded_limit=exceeded)
+    return _make_story(problem, rounds, shown, recordings, complete=complete)
 
 
 def _make_story(
@@ -114,7 +112,7 @@ def _make_story(
     shown: HeldOutLog,
     recordings: Recordings,
     *,
-    exceeded_limit: float,
+    complete: bool,
 ) -> Story:
     """The story of a selection.
 
@@ -123,19 +121,29 @@ def _make_story(
         rounds: the base model and the selection rounds.
         shown: the log that the gap is shown on.
         recordings: all logs.
-        exceeded_limit: [s] time limit that ended the search; inf if none did.
+        complete: whether the search ended before its budget.
     """
     unit = recordings.unit
     chapters = shown.chapters(rounds)
     log_notes = shown.notes(chapters[-1], rounds[-1].gap.velocity)
     residuals = ResidualSummary.summarize(problem, rounds[-1].candidate.estimate)
-    findings, judged = make_findings(
-        problem, rounds, recordings.damage.reported, chapters, held_out=shown.held_out,
+    findings, judged, refuted = make_findings(
+        problem, rounds, recordings.damage.reported, chapters,
         without=shown.measure_gaps_without(rounds), residuals=residuals, unit=unit,
     )  # fmt: skip
-    chapters = chapters[: len(select_reported_rounds(rounds, findings))]
+    reported = select_reported_rounds(rounds, findings)
+    chapters = chapters[: len(reported)]
+    gains = gains_without = fit_without_effects(recordings, problem, rounds[0].candidate.estimate)
+    if any(one.kind == "effect" for one in findings):
+        gains = estimate_gains(problem, reported[-1].candidate.estimate, unit)
     verdict, remainder, remains = reach_verdict(
-        findings, rounds, problem, residuals=residuals, exceeded_limit=exceeded_limit, unit=unit
+        findings,
+        rounds,
+        problem,
+        residuals=residuals,
+        complete=complete,
+        refuted=refuted,
+        unit=unit,
     )
     return Story(
         verdict=verdict, findings=findings, remainder=remainder, remains=remains,
@@ -143,9 +151,11 @@ def _make_story(
         gap_before=chapters[0].gap, gap_after=chapters[-1].gap,
         where=shown.find_gap_places(chapters[0]),
         chapters=chapters, shown=shown.log, how=shown.usage,
+        gains=gains, gains_without=gains_without,
         notes=(*list_remarks(problem, rounds, findings, judged, residuals), *log_notes),
         compared=shown.compared_samples,
         judged=judged,
+        complete=complete,
     )  # fmt: skip
 
 

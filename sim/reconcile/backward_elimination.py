@@ -23,7 +23,7 @@ def simplify_effects(data: SelectionData, rounds: list[SelectionRound]) -> list[
     problem = data.problem
     for place in range(1, len(rounds)):
         last, effect = rounds[-1], rounds[place].candidate.effect
-        if data.out_of_time():
+        if data.is_budget_spent():
             break
         point = last.candidate.estimate
         simpler = EFFECTS[effect].simpler

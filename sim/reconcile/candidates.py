@@ -84,7 +84,7 @@ def rank_candidates(
         only: names to choose from; None is the whole catalogue.
         seeds: additional start values from earlier rounds. After another effect was added, a search
             from the effect's usual start values may no longer find them.
-        stop: whether there is no time for another candidate.
+        stop: whether no further search may begin.
     """
     seeds = seeds or {}
     had = (*point.structure.effects, *INCOMPATIBLE.get(point.structure.type, ()))

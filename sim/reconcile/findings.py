@@ -8,12 +8,14 @@ from itertools import pairwise
 from sim.core.units import Unit
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.optimize import compute_standard_errors
+from sim.physics.effect import LATER, UNTIL
 from sim.physics.effects import EFFECTS
 from sim.reconcile.backward_elimination import find_separating_test
 from sim.reconcile.cross_validation import Gap, count_noise_floors
 from sim.reconcile.damage import DamagedInterval
 from sim.reconcile.judgement import is_narrower_with, judge_effects
 from sim.reconcile.probability import JudgedEffect, compute_log_ratio
+from sim.reconcile.remarks import select_reported_rounds
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.selection_round import SelectionRound
 from sim.reconcile.story import Chapter, Finding, ParameterEstimate
@@ -30,14 +32,14 @@ from sim.reconcile.thresholds import (
 def make_findings(
     problem: PredictionErrorProblem, rounds: Sequence[SelectionRound],
     damages: Sequence[DamagedInterval], chapters: Sequence[Chapter], *,
-    without: Mapping[str, float], held_out: bool, residuals: ResidualSummary, unit: Unit,
-) -> tuple[tuple[Finding, ...], tuple[JudgedEffect, ...]]:  # fmt: skip
-    """Findings in order of importance, and all effects that were judged.
+    without: Mapping[str, float], residuals: ResidualSummary, unit: Unit,
+) -> tuple[tuple[Finding, ...], tuple[JudgedEffect, ...], tuple[str, ...]]:  # fmt: skip
+    """Findings in order of importance, all effects that were judged, and those that were refuted.
 
     An effect is a finding if its probability is at least ``LEAST_PROBABILITY``. These are not
     findings: an everyday effect, which only stays in the model; beside a major effect, a minor one
-    that does not narrow the cross-validated gap; and an effect that widens the gap on the shown
-    log, unless that log is held out, because a held-out log decides nothing.
+    that does not narrow the cross-validated gap; and an effect that widens the cross-validated gap
+    or that of the shown log, alone or together with the others. A major one is refuted then.
 
     Args:
         problem: the measurements.
@@ -45,7 +47,6 @@ def make_findings(
         damages: faults of the record that are reported.
         chapters: each round's model on the shown log.
         without: effect -> [log's unit/s] gap of the last model without it on the shown log.
-        held_out: whether the shown log is held out.
         residuals: residual tests of the last model.
         unit: the log's unit.
     """
@@ -54,17 +55,18 @@ def make_findings(
     floors = count_noise_floors(rounds[-1].gap.velocity, problem)
     incomplete = floors > VISIBLE_FLOORS or residuals.has_structure
     gaps = {name: (gap, chapters[-1].gap) for name, gap in without.items()}
-    likely = {one.effect: one for one in judged if one.probability >= LEAST_PROBABILITY}
-    effects = [
-        replace(one, probability=likely[one.effect].probability)
-        for one in _classify_size(problem, rounds, gaps, incomplete=incomplete, unit=unit)
-        if one.effect in likely
+    sized = _classify_size(problem, rounds, gaps, judged, incomplete=incomplete, unit=unit)
+    effects = [one for one in sized if one.probability >= LEAST_PROBABILITY]
+    by_effect = {one.candidate.effect: one for one in rounds[1:]}
+    confirmed = [
+        one
+        for one in effects
+        if one.gap_after <= one.gap_before
+        and rounds[-1].gap.velocity <= by_effect[one.effect].gap_without.velocity
     ]
-    if not held_out:
-        effects = [_demote_if_not_narrower(one) for one in effects]
-        effects = [one for one in effects if not NARROWER * one.gap_after > one.gap_before]
+    refuted = tuple(one.effect for one in effects if one.size == "major" and one not in confirmed)
+    effects = [_demote_if_not_narrower(one) for one in confirmed]
     if any(one.size == "major" for one in effects):
-        by_effect = {one.candidate.effect: one for one in rounds[1:]}
         effects = [
             one
             for one in effects
@@ -72,7 +74,10 @@ def make_findings(
         ]
     closed = _compute_closed_shares(rounds)
     effects.sort(key=lambda one: -one.probability * closed[one.effect])
-    return tuple(sorted((*faults, *effects), key=_sort_key)), judged
+    last = chapters[len(select_reported_rounds(rounds, effects)) - 1]
+    if not last.gap <= chapters[0].gap:
+        refuted, effects = tuple(one.effect for one in effects), []
+    return tuple(sorted((*faults, *effects), key=_sort_key)), judged, refuted
 
 
 def _compute_closed_shares(rounds: Sequence[SelectionRound]) -> dict[str, float]:
@@ -96,6 +101,7 @@ def _classify_size(
     problem: PredictionErrorProblem,
     rounds: Sequence[SelectionRound],
     gaps: Mapping[str, tuple[float, float]],
+    judged: Sequence[JudgedEffect],
     *,
     incomplete: bool,
     unit: Unit,
@@ -107,9 +113,16 @@ def _classify_size(
     """
     least = MAJOR_UNEXPLAINED if incomplete else MAJOR
     errors = compute_standard_errors(problem, rounds[-1].candidate.estimate)
+    probabilities = {one.effect: one.probability for one in judged}
     found = [
         _make_effect_finding(
-            one, rounds[-1], errors, *gaps[one.candidate.effect], unit=unit, least=least
+            one,
+            rounds[-1],
+            errors,
+            *gaps[one.candidate.effect],
+            unit=unit,
+            least=least,
+            probability=probabilities.get(one.candidate.effect, 0.0),
         )
         for one in rounds[1:]
     ]
@@ -142,13 +155,13 @@ def _make_fault_finding(one: DamagedInterval, gap: float) -> Finding:
     return Finding(
         effect=one.fault, kind="fault", size=size, ambiguous_with=(), parameters={},
         gap_before=gap, gap_after=gap, sentence=one.sentence, inspect=one.advice,
-        separating_test="",
+        separating_test="", probability=one.confidence,
     )  # fmt: skip
 
 
 def _make_effect_finding(
     now: SelectionRound, end: SelectionRound, errors: Mapping[str, float],
-    gap_before: float, gap_after: float, *, unit: Unit, least: float,
+    gap_before: float, gap_after: float, *, unit: Unit, least: float, probability: float,
 ) -> Finding:  # fmt: skip
     name = now.candidate.effect
     effect = EFFECTS[name]
@@ -156,6 +169,8 @@ def _make_effect_finding(
     major = end.gap.velocity <= least * now.gap_without.velocity
     parameters = {}
     for one in effect.parameters:
+        if one.name == UNTIL and last.values[f"{name}.{UNTIL}"] == LATER:
+            continue  # it does not end within the log
         key = f"{name}.{one.name}"
         scale = unit.si**one.power
         error = errors.get(key)
@@ -169,4 +184,5 @@ def _make_effect_finding(
         parameters=parameters, gap_before=gap_before, gap_after=gap_after,
         sentence=f"{effect.summary[0].upper()}{effect.summary[1:]}. {effect.fingerprint}",
         inspect=effect.inspect, separating_test=" ".join(dict.fromkeys(tests)),
+        probability=probability,
     )  # fmt: skip

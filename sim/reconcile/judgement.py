@@ -7,8 +7,11 @@ import math
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
 
+import numpy as np
+
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
-from sim.physics.effect import ONSET
+from sim.estimation.measurements import find_sensor_step
+from sim.physics.effect import ONSET, UNTIL
 from sim.physics.effects import EFFECTS
 from sim.reconcile.cross_validation import compute_missed_motion
 from sim.reconcile.model_selection import is_ordinary_size
@@ -50,6 +53,8 @@ def judge_effects(
         if not is_ordinary_size(now.candidate.effect, last.values)
         and not is_contradicted(now.candidate.effect, problem, last, residuals)
         and not oscillates_within_sample(now.candidate.effect, problem, last.values)
+        and not is_within_sensor_step(now.candidate.effect, problem, last.values)
+        and divides_motion(now.candidate.effect, problem, last.values)
     ]
     found = []
     for place, (before, now) in enumerate(possible):
@@ -90,6 +95,45 @@ def oscillates_within_sample(
     share, soft = values[f"{effect}.share"], values[f"{effect}.softness"]
     reduced = share * (1.0 - share) * values["kA"]
     return 2.0 * math.pi * math.sqrt(max(soft * reduced, 0.0)) < problem.period
+
+
+def is_within_sensor_step(
+    effect: str, problem: PredictionErrorProblem, values: Mapping[str, float]
+) -> bool:
+    """Whether a velocity scale changes even the top speed by less than a step of the sensor.
+
+    Args:
+        effect: name of the effect.
+        problem: the measurements.
+        values: parameter values of the model, in SI.
+    """
+    if effect != "velocity-scale":
+        return False
+    velocities = problem.measured[problem.moving, 1]
+    step = find_sensor_step([velocities[~np.isnan(velocities)]])
+    return abs(values["velocity-scale.scale"] - 1.0) * problem.top_speed < step
+
+
+def divides_motion(
+    effect: str, problem: PredictionErrorProblem, values: Mapping[str, float]
+) -> bool:
+    """Whether an effect with an onset acts on some samples in motion, and on others not.
+
+    One that acts on none of them, or on all of them, cannot be told from the model without it.
+
+    Args:
+        effect: name of the effect.
+        problem: the measurements.
+        values: parameter values of the model, in SI.
+    """
+    if not EFFECTS[effect].has_onset:
+        return True
+    times = [one.measurements.time - one.measurements.time[0] for one in problem.records]
+    clock = np.concatenate(
+        [record.clock + time for record, time in zip(problem.records, times, strict=True)]
+    )[problem.moving]
+    acts = (values[f"{effect}.{ONSET}"] <= clock) & (clock < values[f"{effect}.{UNTIL}"])
+    return bool(acts.any() and not acts.all())
 
 
 def is_contradicted(

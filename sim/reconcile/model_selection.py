@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from sim.physics.effects import EFFECTS
 from sim.reconcile.candidates import rank_candidates
@@ -20,20 +21,23 @@ from sim.reconcile.thresholds import (
 )
 
 HARDLY, WIDENS = "hardly narrows the gap", "widens the gap"
+STOPPED = "the search was stopped before all were compared"
 TINY = 1e-300  # avoids a division by a gap of zero
 
 
 def weigh_candidates(data: SelectionData, now: SelectionRound) -> list[WeighedCandidate]:
     """The best candidates of a round with their cross-validated gaps, likeliest first.
 
-    Returns:
-        No candidate if the time limit passed before all were tried.
+    If the search is stopped before all were tried, those that were tried are returned, and none of
+    them is admitted: the best one may be missing among them.
     """
     point = now.candidate.estimate
     found = []
     residual = data.voltage_residual(point)
-    stop = data.out_of_time
-    for candidate in rank_candidates(data.problem, point, residual, seeds=now.seeds, stop=stop):
+    ranked = rank_candidates(
+        data.problem, point, residual, seeds=now.seeds, stop=data.is_budget_spent
+    )
+    for candidate in ranked:
         score = now.candidate.bic - candidate.bic
         gap, ratio, why = now.gap, math.nan, "explains too little"
         if score >= find_required_improvement(candidate.effect):
@@ -42,7 +46,11 @@ def weigh_candidates(data: SelectionData, now: SelectionRound) -> list[WeighedCa
             why = explain_rejection(gap, now.gap, score)
         tried = TriedCandidate(candidate.effect, score, ratio, admitted=not why, why=why)
         found.append(WeighedCandidate(candidate, gap, tried))
-    return [] if stop() else found  # a round that was cut short compares nothing
+    if data.is_budget_spent():
+        found = [
+            replace(one, report=replace(one.report, admitted=False, why=STOPPED)) for one in found
+        ]
+    return found
 
 
 def find_required_improvement(effect: str) -> float:

@@ -1,7 +1,6 @@
 """The data of every selection step: measurements and cross-validation folds."""
 
 import math
-import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -20,18 +19,18 @@ class SelectionData:
         problem: their measurements.
         folds: the cross-validation folds.
         progress: called with a step's description and the share done [1].
-        deadline: [s] of ``time.process_time`` after which the best model so far is taken.
+        budget: [samples] that may be simulated; after that the best model so far is taken.
     """
 
     log: Log
     problem: PredictionErrorProblem
     folds: Sequence[Fold]
     progress: Callable[[str, float], None] = lambda _, __: None
-    deadline: float = math.inf
+    budget: float = math.inf
 
-    def out_of_time(self) -> bool:
-        """Whether the time limit has passed."""
-        return time.process_time() > self.deadline
+    def is_budget_spent(self) -> bool:
+        """Whether no further search may begin."""
+        return self.problem.simulated.count > self.budget
 
     def voltage_residual(self, point: Estimate) -> VoltageResidual:
         """The voltage residual of the log under an estimate's base model."""

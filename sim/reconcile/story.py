@@ -49,7 +49,7 @@ class Finding:
         inspect: what to inspect on the robot.
         separating_test: the tests that separate it from ``ambiguous_with``; empty if none is known.
         probability: [1] that the effect, or one that it is ambiguous with, is missing in the base
-            model; 1 for a fault.
+            model; for a fault, the confidence of the inspection that found it.
     """
 
     effect: str
@@ -62,7 +62,7 @@ class Finding:
     sentence: str
     inspect: str
     separating_test: str
-    probability: float = 1.0
+    probability: float
 
 
 @dataclass(frozen=True)
@@ -122,7 +122,11 @@ class Story:
         how: how the logs were used, in a sentence.
         notes: further remarks.
         compared: per run of ``shown``, (n,) which samples count; empty: all of them.
+        gains: kS, kV, kA (and kG, offset_rad) of the last chapter's model; if no effect was found,
+            those of ``sysid fit``.
+        gains_without: the same gains in a model without the effects.
         judged: effects of the last model that may be findings, and how likely each is.
+        complete: whether every effect was tried; False if the search was stopped at its budget.
     """
 
     verdict: str
@@ -136,9 +140,12 @@ class Story:
     chapters: tuple[Chapter, ...]
     shown: Log
     how: str
+    gains: Mapping[str, ParameterEstimate]
+    gains_without: Mapping[str, ParameterEstimate]
     notes: tuple[str, ...] = ()
     compared: tuple[NDArray[bool_], ...] = ()
     judged: tuple[JudgedEffect, ...] = ()
+    complete: bool = True
 
     @property
     def model(self) -> Model:
@@ -151,6 +158,10 @@ class Story:
             "verdict": self.verdict,
             "findings": [_finding_to_json(one) for one in self.findings],
             "remainder": self.remainder,
+            "complete": self.complete,
+            "units": self.shown.units,
+            **_gains_to_json(self.gains),
+            "without_effects": _gains_to_json(self.gains_without),
             "noise_floor": self.noise_floor,
             "gap_before": _finite(self.gap_before),
             "gap_after": _finite(self.gap_after),
@@ -172,6 +183,14 @@ class Story:
 def _finite(number: float | None) -> float | None:
     """The number; None where it is not finite, which JSON cannot say."""
     return number if number is not None and math.isfinite(number) else None
+
+
+def _gains_to_json(gains: Mapping[str, ParameterEstimate]) -> dict[str, Any]:
+    """Gains and standard errors, with the keys of ``sysid fit --json``."""
+    return {
+        "gains": {name: one.value for name, one in gains.items()},
+        "errors": {name: _finite(one.error) for name, one in gains.items()},
+    }
 
 
 def _finding_to_json(one: Finding) -> dict[str, Any]:

@@ -13,21 +13,28 @@ from sim.reconcile.story import (
     ParameterEstimate,
     Story,
 )
-from sim.reconcile.thresholds import NARROWER, PROBABLE, VISIBLE_FLOORS
+from sim.reconcile.thresholds import PROBABLE, VISIBLE_FLOORS
 
 LEAST_ERROR = 1e-4  # [1] relative standard error below which only this limit is written
 FAULT, MAJOR, MINOR = "fault", "major", "minor"
+STOPPED = "The search was stopped before it had tried every effect."
 
 
 def write_headline(story: Story) -> str:
     """The verdict in a few plain sentences: what is missing, and how much that explains."""
-    faults = [one.effect for one in story.findings if one.kind == FAULT]
+    verdict = _write_verdict(story)
+    return verdict if story.complete else f"{STOPPED} {verdict}"
+
+
+def _write_verdict(story: Story) -> str:
+    faults = [one for one in story.findings if one.kind == FAULT]
     majors = [one for one in story.findings if one.kind != FAULT and one.size == MAJOR]
-    damaged = f"The log is {'also ' if majors else ''}damaged: {_join(faults)}."
+    damaged = _describe_damage(faults, also="also " if majors else "")
     if story.verdict == UNEXPLAINED:
         known = f"{_join([one.effect for one in majors])}, and " if majors else ""
         gaps = _gaps(story)
-        said = [f"The model is missing {known}something that no known effect explains.", gaps]
+        cause = "no known effect explains" if story.complete else "the search has not found so far"
+        said = [f"The model is missing {known}something that {cause}.", gaps]
     elif majors:
         missing = _join([_name_with_rivals(one) for one in majors])
         doubt = "; these logs cannot tell which" if story.verdict == AMBIGUOUS else ""
@@ -36,14 +43,26 @@ def write_headline(story: Story) -> str:
     elif story.verdict == NOTHING_MISSING or not faults:
         return _nothing_missing(story)
     else:
-        rest = "something is missing that no known effect explains"
-        rest = rest if story.remainder else "nothing big is missing"
+        rest = "nothing big is missing"
+        if story.remainder:
+            rest = "something is missing that no known effect explains"
+        if not story.complete:
+            rest = "it has found nothing so far"
         return f"{damaged} Apart from that, {rest}."
     if faults:
         said.append(damaged)
-    if majors and story.remainder and story.verdict != UNEXPLAINED:
+    if majors and story.remainder and story.complete and story.verdict != UNEXPLAINED:
         said.append("Something else remains that no known effect explains.")
     return " ".join(said)
+
+
+def _describe_damage(faults: Sequence[Finding], *, also: str) -> str:
+    """The sentence about faults of the log, the surest first; empty without any."""
+    sure = [one.effect for one in faults if one.probability >= PROBABLE]
+    unsure = [one.effect for one in faults if one.effect not in sure]
+    if not sure:
+        return f"The log is probably {also}damaged: {_join(unsure)}." if unsure else ""
+    return f"The log is {also}damaged: {_join([*sure, *(f'probably {one}' for one in unsure)])}."
 
 
 def list_effect_names(story: Story, size: str) -> list[str]:
@@ -54,11 +73,6 @@ def list_effect_names(story: Story, size: str) -> list[str]:
         size: ``major`` or ``minor``.
     """
     return [one.effect for one in story.findings if one.kind != FAULT and one.size == size]
-
-
-def is_gap_narrower(before: float, after: float) -> bool:
-    """Whether a gap is narrower than it was."""
-    return after < NARROWER * before
 
 
 def format_gap(gap: float, story: Story) -> str:
@@ -75,10 +89,9 @@ def describe_effect(effect: str) -> str:
 
 def describe_size(one: Finding) -> str:
     """The size of a finding and its probability: ``major, 93 % likely``."""
-    if one.kind == FAULT:
-        return "damage to the log"
+    size = "damage to the log" if one.kind == FAULT else one.size
     share = f"{one.probability:.0%}".replace("%", " %")
-    return f"{one.size}, {'over 99 %' if share == '100 %' else share} likely"
+    return f"{size}, {'over 99 %' if share == '100 %' else share} likely"
 
 
 def describe_parameter(effect: str, parameter: str) -> str:
@@ -107,6 +120,31 @@ def format_parameter(name: str, one: ParameterEstimate) -> str:
     return f"{name} {value}{known}"
 
 
+def list_gains(story: Story) -> tuple[tuple[str, str, str], ...]:
+    """Name of each gain, the gain in the last model, and without the effects, as text."""
+    return tuple(
+        (
+            "angle" if name == "offset_rad" else name,
+            format_parameter("", one).strip(),
+            format_parameter("", story.gains_without[name]).strip(),
+        )
+        for name, one in story.gains.items()
+    )
+
+
+def describe_gains(story: Story) -> str:
+    """The heading of the gains: which effects the model has beside them."""
+    added = [name for size in (MAJOR, MINOR) for name in list_effect_names(story, size)]
+    return f"Gains with {_join(added)}" if added else "Gains of the model without effects"
+
+
+def write_gain_caution(story: Story) -> str:
+    """A sentence about how far the gains can be trusted; empty if the model is complete."""
+    if story.verdict != UNEXPLAINED:
+        return ""
+    return "The model lacks something, so these gains may be off by more than their errors."
+
+
 def list_inspections(one: Finding) -> tuple[tuple[str, str], ...]:
     """Things to inspect on the robot: for a finding, and for effects that look alike."""
     if one.kind == FAULT:
@@ -125,14 +163,8 @@ def list_next_tests(story: Story) -> tuple[str, ...]:
 
 
 def list_remarks(story: Story) -> tuple[str, ...]:
-    """Remarks: what remains, a gap that does not shrink, and the notes."""
-    remarks = [story.remains] if story.remains else []
-    if list_effect_names(story, MAJOR) and not is_gap_narrower(story.gap_before, story.gap_after):
-        remarks.append(
-            "The finding does not make the gap smaller. Do not trust the finding before another "
-            "log confirms it."
-        )
-    return (*remarks, *story.notes)
+    """Remarks: what remains, and the notes."""
+    return (*((story.remains,) if story.remains else ()), *story.notes)
 
 
 def _nothing_missing(story: Story) -> str:
@@ -141,8 +173,11 @@ def _nothing_missing(story: Story) -> str:
     last = story.gap_after / story.noise_floor if story.noise_floor > 0.0 else math.inf
     if last > VISIBLE_FLOORS:
         small = f" (a little: {_join(minor)})" if minor else ""
-        return f"No known effect makes the simulation error much smaller{small}. {_error(story)}"
+        which = "known effect" if story.complete else "effect that was tried"
+        return f"No {which} makes the simulation error much smaller{small}. {_error(story)}"
     big = " big" if minor or story.remainder else ""
+    if not story.complete:
+        return f"So far it has found nothing{big}{little}. {_error(story)}"
     rest = " Something small remains that no known effect explains." if story.remainder else ""
     return f"Nothing{big} is missing{little}. {_error(story)}{rest}"
 
@@ -161,9 +196,7 @@ def _gaps(story: Story) -> str:
     with_ = f"With {all_} added, the simulation error"
     if len(added) > 1 and list_effect_names(story, MINOR):
         with_ = "With all found effects added, the simulation error"
-    if is_gap_narrower(story.gap_before, story.gap_after):
-        return f"{with_} drops from {before} to {after} times the sensor noise{_in_speed(story)}."
-    return f"{with_} does not drop: {before} times the sensor noise before, {after} times after."
+    return f"{with_} drops from {before} to {after} times the sensor noise{_in_speed(story)}."
 
 
 def _in_speed(story: Story) -> str:

@@ -1,6 +1,5 @@
 """The verdict: explained, ambiguous, unexplained or nothing missing."""
 
-import math
 from collections.abc import Sequence
 from itertools import permutations
 
@@ -12,12 +11,21 @@ from sim.reconcile.residual_tests.repeatability import POSITION, RepeatedResidua
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.selection_round import SelectionRound
 from sim.reconcile.story import AMBIGUOUS, EXPLAINED, NOTHING_MISSING, UNEXPLAINED, Finding
-from sim.reconcile.thresholds import COMPARABLE, LOST, MAJOR, VISIBLE_FLOORS, VISIBLE_SPEED
+from sim.reconcile.thresholds import COMPARABLE, LOST, VISIBLE_FLOORS, VISIBLE_SPEED
+
+STOPPED = (
+    "The search stopped before it had tried every effect, because a search has a limit. To search "
+    "further, give --effort a number above 1: with --effort 5, the limit is five times as high."
+)
+REFUTED = (
+    "With {} the model fits the log better, but it misses runs that were not fitted by more. So "
+    "this is not the cause, or the logs are of different mechanisms."
+)
 
 
 def reach_verdict(
     findings: Sequence[Finding], rounds: Sequence[SelectionRound], problem: PredictionErrorProblem,
-    *, residuals: ResidualSummary, exceeded_limit: float = math.inf, unit: Unit,
+    *, residuals: ResidualSummary, complete: bool = True, refuted: Sequence[str] = (), unit: Unit,
 ) -> tuple[str, bool, str]:  # fmt: skip
     """The verdict, whether something remains, and a sentence about it.
 
@@ -26,7 +34,8 @@ def reach_verdict(
         rounds: the base model and the selection rounds.
         problem: the measurements.
         residuals: residual tests of the last model.
-        exceeded_limit: [s] time limit that ended the search; inf if none did.
+        complete: whether the search ended before its budget.
+        refuted: major effects that widen the gap on runs that were not fitted.
         unit: the log's unit.
     """
     gap, before = (one.velocity for one in (rounds[-1].gap, rounds[0].gap))
@@ -40,7 +49,8 @@ def reach_verdict(
         )
         return UNEXPLAINED, True, remains
     remains = (
-        _describe_time_limit(exceeded_limit, floors)
+        (STOPPED if not complete else "")
+        or (REFUTED.format(" and ".join(refuted)) if refuted else "")
         or _describe_residual(problem, residuals, unit)
         or _describe_remainder(findings, rounds, floors=floors)
     )
@@ -58,22 +68,6 @@ def reach_verdict(
     if any(one.ambiguous_with for one in majors):
         return AMBIGUOUS, bool(remains), remains
     return EXPLAINED, bool(remains), remains
-
-
-def _describe_time_limit(limit: float, floors: float) -> str:
-    """A sentence about an exceeded time limit; empty if it is inf, or nothing major can be missing.
-
-    Args:
-        limit: [s] the exceeded time limit.
-        floors: [noise floors] gap of the last model. Hardly any model comes below one noise floor,
-            so no further effect can be major if the gap is nearly as small.
-    """
-    if math.isinf(limit) or MAJOR * floors <= 1.0:
-        return ""
-    return (
-        f"The search stopped at its time limit of {limit:g} s of processor time, so more "
-        f"effects may be missing. To search longer: --time-limit {10.0 * limit:g}."
-    )
 
 
 def _describe_remainder(

@@ -25,13 +25,16 @@ from sim.reconcile.story_text import (
     FAULT,
     MINOR,
     describe_effect,
+    describe_gains,
     describe_parameter,
     describe_size,
     format_estimate,
     format_gap,
+    list_gains,
     list_inspections,
     list_next_tests,
     list_remarks,
+    write_gain_caution,
     write_headline,
 )
 from sim.report.page_file import choose_page_path, load_templates, write_page_file
@@ -45,7 +48,7 @@ class FindingText:
         name: name of the effect, or of several that cannot be distinguished.
         summary: the effect in a few words.
         leads: whether it is a fault or a major effect.
-        size: ``major`` or ``minor`` and how likely it is, or ``damage to the log``.
+        size: ``major``, ``minor`` or ``damage to the log``, and how likely it is.
         sentence: what it does.
         parameters: name, value, error, unit and meaning of each parameter.
         gap: the gap before and after the effect is added; empty for damage.
@@ -100,6 +103,9 @@ def render_story(story: Story, *, title: str) -> str:
             unsure=story.remainder or story.verdict in {AMBIGUOUS, UNEXPLAINED},
             remarks=list_remarks(story),
             findings=[_describe_finding(one, story) for one in story.findings],
+            gains=list_gains(story),
+            gains_title=describe_gains(story),
+            caution=write_gain_caution(story),
             overview=_html(make_findings_table(story)),
             tests=list_next_tests(story),
             shrinking=_html(plot_gap_by_round(story)),

@@ -12,12 +12,15 @@ from rich.text import Text
 from sim.reconcile.story import Finding, Story
 from sim.reconcile.story_text import (
     FAULT,
+    describe_gains,
     describe_size,
     format_gap,
     format_parameter,
+    list_gains,
     list_inspections,
     list_next_tests,
     list_remarks,
+    write_gain_caution,
     write_headline,
 )
 
@@ -57,6 +60,8 @@ def show_story(story: Story, *, title: str, console: Console | None = None) -> N
     say(write_headline(story), style="bold")
     for one in story.findings:
         _print_finding(say, one, story)
+    say("")
+    _print_gains(say, story)
     say("")
     _print_gaps(say, story)
     if story.where:
@@ -106,6 +111,15 @@ def _print_finding(say: _WrappedPrinter, one: Finding, story: Story) -> None:
         say(f"The simulation error goes from {before} to {after} times the noise.", indent=2)
     for head, text in list_inspections(one):
         say(f"{head}: {text}", indent=2)
+
+
+def _print_gains(say: _WrappedPrinter, story: Story) -> None:
+    say(f"{describe_gains(story)} (± is one standard error):")
+    for name, with_, without in list_gains(story):
+        beside = "" if with_ == without else f"; without: {without}"
+        say(f"{name} {with_}{beside}", indent=2)
+    if caution := write_gain_caution(story):
+        say(caution)
 
 
 def _print_gaps(say: _WrappedPrinter, story: Story) -> None:

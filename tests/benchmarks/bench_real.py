@@ -283,7 +283,7 @@ def print_held_out(fitted: Sequence[FittedLog]) -> None:
     )
 
 
-def print_reconciled(fitted: Sequence[FittedLog], *, limit: float) -> None:
+def print_reconciled(fitted: Sequence[FittedLog], *, effort: float) -> None:
     """What reconcile makes of each log that can be fitted."""
     print("\nRECONCILE")
     done = []
@@ -293,7 +293,7 @@ def print_reconciled(fitted: Sequence[FittedLog], *, limit: float) -> None:
             continue
         other = later.get(one.recording) if one.recording[2] else None
         later[one.recording] = one
-        line = reconcile_log(one, other, limit=limit)
+        line = reconcile_log(one, other, effort=effort)
         if line is not None:
             done.append(line)
     if not done:
@@ -331,7 +331,7 @@ class Reconciled:
     share: float
 
 
-def reconcile_log(one: FittedLog, other: FittedLog | None, *, limit: float) -> Reconciled | None:
+def reconcile_log(one: FittedLog, other: FittedLog | None, *, effort: float) -> Reconciled | None:
     """Reconcile a log, print a line about it, and show it on a second recording if there is one."""
     assert one.log is not None
     assert one.fit is not None
@@ -339,7 +339,7 @@ def reconcile_log(one: FittedLog, other: FittedLog | None, *, limit: float) -> R
     started = time.process_time()
     try:
         story = reconcile(
-            one.log, type=one.fit.type, damages={"log": inspect_damage(one.log)}, time_limit=limit
+            one.log, type=one.fit.type, damages={"log": inspect_damage(one.log)}, effort=effort
         )
     except Refusal as refused:
         print(f"{name:60} refused: {str(refused).splitlines()[0]}", flush=True)
@@ -348,7 +348,7 @@ def reconcile_log(one: FittedLog, other: FittedLog | None, *, limit: float) -> R
     share = find_explained_share(story)
     held_out = math.nan
     if other is not None:
-        held_out = compare_second_recording(one, other, limit=limit)
+        held_out = compare_second_recording(one, other, effort=effort)
     named = ", ".join(
         f"{found.effect} ({found.size}, {found.gap_before:.3g} -> {found.gap_after:.3g})"
         for found in story.findings
@@ -363,7 +363,7 @@ def reconcile_log(one: FittedLog, other: FittedLog | None, *, limit: float) -> R
     return Reconciled(story.verdict, seconds, held_out, share)
 
 
-def compare_second_recording(one: FittedLog, other: FittedLog, *, limit: float) -> float:
+def compare_second_recording(one: FittedLog, other: FittedLog, *, effort: float) -> float:
     """[1] Ratio of two errors on a second recording: the last model's over the base model's.
 
     The recording decides nothing; it is compared where an inspection finds no damage in it. The
@@ -375,7 +375,7 @@ def compare_second_recording(one: FittedLog, other: FittedLog, *, limit: float) 
     damages = {"log": inspect_damage(one.log), "held_out": inspect_damage(other.log)}
     try:
         story = reconcile(
-            one.log, held_out=other.log, type=one.fit.type, damages=damages, time_limit=limit
+            one.log, held_out=other.log, type=one.fit.type, damages=damages, effort=effort
         )
     except Refusal:
         return math.nan
@@ -446,7 +446,7 @@ def main() -> None:
     parser.add_argument("folder", type=Path, nargs="?", default=folder())
     parser.add_argument("--reconcile", action="store_true", help="reconcile each log as well")
     parser.add_argument("--only", default="", help="only files whose name contains this")
-    parser.add_argument("--time-limit", type=float, default=20.0, help="of reconcile [s]")
+    parser.add_argument("--effort", type=float, default=1.0, help="of reconcile")
     given = parser.parse_args()
     paths = list_logs(given.folder, given.only)
     if not paths:
@@ -460,7 +460,7 @@ def main() -> None:
     print_repetitions(fitted)
     print_held_out(fitted)
     if given.reconcile:
-        print_reconciled(fitted, limit=given.time_limit)
+        print_reconciled(fitted, effort=given.effort)
 
 
 if __name__ == "__main__":

@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import sim
-from sim.cli.reconcile import choose_time_limit, inspect_damage
+from sim.cli.reconcile import inspect_damage
 from sim.core.errors import BadRequest
 from sim.physics.effects import find_motion_class
 from sim.reconcile import reconcile
@@ -69,7 +69,6 @@ def _solve(case: Path) -> Mapping[str, Any]:
         damages = {name: inspect_damage(log) for name, log in logs.items()}
         story = reconcile(
             **logs, type=told["type"], travel=told.get("travel"), damages=damages,
-            time_limit=choose_time_limit(),
         )  # fmt: skip
     except BadRequest as refusal:
         return {"refused": str(refusal)}

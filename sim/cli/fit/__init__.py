@@ -12,7 +12,7 @@ import click
 from sim.cli.fit.inertia import add_inertia, turning_options
 from sim.cli.fit.layout import choose_layout_path
 from sim.cli.fit.parts import fit_parts, join_parts
-from sim.cli.fit.paste import CONTROLLERS, LANGUAGES, make_paste_text
+from sim.cli.fit.paste import make_paste_text, paste_options
 from sim.cli.fit.plausibility import (
     check_against_physics,
     compare_directions_alone,
@@ -97,18 +97,7 @@ feedback_options = combine_options(
     "--load", type=float, help="Moved mass [kg] or moment of inertia [kg·m²], for --driven-by."
 )
 @turning_options
-@click.option(
-    "--paste",
-    type=click.Choice((*LANGUAGES, *CONTROLLERS)),
-    help="Print only code: WPILib's feedforward, or the settings of a motor controller.",
-)
-@click.option(
-    "--season",
-    type=click.Choice(("2026", "2027")),
-    default="2026",
-    show_default=True,
-    help="WPILib season, for --paste.",
-)
+@paste_options
 @feedback_options
 @as_json
 @click.pass_context

@@ -1,14 +1,31 @@
-"""``sysid fit --paste``: the code to paste, for robot programs and for motor controllers."""
+"""``--paste``: the code to paste, for robot programs and for motor controllers."""
 
 from typing import TYPE_CHECKING
 
 import click
+
+from sim.cli.options import combine_options
 
 if TYPE_CHECKING:
     from sim.fit import Fit
 
 LANGUAGES = ("java", "python")  # WPILib's feedforward, in the robot program
 CONTROLLERS = ("phoenix6", "revlib", "yagsl")  # gains in a vendor's units, in Java
+
+paste_options = combine_options(
+    click.option(
+        "--paste",
+        type=click.Choice((*LANGUAGES, *CONTROLLERS)),
+        help="Print only code: WPILib's feedforward, or the settings of a motor controller.",
+    ),
+    click.option(
+        "--season",
+        type=click.Choice(("2026", "2027")),
+        default="2026",
+        show_default=True,
+        help="WPILib season, for --paste.",
+    ),
+)
 
 
 def make_paste_text(found: "Fit", target: str, *, season: int) -> str:

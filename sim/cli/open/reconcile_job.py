@@ -43,10 +43,7 @@ class ReconcileJob:
 
     def _run(self) -> None:
         """Run the search; an error is reported when the page asks for its progress."""
-        from sim.cli.reconcile import (  # noqa: PLC0415 - once it is needed
-            choose_time_limit,
-            inspect_damage,
-        )
+        from sim.cli.reconcile import inspect_damage  # noqa: PLC0415 - once it is needed
         from sim.reconcile import reconcile  # noqa: PLC0415 - the same
 
         try:
@@ -55,7 +52,6 @@ class ReconcileJob:
                 log,
                 type=self._type or log.type or "simple",
                 damages={"log": inspect_damage(log)},
-                time_limit=choose_time_limit(),
                 progress=self._note,
             )
             self._story = describe_story(story)

@@ -1,0 +1,67 @@
+"""The gains that reconcile reports: with the effects that it found, and without them."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from sim.core.errors import Refusal
+from sim.core.units import Unit, convert_gains
+from sim.estimation.likelihood import Estimate, PredictionErrorProblem
+from sim.estimation.optimize import append_prior_rows, compute_parameter_covariance
+from sim.estimation.run_variation import compute_run_variation_covariance
+from sim.fit import fit
+from sim.fit.output_error import compute_gains_with_errors
+from sim.fit.result import format_gain_unit
+from sim.reconcile.recordings import Recordings
+from sim.reconcile.story import ParameterEstimate
+
+
+def estimate_gains(
+    problem: PredictionErrorProblem, point: Estimate, unit: Unit
+) -> dict[str, ParameterEstimate]:
+    """The gains of an estimate, in the log's unit.
+
+    Each standard error is the larger of those from noise and from variation between runs.
+    """
+    shared = replace(problem, varying_friction=False)  # one friction, whose variation is estimated
+    same = shared.evaluate(
+        point.structure, point.values, point.nuisance.with_common_friction, point.process_noise
+    )
+    table, residuals = append_prior_rows(shared, same, fine=True)
+    noise = compute_parameter_covariance(problem, point)
+    variation = compute_run_variation_covariance(shared, same, table, residuals)
+    type_ = point.structure.type
+    gains, errors = compute_gains_with_errors(point, noise, type=type_)
+    _, others = compute_gains_with_errors(point, variation, type=type_)
+    most = {name: max(error, others[name]) for name, error in errors.items()}
+    return _describe(
+        convert_gains(gains, factor=unit.si), convert_gains(most, factor=unit.si), unit
+    )
+
+
+def fit_without_effects(
+    recordings: Recordings, problem: PredictionErrorProblem, base: Estimate
+) -> dict[str, ParameterEstimate]:
+    """The gains of ``sysid fit``; those of the base model if the fit refuses or includes damage.
+
+    Args:
+        recordings: all logs.
+        problem: the measurements.
+        base: the best estimate without effects.
+    """
+    if not recordings.damage.excluded.get("log"):
+        try:
+            found = fit(recordings.log, type=recordings.type).in_units(recordings.unit.name)
+        except Refusal:
+            pass  # the base model has gains nevertheless
+        else:
+            return _describe(found.gains, found.errors, recordings.unit)
+    return estimate_gains(problem, base, recordings.unit)
+
+
+def _describe(
+    gains: Mapping[str, float], errors: Mapping[str, float], unit: Unit
+) -> dict[str, ParameterEstimate]:
+    return {
+        name: ParameterEstimate(value, errors[name], format_gain_unit(name, unit))
+        for name, value in gains.items()
+    }
