@@ -12,7 +12,16 @@ from grader.class_package import explain_no_grading, find_learner, read_class_pa
 from grader.consequence import Consequence
 from grader.course import find_course, load_progress, update_progress
 from grader.exercise import Exercise, Grade, find_exercise
-from grader.report import MARKS, SPOKEN, format_grade, format_receipt, list_feedback_lines
+from grader.report import (
+    SPOKEN,
+    UNANSWERED,
+    find_mark,
+    fold_unanswered,
+    format_grade,
+    format_receipt,
+    judge_grade,
+    list_feedback_lines,
+)
 from grader.submission import read_answers
 from grader.terminal import Line, print_error, style_line
 from sim.core.errors import BadRequest, Refusal
@@ -72,7 +81,8 @@ def submit(
         student: whose answer; None takes who is learning on this machine.
         course: the course folder; None looks for it from here upwards.
         answers: by name, as in the file; a unit makes a text of a number: ``kV="2.4 V·s/m"``.
-            Without any, the file is graded as it is.
+            Numbers below a name stand in braces: ``delay={"lag": 0.03}`` is the file's line
+            ``delay.lag = 0.03``. Without any, the file is graded as it is.
 
     Returns:
         The result, which a cell shows. What cannot be graded is shown in one line, too.
@@ -125,25 +135,45 @@ def write_answers(exercise: Exercise, answers: Mapping[str, object]) -> None:
             advice=f"Write your answer there, then: submit({exercise.name!r})",
         )
     there = read_answers(path)  # says what is wrong with it in our own words
-    known = {name.lower(): name for name in there}
-    for name in answers:
-        if name.lower() not in known:
-            near = find_similar_name(name, [*there])
+    tables = {_fold_name(name): name for name in reversed(exercise.answer_tables)}
+    known = tables | {_fold_name(name): name for name in there}
+    for name, value in answers.items():
+        if _fold_name(name) not in known:
+            near = find_similar_name(name, [*known.values()])
             listed = ", ".join(there) or "none"
             raise BadRequest(
                 f"{exercise.name} asks for no {name!r}",
                 advice=f"{f'Did you mean {near}? ' if near else ''}It asks for: {listed}.",
             )
+        if isinstance(value, Mapping) != (_fold_name(name) in tables):
+            example = "0.03" if isinstance(value, Mapping) else '{"lag": 0.03}'
+            raise BadRequest(
+                f"{name} = {value!r} cannot be an answer of {exercise.name}",
+                advice=f"Write it in this form: {name}={example}",
+            )
     document = tomlkit.parse(path.read_text(encoding="utf-8-sig"))
     for name, value in answers.items():
+        own = known[_fold_name(name)]
         try:
-            document[known[name.lower()]] = _make_plain(value)
+            if not isinstance(value, Mapping):
+                document[own] = _make_plain(value)
+                continue
+            for inner, number in value.items():
+                if own in document:
+                    document[own][inner] = _make_plain(number)
+                else:
+                    document.append(tomlkit.key([own, inner]), tomlkit.item(_make_plain(number)))
         except (TOMLKitError, ValueError, TypeError) as error:
             raise BadRequest(
                 f"{name} = {value!r} cannot be written down ({error})",
                 advice="Give a number, or a text in quotes.",
             ) from None
     write_atomically(path, tomlkit.dumps(document))
+
+
+def _fold_name(name: str) -> str:
+    """A name as any spelling of it gives it: Python's own names have no dashes."""
+    return name.lower().replace("-", "_")
 
 
 def _make_plain(value: object) -> Any:  # noqa: ANN401 - whatever a learner gives
@@ -168,10 +198,12 @@ def _show_receipt(exercise: Exercise, said: Refusal) -> ShownGrade:
 
 
 def _render_grade(grade: Grade) -> str:
-    passed = grade.status == "passed"
-    verdict = "all right" if passed else "not all right yet"
+    _, verdict = judge_grade(grade)
     head = f"{grade.exercise}: {grade.score:g} of {grade.max_score:g} points, {verdict}"
-    rows = "".join(_render_check(result) for result in grade.checks)
+    shown, more = fold_unanswered(grade.checks)
+    rows = "".join(_render_check(result) for result in shown)
+    if more:
+        rows += f"<li>{UNANSWERED[0]} {more} more not answered yet</li>"
     listed = f"<ul style='list-style:none;padding-left:0'>{rows}</ul>"
     warned = "".join(f"<p>{escape_html(one)}</p>" for one in grade.warnings)
     return f"<p><strong>{escape_html(head)}</strong></p>{warned}{listed}"
@@ -186,14 +218,15 @@ def _show_consequence(consequence: Consequence | None) -> str:
 
 
 def _render_check(result: Result) -> str:
-    mark, _ = MARKS[result.status]
+    mark, _ = find_mark(result)
     points = f"{result.points:g} of {result.max_points:g}"
     told = "".join(
         f"<div style='margin-left:1.6em'>{escape_html(word)}{escape_html(text)}</div>"
         for word, text in list_feedback_lines(result)
         if text
     )
-    style = f"margin:0.35em 0;padding-left:0.6em;border-left:4px solid {STYLE[result.status]}"
+    color = STYLE[Status.NOT_REACHED if result.is_unanswered else result.status]
+    style = f"margin:0.35em 0;padding-left:0.6em;border-left:4px solid {color}"
     return (
         f"<li style='{style}'><span aria-hidden='true'>{mark}</span> {escape_html(SPOKEN[mark])}: "
         f"<b>{escape_html(result.description)}</b> ({points}){told}</li>"
