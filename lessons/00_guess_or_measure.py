@@ -655,17 +655,18 @@ Table(
 #
 # ### Say who you are
 #
-# Type this command once in a terminal, with your own name (in a class, use the name your teacher
-# uses):
+# The course asked for your name when you started it. The name gives you your own numbers in every
+# exercise: your own mechanism and your own log. Your neighbor has other answers, but you can
+# compare *how* you found your answers. Your numbers are in `exercises/exercise1/data/ada/given.toml`
+# and so on, with your name in place of `ada`. (`NAME` at the top of this page is for the race
+# only.)
+#
+# If you gave no name, type this once in a terminal of JupyterLab (in a class, use the name your
+# teacher uses):
 #
 # ```
 # grade start --student ada
 # ```
-#
-# From then on, every exercise gives you your own numbers: your own mechanism and your own log. Your
-# neighbor has other answers, but you can compare *how* you found your answers. Your numbers are in
-# `exercises/exercise1/data/ada/given.toml`, and so on. (`NAME` at the top of this page is for the
-# race only.)
 #
 # The next cell shows which data you have:
 
@@ -777,8 +778,8 @@ quick
 #
 # **Exercise 11** ([exercises/exercise11/README.md](../exercises/exercise11/README.md)) has the
 # knowledge checks of the whole course. Its first three questions, under *Guessing and measuring*,
-# are about this page. Answer these three now, and leave the other questions empty until lesson 8.
-# In a terminal, type:
+# are about this page. Answer these three now, and leave the other questions empty until lesson 8:
+# an empty answer is no mistake. In a terminal, type:
 #
 # ```
 # grade exercise11
