@@ -657,9 +657,9 @@ Table(
 #
 # The course asked for your name when you started it. The name gives you your own numbers in every
 # exercise: your own mechanism and your own log. Your neighbor has other answers, but you can
-# compare *how* you found your answers. Your numbers are in `exercises/exercise1/data/ada/given.toml`
-# and so on, with your name in place of `ada`. (`NAME` at the top of this page is for the race
-# only.)
+# compare *how* you found your answers. Your numbers are in
+# `exercises/exercise1/data/YOUR-NAME/given.toml`, and so on. (`NAME` at the top of this page is for
+# the race only.)
 #
 # If you gave no name, type this once in a terminal of JupyterLab (in a class, use the name your
 # teacher uses):
