@@ -135,6 +135,35 @@ def write_answers(exercise: Exercise, answers: Mapping[str, object]) -> None:
             advice=f"Write your answer there, then: submit({exercise.name!r})",
         )
     there = read_answers(path)  # says what is wrong with it in our own words
+    names = _find_names(exercise, [*there], answers)
+    document = tomlkit.parse(path.read_text(encoding="utf-8-sig"))
+    for name, value in answers.items():
+        own = names[name]
+        try:
+            if not isinstance(value, Mapping):
+                document[own] = _make_plain(value)
+                continue
+            for inner, number in value.items():
+                if own in document:
+                    document[own][inner] = _make_plain(number)
+                else:
+                    document.append(tomlkit.key([own, inner]), tomlkit.item(_make_plain(number)))
+        except (TOMLKitError, ValueError, TypeError) as error:
+            raise BadRequest(
+                f"{name} = {value!r} cannot be written down ({error})",
+                advice="Give a number, or a text in quotes.",
+            ) from None
+    write_atomically(path, tomlkit.dumps(document))
+
+
+def _find_names(
+    exercise: Exercise, there: list[str], answers: Mapping[str, object]
+) -> dict[str, str]:
+    """The name of each answer as the file has it.
+
+    Raises:
+        BadRequest: the exercise asks for no such name, or for another form of answer.
+    """
     tables = {_fold_name(name): name for name in reversed(exercise.answer_tables)}
     known = tables | {_fold_name(name): name for name in there}
     for name, value in answers.items():
@@ -151,24 +180,7 @@ def write_answers(exercise: Exercise, answers: Mapping[str, object]) -> None:
                 f"{name} = {value!r} cannot be an answer of {exercise.name}",
                 advice=f"Write it in this form: {name}={example}",
             )
-    document = tomlkit.parse(path.read_text(encoding="utf-8-sig"))
-    for name, value in answers.items():
-        own = known[_fold_name(name)]
-        try:
-            if not isinstance(value, Mapping):
-                document[own] = _make_plain(value)
-                continue
-            for inner, number in value.items():
-                if own in document:
-                    document[own][inner] = _make_plain(number)
-                else:
-                    document.append(tomlkit.key([own, inner]), tomlkit.item(_make_plain(number)))
-        except (TOMLKitError, ValueError, TypeError) as error:
-            raise BadRequest(
-                f"{name} = {value!r} cannot be written down ({error})",
-                advice="Give a number, or a text in quotes.",
-            ) from None
-    write_atomically(path, tomlkit.dumps(document))
+    return {name: known[_fold_name(name)] for name in answers}
 
 
 def _fold_name(name: str) -> str:
