@@ -1,6 +1,7 @@
 """Answers from a notebook: written into the exercise's file, and graded as the command does it."""
 
 import html
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,8 +23,9 @@ from grader.report import (
     judge_grade,
     list_feedback_lines,
 )
-from grader.submission import read_answers
+from grader.submission import read_answers, read_text
 from grader.terminal import Line, print_error, style_line
+from grader.variant import make_folder_name
 from sim.core.errors import BadRequest, Refusal
 from sim.support.atomic_file import write_atomically
 from sim.support.printable import make_printable
@@ -34,6 +36,9 @@ def escape_html(text: str) -> str:
     return html.escape(make_printable(text))
 
 
+QUESTION = re.compile(r"^### (\w+)\n\n(.+)\n\n((?:- \*\*.+\n?)+)", re.MULTILINE)
+OPTION = re.compile(r"- \*\*(\w)\*\* (.+)")
+WIDE = {"width": "max-content"}
 STYLE = {  # of the line that leads a check; colors that are legible on light and on dark pages
     Status.PASSED: "#1f9d61",
     Status.FAILED: "#d1495b",
@@ -116,6 +121,71 @@ def submit(
         then=then.words if then else "",
     )
     return ShownGrade(tuple(lines), _render_grade(grade) + _show_consequence(then), grade)
+
+
+class ExerciseQuestions:
+    """Questions of an exercise as buttons, and one button more that submits what is chosen.
+
+    Without buttons, ``submit`` does the same.
+
+    Args:
+        exercise: whose questions, as ``submit`` takes it.
+        names: of the questions, as in the learner's ``questions.md``.
+        course: the course folder; None looks for it from here upwards.
+    """
+
+    def __init__(self, exercise: str, /, *names: str, course: Path | None = None) -> None:
+        import ipywidgets  # type: ignore[import-untyped]  # noqa: PLC0415 - no types; for notebooks
+
+        self._exercise, self._course = exercise, course
+        self._graded = ipywidgets.HTML()
+        try:
+            asked = _read_questions(exercise, course)
+        except Refusal as refusal:  # a lesson that was opened alone
+            asked, names = {}, ()
+            self._graded.value = _show_refusal(str(refusal)).html
+        self._asked = {name: asked[name] for name in names}
+        self._chosen = {
+            name: ipywidgets.RadioButtons(options=options, value=None, layout=WIDE)
+            for name, (_, options) in self._asked.items()
+        }
+        button = ipywidgets.Button(description="Grade my answers", disabled=not names)
+        button.on_click(self._submit)
+        rows = [
+            row
+            for name, (question, _) in self._asked.items()
+            for row in (ipywidgets.HTML(html.escape(question)), self._chosen[name])
+        ]
+        self._box = ipywidgets.VBox([*rows, button, self._graded])
+
+    def _submit(self, _: object) -> None:
+        letters = {name: one.value for name, one in self._chosen.items() if one.value}
+        self._graded.value = submit(self._exercise, course=self._course, **letters).html
+
+    def _repr_mimebundle_(self, **how: object) -> Any:  # noqa: ANN401 - ipywidgets has no types
+        rows = []
+        for question, options in self._asked.values():
+            rows += [question, *(f"  \N{WHITE CIRCLE} {text}" for text, _ in options)]
+        return self._box._repr_mimebundle_(**how) | {"text/plain": "\n".join(rows)}
+
+
+def _read_questions(
+    exercise: str, course: Path | None
+) -> dict[str, tuple[str, list[tuple[str, str]]]]:
+    """The learner's own questions: name -> the question, and each option with its letter.
+
+    Raises:
+        Refusal: there is no course here, or its questions cannot be made or read.
+    """
+    folder = find_course(Path.cwd()) if course is None else course
+    one = find_exercise(exercise, folder)
+    who = find_learner(folder, known=load_progress(folder)[0].student, student=None)
+    one.prepare(who, say=lambda _: None)
+    text = read_text(one.folder / "data" / make_folder_name(who) / "questions.md")
+    return {
+        name: (question, [(option, letter) for letter, option in OPTION.findall(options)])
+        for name, question, options in QUESTION.findall(text)
+    }
 
 
 def write_answers(exercise: Exercise, answers: Mapping[str, object]) -> None:

@@ -11,7 +11,7 @@ import pytest
 from page_flaws import page_flaws
 from small_course import HALF, RIGHT, answer, lay_out
 
-from grader import submit
+from grader import ExerciseQuestions, submit
 from grader.check import Status
 from grader.cli import run_command
 from grader.course import load_progress
@@ -85,6 +85,38 @@ def test_a_parameter_that_cannot_be_one_is_refused(exercise12, answers, said):
         write_answers(exercise12, answers)
     assert said in str(refused.value)
     assert (exercise12.folder / "answers.toml").read_text("utf-8") == before
+
+
+@pytest.fixture
+def questions(root, tmp_path, monkeypatch):
+    """Two questions of exercise 11 as buttons, in a course of its own."""
+    folder = tmp_path / "exercises" / "exercise11"
+    without = shutil.ignore_patterns("data", "__pycache__")
+    shutil.copytree(root / "exercises" / "exercise11", folder, ignore=without)
+    (tmp_path / "lessons").mkdir()
+    monkeypatch.chdir(tmp_path)
+    return ExerciseQuestions("exercise11", "Q0_guess", "Q0_brace")
+
+
+def test_buttons_write_the_letter_of_the_chosen_option(questions, tmp_path):
+    _, _, brace, gains, button, graded = questions._box.children
+    gains.value = next(letter for text, letter in gains.options if text == "kA")
+    button.click()
+    written = tomllib.loads((tmp_path / "exercises/exercise11/answers.toml").read_text("utf-8"))
+
+    assert "a steel brace" in brace.value
+    assert written["Q0_brace"] == gains.value
+    assert written["Q0_guess"] == ""
+    assert "1 of 39 points, all right so far" in graded.value
+    assert "a steel brace" in questions._repr_mimebundle_()["text/plain"]
+
+
+def test_buttons_without_a_course_say_what_is_missing(tmp_path):
+    alone = ExerciseQuestions("exercise11", "Q0_guess", course=tmp_path)
+    button, said = alone._box.children
+
+    assert button.disabled
+    assert "there is no exercise" in said.value
 
 
 def test_a_cell_counts_what_is_not_answered_yet(root, tmp_path, monkeypatch):
