@@ -38,6 +38,7 @@ SOURCES = (
     ".js",
     ".css",
     ".svg",
+    "lab_settings/overrides.json",
     "example.toml",
     "probability.json",
     "phoenix6.toml",
