@@ -38,7 +38,7 @@ SOURCES = (
     ".js",
     ".css",
     ".svg",
-    "lab_settings/overrides.json",
+    "overrides.json",
     "example.toml",
     "probability.json",
     "phoenix6.toml",
