@@ -8,13 +8,14 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from grader.notebook import submit
+    from grader.notebook import ExerciseQuestions, submit
     from grader.quick_check_widget import QuickCheck, QuickNumberCheck
 
-__all__ = ["QuickCheck", "QuickNumberCheck", "submit"]
+__all__ = ["ExerciseQuestions", "QuickCheck", "QuickNumberCheck", "submit"]
 
 _WHERE = {
     "submit": "notebook",
+    "ExerciseQuestions": "notebook",
     "QuickCheck": "quick_check_widget",
     "QuickNumberCheck": "quick_check_widget",
 }

@@ -22,6 +22,7 @@ from sim.core.errors import Refusal
 Subject = TypeVar("Subject")
 
 
+NOTHING = "nothing yet"  # how ``seen`` ends where a question has no answer
 LONGEST_SHOWN = 40  # [characters] of an answer that is shown back
 
 
@@ -92,6 +93,11 @@ class Result:
     seen: str = ""
     hint: str = ""
     misconception: str = ""
+
+    @property
+    def is_unanswered(self) -> bool:
+        """Whether the question has no answer yet, which is no mistake."""
+        return self.status is Status.FAILED and self.seen.endswith(NOTHING) and not self.points
 
 
 @dataclass(frozen=True)

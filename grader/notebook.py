@@ -1,6 +1,7 @@
 """Answers from a notebook: written into the exercise's file, and graded as the command does it."""
 
 import html
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,9 +13,19 @@ from grader.class_package import explain_no_grading, find_learner, read_class_pa
 from grader.consequence import Consequence
 from grader.course import find_course, load_progress, update_progress
 from grader.exercise import Exercise, Grade, find_exercise
-from grader.report import MARKS, SPOKEN, format_grade, format_receipt, list_feedback_lines
-from grader.submission import read_answers
+from grader.report import (
+    SPOKEN,
+    UNANSWERED,
+    find_mark,
+    fold_unanswered,
+    format_grade,
+    format_receipt,
+    judge_grade,
+    list_feedback_lines,
+)
+from grader.submission import read_answers, read_text
 from grader.terminal import Line, print_error, style_line
+from grader.variant import make_folder_name
 from sim.core.errors import BadRequest, Refusal
 from sim.support.atomic_file import write_atomically
 from sim.support.printable import make_printable
@@ -25,6 +36,9 @@ def escape_html(text: str) -> str:
     return html.escape(make_printable(text))
 
 
+QUESTION = re.compile(r"^### (\w+)\n\n(.+)\n\n((?:- \*\*.+\n?)+)", re.MULTILINE)
+OPTION = re.compile(r"- \*\*(\w)\*\* (.+)")
+WIDE = {"width": "max-content"}
 STYLE = {  # of the line that leads a check; colors that are legible on light and on dark pages
     Status.PASSED: "#1f9d61",
     Status.FAILED: "#d1495b",
@@ -72,7 +86,8 @@ def submit(
         student: whose answer; None takes who is learning on this machine.
         course: the course folder; None looks for it from here upwards.
         answers: by name, as in the file; a unit makes a text of a number: ``kV="2.4 V·s/m"``.
-            Without any, the file is graded as it is.
+            Numbers below a name stand in braces: ``delay={"lag": 0.03}`` is the file's line
+            ``delay.lag = 0.03``. Without any, the file is graded as it is.
 
     Returns:
         The result, which a cell shows. What cannot be graded is shown in one line, too.
@@ -108,6 +123,71 @@ def submit(
     return ShownGrade(tuple(lines), _render_grade(grade) + _show_consequence(then), grade)
 
 
+class ExerciseQuestions:
+    """Questions of an exercise as buttons, and one button more that submits what is chosen.
+
+    Without buttons, ``submit`` does the same.
+
+    Args:
+        exercise: whose questions, as ``submit`` takes it.
+        names: of the questions, as in the learner's ``questions.md``.
+        course: the course folder; None looks for it from here upwards.
+    """
+
+    def __init__(self, exercise: str, /, *names: str, course: Path | None = None) -> None:
+        import ipywidgets  # type: ignore[import-untyped]  # noqa: PLC0415 - no types; for notebooks
+
+        self._exercise, self._course = exercise, course
+        self._graded = ipywidgets.HTML()
+        try:
+            asked = _read_questions(exercise, course)
+        except Refusal as refusal:  # a lesson that was opened alone
+            asked, names = {}, ()
+            self._graded.value = _show_refusal(str(refusal)).html
+        self._asked = {name: asked[name] for name in names}
+        self._chosen = {
+            name: ipywidgets.RadioButtons(options=options, value=None, layout=WIDE)
+            for name, (_, options) in self._asked.items()
+        }
+        button = ipywidgets.Button(description="Grade my answers", disabled=not names)
+        button.on_click(self._submit)
+        rows = [
+            row
+            for name, (question, _) in self._asked.items()
+            for row in (ipywidgets.HTML(html.escape(question)), self._chosen[name])
+        ]
+        self._box = ipywidgets.VBox([*rows, button, self._graded])
+
+    def _submit(self, _: object) -> None:
+        letters = {name: one.value for name, one in self._chosen.items() if one.value}
+        self._graded.value = submit(self._exercise, course=self._course, **letters).html
+
+    def _repr_mimebundle_(self, **how: object) -> Any:  # noqa: ANN401 - ipywidgets has no types
+        rows = []
+        for question, options in self._asked.values():
+            rows += [question, *(f"  \N{WHITE CIRCLE} {text}" for text, _ in options)]
+        return self._box._repr_mimebundle_(**how) | {"text/plain": "\n".join(rows)}
+
+
+def _read_questions(
+    exercise: str, course: Path | None
+) -> dict[str, tuple[str, list[tuple[str, str]]]]:
+    """The learner's own questions: name -> the question, and each option with its letter.
+
+    Raises:
+        Refusal: there is no course here, or its questions cannot be made or read.
+    """
+    folder = find_course(Path.cwd()) if course is None else course
+    one = find_exercise(exercise, folder)
+    who = find_learner(folder, known=load_progress(folder)[0].student, student=None)
+    one.prepare(who, say=lambda _: None)
+    text = read_text(one.folder / "data" / make_folder_name(who) / "questions.md")
+    return {
+        name: (question, [(option, letter) for letter, option in OPTION.findall(options)])
+        for name, question, options in QUESTION.findall(text)
+    }
+
+
 def write_answers(exercise: Exercise, answers: Mapping[str, object]) -> None:
     """Write answers into the exercise's file; what else stands there stays, comments and all.
 
@@ -125,25 +205,57 @@ def write_answers(exercise: Exercise, answers: Mapping[str, object]) -> None:
             advice=f"Write your answer there, then: submit({exercise.name!r})",
         )
     there = read_answers(path)  # says what is wrong with it in our own words
-    known = {name.lower(): name for name in there}
-    for name in answers:
-        if name.lower() not in known:
-            near = find_similar_name(name, [*there])
-            listed = ", ".join(there) or "none"
-            raise BadRequest(
-                f"{exercise.name} asks for no {name!r}",
-                advice=f"{f'Did you mean {near}? ' if near else ''}It asks for: {listed}.",
-            )
+    names = _find_names(exercise, [*there], answers)
     document = tomlkit.parse(path.read_text(encoding="utf-8-sig"))
     for name, value in answers.items():
+        own = names[name]
         try:
-            document[known[name.lower()]] = _make_plain(value)
+            if not isinstance(value, Mapping):
+                document[own] = _make_plain(value)
+                continue
+            for inner, number in value.items():
+                if own in document:
+                    document[own][inner] = _make_plain(number)
+                else:
+                    document.append(tomlkit.key([own, inner]), tomlkit.item(_make_plain(number)))
         except (TOMLKitError, ValueError, TypeError) as error:
             raise BadRequest(
                 f"{name} = {value!r} cannot be written down ({error})",
                 advice="Give a number, or a text in quotes.",
             ) from None
     write_atomically(path, tomlkit.dumps(document))
+
+
+def _find_names(
+    exercise: Exercise, there: list[str], answers: Mapping[str, object]
+) -> dict[str, str]:
+    """The name of each answer as the file has it.
+
+    Raises:
+        BadRequest: the exercise asks for no such name, or for another form of answer.
+    """
+    tables = {_fold_name(name): name for name in reversed(exercise.answer_tables)}
+    known = tables | {_fold_name(name): name for name in there}
+    for name, value in answers.items():
+        if _fold_name(name) not in known:
+            near = find_similar_name(name, [*known.values()])
+            listed = ", ".join(there) or "none"
+            raise BadRequest(
+                f"{exercise.name} asks for no {name!r}",
+                advice=f"{f'Did you mean {near}? ' if near else ''}It asks for: {listed}.",
+            )
+        if isinstance(value, Mapping) != (_fold_name(name) in tables):
+            example = "0.03" if isinstance(value, Mapping) else '{"lag": 0.03}'
+            raise BadRequest(
+                f"{name} = {value!r} cannot be an answer of {exercise.name}",
+                advice=f"Write it in this form: {name}={example}",
+            )
+    return {name: known[_fold_name(name)] for name in answers}
+
+
+def _fold_name(name: str) -> str:
+    """A name as any spelling of it gives it: Python's own names have no dashes."""
+    return name.lower().replace("-", "_")
 
 
 def _make_plain(value: object) -> Any:  # noqa: ANN401 - whatever a learner gives
@@ -168,10 +280,12 @@ def _show_receipt(exercise: Exercise, said: Refusal) -> ShownGrade:
 
 
 def _render_grade(grade: Grade) -> str:
-    passed = grade.status == "passed"
-    verdict = "all right" if passed else "not all right yet"
+    _, verdict = judge_grade(grade)
     head = f"{grade.exercise}: {grade.score:g} of {grade.max_score:g} points, {verdict}"
-    rows = "".join(_render_check(result) for result in grade.checks)
+    shown, more = fold_unanswered(grade.checks)
+    rows = "".join(_render_check(result) for result in shown)
+    if more:
+        rows += f"<li>{UNANSWERED[0]} {more} more not answered yet</li>"
     listed = f"<ul style='list-style:none;padding-left:0'>{rows}</ul>"
     warned = "".join(f"<p>{escape_html(one)}</p>" for one in grade.warnings)
     return f"<p><strong>{escape_html(head)}</strong></p>{warned}{listed}"
@@ -186,14 +300,15 @@ def _show_consequence(consequence: Consequence | None) -> str:
 
 
 def _render_check(result: Result) -> str:
-    mark, _ = MARKS[result.status]
+    mark, _ = find_mark(result)
     points = f"{result.points:g} of {result.max_points:g}"
     told = "".join(
         f"<div style='margin-left:1.6em'>{escape_html(word)}{escape_html(text)}</div>"
         for word, text in list_feedback_lines(result)
         if text
     )
-    style = f"margin:0.35em 0;padding-left:0.6em;border-left:4px solid {STYLE[result.status]}"
+    color = STYLE[Status.NOT_REACHED if result.is_unanswered else result.status]
+    style = f"margin:0.35em 0;padding-left:0.6em;border-left:4px solid {color}"
     return (
         f"<li style='{style}'><span aria-hidden='true'>{mark}</span> {escape_html(SPOKEN[mark])}: "
         f"<b>{escape_html(result.description)}</b> ({points}){told}</li>"

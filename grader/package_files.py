@@ -41,6 +41,7 @@ SOURCES = (
     ".js",
     ".css",
     ".svg",
+    "overrides.json",
     "example.toml",
     "probability.json",
     "phoenix6.toml",

@@ -20,7 +20,14 @@ MARKS = {
     Status.NOT_RUN: ("–", "dim"),
     Status.ERROR: ("!", "magenta"),
 }
-SPOKEN = {"✓": "right", "✗": "not right yet", "–": "not looked at yet", "!": "our mistake"}
+UNANSWERED = ("○", "dim")
+SPOKEN = {
+    "○": "not answered yet",
+    "✓": "right",
+    "✗": "not right yet",
+    "–": "not looked at yet",
+    "!": "our mistake",
+}
 INDENT = "    "
 GRADED = re.compile(r'["`]grade (\w+)(?:\\n)?["`]')  # how a notebook's JSON has such a line
 ONCE = {"", "why  ", "see  "}  # leads of what is said once, however many checks it stands under
@@ -73,9 +80,38 @@ def format_checks(grade: Grade, *, plain: bool = False) -> list[Line]:
     """
     lines = [_format_verdict(grade), *_format_warnings(grade.warnings), style_line()]
     said: set[str] = set()  # what has been said once is not said again
-    for result in grade.checks:
+    shown, more = fold_unanswered(grade.checks)
+    for result in shown:
         lines += _format_result(result, said, plain=plain)
+    if more:
+        mark, style = UNANSWERED
+        lines.append(style_line(f"{mark} {more} more not answered yet", style))
     return _replace_signs(lines) if plain else lines
+
+
+def fold_unanswered(checks: Sequence[Result]) -> tuple[list[Result], int]:
+    """The results to show, of those without an answer only the first; and how many are left out."""
+    unanswered = [result for result in checks if result.is_unanswered]
+    return [one for one in checks if one not in unanswered[1:]], len(unanswered[1:])
+
+
+def find_mark(result: Result) -> tuple[str, str]:
+    """The sign that leads a result, and its style."""
+    return UNANSWERED if result.is_unanswered else MARKS[result.status]
+
+
+def judge_grade(grade: Grade) -> tuple[tuple[str, str], str]:
+    """The sign of a whole grade with its style, and the verdict in words."""
+    if grade.status == "passed":
+        return MARKS[Status.PASSED], "all right"
+    unanswered = sum(result.is_unanswered for result in grade.checks)
+    marks = {find_mark(result) for result in grade.checks}
+    rest = f", {unanswered} not answered yet" if unanswered else ""
+    if not unanswered or marks & {MARKS[Status.FAILED], MARKS[Status.ERROR]}:
+        return MARKS[Status.FAILED], f"not all right yet{rest}"
+    if MARKS[Status.PASSED] in marks:
+        return MARKS[Status.PASSED], f"all right so far{rest}"
+    return UNANSWERED, "nothing answered yet"
 
 
 def _format_warnings(warnings: Sequence[str]) -> list[Line]:
@@ -114,16 +150,14 @@ def format_receipt(exercise: Exercise, file: Path | None) -> list[Line]:
 
 
 def _format_verdict(grade: Grade) -> Line:
-    passed = grade.status == "passed"
-    mark, style = MARKS[Status.PASSED if passed else Status.FAILED]
+    (mark, style), said = judge_grade(grade)
     score = f"{grade.exercise}: {format_points(grade.score, grade.max_score)} points"
-    said = "all right" if passed else "not all right yet"
     file = f"  ({grade.file.name})" if grade.file else ""
     return (StyledText(f"{mark} {score}, {said}", f"bold {style}"), StyledText(file, "dim"))
 
 
 def _format_result(result: Result, said: set[str], *, plain: bool) -> list[Line]:
-    mark, style = MARKS[result.status]
+    mark, style = find_mark(result)
     points = format_points(result.points, result.max_points)
     if plain:
         rows = [style_line(f"{mark} {result.description}, {points} points", style)]
@@ -160,7 +194,9 @@ def list_feedback_lines(result: Result) -> list[tuple[str, str]]:
         return [("note ", result.hint)]
     if result.status is not Status.FAILED:
         return [("", result.seen)]
-    told = [("got  ", result.seen), ("try  ", result.hint)]
+    told = [("try  ", result.hint)]
+    if not result.is_unanswered:
+        told.insert(0, ("got  ", result.seen))
     if known := MISCONCEPTIONS.get(result.misconception):
         told += [("why  ", known.says), ("see  ", known.reference)]
     return told
@@ -242,8 +278,9 @@ def format_next_step(
 def find_next_step(course: Path, standings: Mapping[str, Standing]) -> tuple[str, str]:
     """The lesson to read next, or the exercise to do next.
 
-    An exercise that two lessons name, one for each of its parts, is due with the first until it has
-    been tried, and with the last until it is done.
+    The learner has reached the last lesson of which an exercise has been tried. What is left of the
+    lessons before it is due first. An exercise that two lessons name, one for each of its parts, is
+    due with the first until a later lesson is reached or it has been tried, and then with the last.
 
     Args:
         course: the course folder.
@@ -256,16 +293,18 @@ def find_next_step(course: Path, standings: Mapping[str, Standing]) -> tuple[str
     lessons = sorted((course / "lessons").glob("*.ipynb"))
     named = {one: [name for name in read_exercises(one) if name in standings] for one in lessons}
     seen: set[str] = set()
+    reached = -1
+    for place, lesson in enumerate(lessons):
+        if any(standings[name].max_score > 0 for name in {*named[lesson]} - seen):
+            reached = place
+        seen.update(named[lesson])
     for place, lesson in enumerate(lessons):
         later = {name for other in lessons[place + 1 :] for name in named[other]}
-        tried = [name for name in named[lesson] if standings[name].max_score > 0]
-        begun = bool({*tried} - seen)  # the learner has come as far as this lesson's exercises
         for name in named[lesson]:
             how = standings[name]
-            if how.is_done or (name in tried and name in later):
+            if how.is_done or (name in later and (how.max_score > 0 or place < reached)):
                 continue
-            return ("", name) if begun else (lesson.relative_to(course).as_posix(), "")
-        seen.update(named[lesson])
+            return ("", name) if place <= reached else (lesson.relative_to(course).as_posix(), "")
     return "", next((name for name, how in standings.items() if not how.is_done), "")
 
 

@@ -6,6 +6,7 @@ import shutil
 import sys
 import sysconfig
 from pathlib import Path
+from urllib.parse import quote
 
 from grader.course import Progress
 from grader.draw_cache import enable_draw_cache
@@ -14,16 +15,32 @@ from grader.exercise import list_exercises
 from grader.report import find_next_step, format_next_step, format_overview, read_exercises
 from grader.terminal import print_lines, style_line
 from sim.core.errors import BadRequest
-from sim.physics.engine import engine_is_cached, load_engine
+from sim.physics.engine import load_engine
 from sim.support.command_line import COULD_NOT, DONE
 
 # Nothing leaves the machine: no news, no look for updates, no catalogue of extensions. And no chat.
+# The folder of settings answers JupyterLab's question about news, which would cover the lesson.
 QUIET = (
+    f"--LabApp.app_settings_dir={Path(__file__).with_name('lab_settings')}",
     "--LabApp.news_url=None",
     "--LabApp.check_for_updates_class=jupyterlab.handlers.announcements.NeverCheckForUpdate",
     "--LabApp.extension_manager=readonly",
     "--log-level=ERROR",
 )
+IN_JUPYTER = ("JUPYTER_SERVER_URL", "JPY_PARENT_PID")  # of its terminals; of its kernels
+HIDDEN = (
+    "__pycache__",
+    "*.pyc",
+    "*.pyo",
+    ".DS_Store",
+    "*~",
+    "solutions",
+)  # Jupyter's own, and ours
+
+
+def is_in_jupyter() -> bool:
+    """Whether this process was started in a terminal or in a notebook of Jupyter."""
+    return any(name in os.environ for name in IN_JUPYTER)
 
 
 def start(course: Path, progress: Progress, *, student: str, lab: bool) -> int:
@@ -45,13 +62,15 @@ def start(course: Path, progress: Progress, *, student: str, lab: bool) -> int:
     print_lines([style_line("Welcome to the SysId course.", "bold"), style_line()])
     print_lines([*format_overview(course, found, progress, student=student), style_line()])
     sys.stdout.flush()
-    if not engine_is_cached():
-        _print_line("Compiling the simulation, once; this takes about twenty seconds…")
-        load_engine()
+    load_engine()  # what is compiled now, the first lesson need not wait for
     with enable_draw_cache():  # what is drawn now, the first answer need not wait for
         for one in found:
             one.prepare(student, say=_print_line)
     command = "grade"
+    if is_in_jupyter():
+        _print_line(f"Your name is {student} here. JupyterLab is open already, so stay in it.")
+        print_lines(format_next_step(course, found, progress, student=student))
+        return DONE
     if not _is_on_path(command):
         command = "python -m grader"
         if sys.prefix != sys.base_prefix:
@@ -107,10 +126,21 @@ def _open_lab(course: Path, what: Path) -> int:
     sys.stdout.flush()
     scripts = sysconfig.get_path("scripts")
     paths = os.pathsep.join(part for part in (scripts, os.environ.get("PATH", "")) if part)
-    root = f"--ServerApp.root_dir={course}"  # else it shows the lessons' folder alone
-    command = [sys.executable, "-m", "jupyterlab", *QUIET, *choose_root_option(), root, place]
+    address = "/lab" if what == course else f"/lab/tree/{quote(place)}"
+    command = [
+        *(sys.executable, "-m", "jupyterlab", *QUIET, *choose_root_option()),
+        f"--ServerApp.root_dir={course}",
+        f"--LabApp.default_url={address}",  # what the browser opens, and the terminal shows
+        *(f"--ContentsManager.hide_globs={name}" for name in _list_hidden_names(course)),
+    ]
     code = run_process(command, cwd=course, env={**os.environ, "PATH": paths})
     return DONE if code in {DONE, INTERRUPTED} else COULD_NOT
+
+
+def _list_hidden_names(course: Path) -> list[str]:
+    """What JupyterLab's list of files leaves out: solutions, and a lesson's second file."""
+    lessons = sorted((course / "lessons").glob("*.ipynb"))
+    return [*HIDDEN, *(lesson.with_suffix(".py").name for lesson in lessons)]
 
 
 def _print_line(text: str) -> None:

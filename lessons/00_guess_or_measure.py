@@ -655,17 +655,18 @@ Table(
 #
 # ### Say who you are
 #
-# Type this command once in a terminal, with your own name (in a class, use the name your teacher
-# uses):
+# The course asked for your name when you started it. The name gives you your own numbers in every
+# exercise: your own mechanism and your own log. Your neighbor has other answers, but you can
+# compare *how* you found your answers. Your numbers are in
+# `exercises/exercise1/data/YOUR-NAME/given.toml`, and so on. (`NAME` at the top of this page is for
+# the race only.)
+#
+# If you gave no name, type this once in a terminal of JupyterLab (in a class, use the name your
+# teacher uses):
 #
 # ```
 # grade start --student ada
 # ```
-#
-# From then on, every exercise gives you your own numbers: your own mechanism and your own log. Your
-# neighbor has other answers, but you can compare *how* you found your answers. Your numbers are in
-# `exercises/exercise1/data/ada/given.toml`, and so on. (`NAME` at the top of this page is for the
-# race only.)
 #
 # The next cell shows which data you have:
 
@@ -777,26 +778,31 @@ quick
 #
 # **Exercise 11** ([exercises/exercise11/README.md](../exercises/exercise11/README.md)) has the
 # knowledge checks of the whole course. Its first three questions, under *Guessing and measuring*,
-# are about this page. Answer these three now, and leave the other questions empty until lesson 8.
-# In a terminal, type:
+# are about this page. Answer these three now, and leave the other questions empty until lesson 8:
+# an empty answer is no mistake. Choose below, then click the button.
+
+# %%
+from grader import ExerciseQuestions
+
+ExerciseQuestions("exercise11", "Q0_guess", "Q0_sysid", "Q0_brace")
+
+# %% [markdown]
+# The button writes your answers into `exercises/exercise11/answers.toml`. You can also write the
+# letters into that file with an editor: the questions are in
+# `exercises/exercise11/data/YOUR-NAME/questions.md`. Then grade the file in a terminal:
 #
 # ```
 # grade exercise11
 # ```
 #
-# You can also answer in a notebook. The questions are in
-# `exercises/exercise11/data/YOUR-NAME/questions.md`. Write the letters of your answers in place of
-# the dots:
+# `grade watch exercise11` grades the file each time you save it. Hints cost nothing:
+# `grade exercise11 --hint`. In a notebook, this line writes the letters and grades them:
 #
 # ```python
 # from grader import submit
 #
 # submit("exercise11", Q0_guess="...", Q0_sysid="...", Q0_brace="...")
 # ```
-#
-# `submit` writes your answers into `exercises/exercise11/answers.toml` and shows the result. You
-# can also write into that file with an editor, and start `grade watch exercise11` in a terminal.
-# This command grades the file each time you save it. Hints cost nothing: `grade exercise11 --hint`.
 #
 # <details><summary>More, if you like</summary>
 #

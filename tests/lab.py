@@ -42,7 +42,7 @@ def serving(home):
     token = secrets.token_hex(16)
     with (home / "lab.log").open("wb") as log:
         server = subprocess.Popen(
-            _command(home, token), env=_environment(home), stdout=log, stderr=log
+            _command(home, token), env=make_environment(home), stdout=log, stderr=log
         )
     try:
         yield f"http://127.0.0.1:{_port(home, server)}/lab/tree/{{name}}?token={token}"
@@ -53,12 +53,22 @@ def serving(home):
         server.kill()
 
 
-def run_all(page, address):
-    """Open a notebook, choose Run > Run All Cells, and wait until the last cell is done."""
+def open_notebook(page, address):
+    """Open a notebook, and wait until its kernel is there."""
     page.goto(address)
-    page.locator("#jp-main-statusbar").get_by_text("| Idle").wait_for()  # the kernel is there
+    page.locator("#jp-main-statusbar").get_by_text("| Idle").wait_for()
+
+
+def choose_run_all(page):
+    """Choose Run > Run All Cells."""
     page.locator(".lm-MenuBar-itemLabel", has_text="Run").first.click()
     page.locator(".lm-Menu-itemLabel").get_by_text("Run All Cells", exact=True).click()
+
+
+def run_all(page, address):
+    """Open a notebook, choose Run > Run All Cells, and wait until the last cell is done."""
+    open_notebook(page, address)
+    choose_run_all(page)
     page.wait_for_function(
         """() => {
             const shown = '.jp-CodeCell .jp-InputPrompt:not(.jp-Placeholder-prompt)';
@@ -164,7 +174,7 @@ def _command(home, token):
     ]
 
 
-def _environment(home):
+def make_environment(home):
     """Everything Jupyter writes goes below ``home``; the project can be imported."""
     paths = [str(ROOT), os.environ.get("PYTHONPATH", "")]
     return os.environ | {

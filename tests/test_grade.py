@@ -12,7 +12,7 @@ from small_course import HALF, RIGHT, answer, lay_out
 from grader.cli import run_command
 from grader.course import Standing
 from grader.exercise import find_exercise
-from grader.report import find_next_step, format_points, format_receipt
+from grader.report import SPOKEN, find_next_step, format_checks, format_points, format_receipt
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -53,6 +53,30 @@ def test_a_wrong_answer_is_told_what_was_seen_why_and_what_to_try(course, capsys
     reads(out)
     assert max(map(len, out.splitlines())) <= 80
     assert "\x1b" not in out
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "verdict"),
+    [
+        (1, 0, "✓ exercise11: 1 of 39 points, all right so far, {} not answered yet"),
+        (1, 1, "✗ exercise11: 1 of 39 points, not all right yet, {} not answered yet"),
+        (0, 0, "○ exercise11: 0 of 39 points, nothing answered yet"),
+    ],
+    ids=["right", "one wrong", "none"],
+)
+def test_what_is_not_answered_yet_is_no_mistake(root, tmp_path, right, wrong, verdict):
+    file = tmp_path / "answers.toml"
+    answers = ['Q0_sysid = ""', *['Q0_guess = "With which gain does"'] * right]
+    answers += ['KC2_volts = "x"'] * wrong
+    file.write_text("\n".join(answers), "utf-8")
+    grade = find_exercise("11", root).grade(file, student="ann")
+    lines = ["".join(span.text for span in row) for row in format_checks(grade)]
+    signs = [line[0] for line in lines[1:] if line[:1] in {*SPOKEN}]
+
+    assert lines[0].startswith(verdict.format(len(grade.checks) - right - wrong))
+    assert (signs.count("✓"), signs.count("✗")) == (right, wrong)
+    assert signs.count("○") == 2  # the next question, and how many more there are
+    assert not any("nothing yet" in line for line in lines)
 
 
 def test_json_has_these_keys_and_no_others(course, capsys):
@@ -275,8 +299,16 @@ def test_without_a_name_it_shows_how_far_one_is_and_what_is_next(course, capsys,
             {f"exercise{number}": "done" for number in range(1, 11)} | {"exercise11": "tried"},
             ("", "exercise11"),
         ),
+        (
+            {f"exercise{number}": "done" for number in range(1, 7)},
+            ("lessons/06_read_the_data.ipynb", ""),
+        ),
+        ({"exercise1": "done", "exercise3": "tried"}, ("", "exercise2")),
     ],
-    ids=["new", "lesson 0", "half", "the second", "lesson 2", "part (b)", "the rest of 11"],
+    ids=[
+        *("new", "lesson 0", "half", "the second", "lesson 2", "part (b)", "the rest of 11"),
+        *("lesson 0 passed over", "an exercise passed over"),
+    ],
 )
 def test_the_next_step_is_one_lesson_or_one_exercise(root, standings, step):
     score = {"done": 2.0, "tried": 1.0}

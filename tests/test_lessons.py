@@ -17,6 +17,7 @@ import numpy as np
 import pytest
 from jupyter_client.kernelspec import KernelSpecManager
 
+import grader
 import sim
 from grader.edition import SLIDES, VIEW, convert_notebook, execute_notebook
 from sim.bench.simulate import simulate
@@ -31,7 +32,7 @@ ASSUMED = (  # INSTRUCTORS.md's sentence about how the minutes are calculated
     r"that moves or has sliders, and (\d+) seconds for any other picture or table"
 )
 PICTURE = '<figure><img alt="a picture"></figure><table></table>'  # with the table of its numbers
-QUESTION = r"\b(?:Prediction|Quick(?:Number)?Check)\("
+QUESTION = r"\b(?:Prediction|Quick(?:Number)?Check|ExerciseQuestions)\("
 SCREENFUL = 40  # [lines] of a function; what is longer belongs into sim
 DERIVE = "run  python .ci/derive_notebooks.py  and commit the notebook with its text"
 
@@ -434,7 +435,7 @@ def test_a_lesson_uses_only_public_names_and_short_functions(text):
         if isinstance(node, ast.ImportFrom):
             names = {name.name for name in node.names}
             assert not node.module.startswith("grader.")
-            assert node.module != "grader" or names <= {"QuickCheck", "QuickNumberCheck", "submit"}
+            assert node.module != "grader" or names <= {*grader.__all__}
             assert not [name.name for name in node.names if name.name.startswith("_")]
         if isinstance(node, ast.Attribute):
             assert not node.attr.startswith("_")

@@ -1,6 +1,11 @@
 """The lessons as a learner meets them: JupyterLab in a real browser, offline, in both themes."""
 
 import io
+import re
+import shutil
+import subprocess
+import sys
+import time
 from urllib.parse import urlsplit
 
 import numpy as np
@@ -11,7 +16,10 @@ from lab import (
     OFTEN,
     PATIENCE,
     SCREEN,
+    choose_run_all,
     knobs,
+    make_environment,
+    open_notebook,
     outputs,
     panels,
     run_all,
@@ -23,6 +31,7 @@ TEXTS = (
     ".jp-OutputArea td, .jp-OutputArea th, .jp-OutputArea caption, .jp-OutputArea summary, "
     ".jp-OutputArea .widget-label, .jp-RenderedMarkdown p"
 )
+ADDRESS = re.compile(r"http://127\S+token=\w+")
 HOME = {"127.0.0.1", "localhost"}
 
 pytestmark = pytest.mark.browser
@@ -56,6 +65,49 @@ def test_a_lesson_runs_in_a_browser_without_the_network(lesson, address, browser
     page.close()
     assert hosts - {None} <= HOME  # a data: address has no host
     assert complaints == []
+
+
+@pytest.fixture
+def printed(tmp_path):
+    """The address that ``grade start`` prints, in a course with all lessons and no exercise."""
+    for name in ("exercises", "lessons", "solutions"):
+        (tmp_path / name).mkdir()
+    for lesson in LESSONS:
+        for path in (lesson, lesson.with_suffix(".py")):
+            shutil.copy(path, tmp_path / "lessons")
+    process = subprocess.Popen(
+        [sys.executable, "-m", "grader", "start"],
+        cwd=tmp_path,
+        env=make_environment(tmp_path) | {"BROWSER": str(tmp_path / "none")},  # it opens no window
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        encoding="utf-8",
+    )
+    try:
+        yield next(filter(None, map(ADDRESS.search, process.stdout)))[0]
+    finally:
+        process.terminate()
+        process.communicate(timeout=20)
+
+
+def test_a_newcomer_soon_sees_something_move(printed, browser):
+    page = browser.new_page(viewport=SCREEN)
+    page.set_default_timeout(PATIENCE)
+    begun = time.monotonic()
+    open_notebook(page, printed)
+    there = time.monotonic()
+    choose_run_all(page)
+    page.locator(".jp-OutputArea svg[role=img]").first.wait_for()
+    moving = time.monotonic()
+    took = f"open after {there - begun:.1f} s, moving {moving - there:.1f} s later"
+    print(f"lesson 0: {took}")  # noqa: T201 - a figure to read; a busy machine may take longer
+
+    assert page.url.endswith(f"/lab/tree/lessons/{LESSONS[0].name}")
+    listed = page.locator(".jp-DirListing-itemText").all_inner_texts()
+    assert listed == [lesson.name for lesson in LESSONS]
+    assert page.get_by_text("Jupyter news").count() == 0
+    page.close()
 
 
 def _check_pictures(page):

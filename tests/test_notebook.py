@@ -4,15 +4,20 @@ import json
 import shutil
 import subprocess
 import sys
+import tomllib
 
 import numpy as np
 import pytest
 from page_flaws import page_flaws
 from small_course import HALF, RIGHT, answer, lay_out
 
-from grader import submit
+from grader import ExerciseQuestions, submit
+from grader.check import Status
 from grader.cli import run_command
 from grader.course import load_progress
+from grader.exercise import find_exercise
+from grader.notebook import STYLE, write_answers
+from sim.core.errors import BadRequest
 
 STARTER = '# Measure it.\nsize = ""  # in units\ncolor = "" # a word\n'
 PAGE = "<!DOCTYPE html><html lang='en'><head><title>t</title></head><body>{}</body></html>"
@@ -39,6 +44,92 @@ def test_answers_go_into_the_file_and_its_comments_stay(course):
     submit(1, COLOR="green")
     assert 'color = "green" # a word' in text_of(course)
     assert load_progress(course)[0].find_standing("me", "exercise1").is_done
+
+
+@pytest.fixture
+def exercise12(root, tmp_path):
+    """A copy of the exercise that asks for effects, each with parameters of its own."""
+    shutil.copytree(
+        root / "exercises" / "exercise12",
+        tmp_path / "exercises" / "exercise12",
+        ignore=shutil.ignore_patterns("data", "__pycache__"),
+    )
+    return find_exercise("exercise12", tmp_path)
+
+
+def test_parameters_of_an_effect_go_below_its_name(exercise12):
+    effects = {"effects": ["delay", "velocity-filter"], "velocity_filter": {"lag": "20 ms"}}
+    write_answers(exercise12, effects | {"delay": {"lag": np.float64(0.02)}, "gap_before": 6.5})
+    write_answers(exercise12, {"delay": {"lag": 0.03}})
+    text = (exercise12.folder / "answers.toml").read_text("utf-8")
+
+    assert "# with gains alone" in text
+    assert "delay.lag = 0.03\n" in text
+    assert 'velocity-filter.lag = "20 ms"\n' in text
+    assert tomllib.loads(text)["effects"] == effects["effects"]
+
+
+@pytest.mark.parametrize(
+    ("answers", "said"),
+    [
+        ({"delay": 0.03}, 'Write it in this form: delay={"lag": 0.03}'),
+        ({"gap_before": {"lag": 1}}, "Write it in this form: gap_before=0.03"),
+        ({"delai": {"lag": 1}}, "Did you mean delay?"),
+        ({"delay": {"lag": object()}}, "cannot be written down"),
+    ],
+)
+def test_a_parameter_that_cannot_be_one_is_refused(exercise12, answers, said):
+    before = (exercise12.folder / "answers.toml").read_text("utf-8")
+
+    with pytest.raises(BadRequest) as refused:
+        write_answers(exercise12, answers)
+    assert said in str(refused.value)
+    assert (exercise12.folder / "answers.toml").read_text("utf-8") == before
+
+
+@pytest.fixture
+def questions(root, tmp_path, monkeypatch):
+    """Two questions of exercise 11 as buttons, in a course of its own."""
+    folder = tmp_path / "exercises" / "exercise11"
+    without = shutil.ignore_patterns("data", "__pycache__")
+    shutil.copytree(root / "exercises" / "exercise11", folder, ignore=without)
+    (tmp_path / "lessons").mkdir()
+    monkeypatch.chdir(tmp_path)
+    return ExerciseQuestions("exercise11", "Q0_guess", "Q0_brace")
+
+
+def test_buttons_write_the_letter_of_the_chosen_option(questions, tmp_path):
+    _, _, brace, gains, button, graded = questions._box.children
+    gains.value = next(letter for text, letter in gains.options if text == "kA")
+    button.click()
+    written = tomllib.loads((tmp_path / "exercises/exercise11/answers.toml").read_text("utf-8"))
+
+    assert "a steel brace" in brace.value
+    assert written["Q0_brace"] == gains.value
+    assert written["Q0_guess"] == ""
+    assert "1 of 39 points, all right so far" in graded.value
+    assert "a steel brace" in questions._repr_mimebundle_()["text/plain"]
+
+
+def test_buttons_without_a_course_say_what_is_missing(tmp_path):
+    alone = ExerciseQuestions("exercise11", "Q0_guess", course=tmp_path)
+    button, said = alone._box.children
+
+    assert button.disabled
+    assert "there is no exercise" in said.value
+
+
+def test_a_cell_counts_what_is_not_answered_yet(root, tmp_path, monkeypatch):
+    folder = tmp_path / "exercises" / "exercise11"
+    shutil.copytree(root / "exercises" / "exercise11", folder)
+    (tmp_path / "lessons").mkdir()
+    monkeypatch.chdir(tmp_path)
+    shown = submit(11, Q0_guess="With which gain does")
+    count = len(shown.grade.checks)
+
+    assert f"all right so far, {count - 1} not answered yet" in shown.html
+    assert f"{count - 2} more not answered yet" in shown.html
+    assert STYLE[Status.FAILED] not in shown.html
 
 
 @pytest.mark.parametrize("text", [RIGHT, HALF, "size = 1\n"])

@@ -1,5 +1,6 @@
 """`grade start`: where one stands first, then the data, then JupyterLab."""
 
+import io
 import json
 import os
 import subprocess
@@ -58,6 +59,8 @@ def course(tmp_path, monkeypatch):
     for name in ("01_motor.ipynb", "00_guess.ipynb"):
         (tmp_path / "lessons" / name).write_text("{}", "utf-8")
     monkeypatch.chdir(tmp_path)
+    for name in starting.IN_JUPYTER:
+        monkeypatch.delenv(name, raising=False)
     monkeypatch.setattr(exec_process.subprocess, "Popen", Lab)
     monkeypatch.setattr(Lab, "ends", (0,))
     monkeypatch.setattr(Lab, "command", ())
@@ -88,12 +91,68 @@ def test_who_one_is_is_remembered(course, capsys):
     assert "(ann)" in capsys.readouterr().out
 
 
+class Keyboard(io.StringIO):
+    """What somebody types on a terminal."""
+
+    def isatty(self):
+        """It is a terminal."""
+        return True
+
+
+@pytest.mark.parametrize(("typed", "name"), [("ann\n", "ann"), ("\n", "me"), ("a/b\nann\n", "ann")])
+def test_the_first_start_on_a_terminal_asks_for_the_name(course, monkeypatch, capsys, typed, name):
+    monkeypatch.setattr(sys, "stdin", Keyboard(typed))
+
+    assert run_command(["start"]) == 0
+    assert f"made for {name}\n" in capsys.readouterr().out
+    assert load_progress(course)[0].student == name
+
+
+@pytest.mark.parametrize("arguments", [["--no-lab"], ["--student", "ann"]])
+@pytest.mark.usefixtures("course")
+def test_a_script_or_a_second_start_asks_nothing(monkeypatch, arguments):
+    monkeypatch.setattr(sys, "stdin", Keyboard(""))  # a question would find its end
+
+    assert run_command(["start", *arguments]) == 0
+    run_command(["start", "--no-lab", "--student", "ann"])
+    assert run_command(["start"]) == 0
+
+
+@pytest.mark.parametrize("variable", starting.IN_JUPYTER)
+def test_inside_jupyter_it_changes_the_name_and_opens_nothing(
+    course, monkeypatch, capsys, variable
+):
+    monkeypatch.setenv(variable, "1")
+
+    assert run_command(["start", "--student", "ada"]) == 0
+    assert Lab.command == ()
+    assert load_progress(course)[0].student == "ada"
+    assert "Your name is ada here." in capsys.readouterr().out
+
+
+@pytest.mark.usefixtures("course")
+def test_a_notebook_cell_is_asked_nothing(monkeypatch, capsys):
+    monkeypatch.setattr(sys, "stdin", Keyboard(""))
+    monkeypatch.setenv("JPY_PARENT_PID", "1")
+
+    assert run_command(["start"]) == 0
+    assert "Your name is me here." in capsys.readouterr().out
+
+
+def test_the_list_of_files_shows_each_lesson_once_and_no_solutions(course):
+    run_command(["start"])
+    hidden = [part.partition("hide_globs=")[2] for part in Lab.command if "hide_globs" in part]
+
+    assert course.is_dir()
+    assert {"00_guess.py", "01_motor.py", "solutions", "__pycache__"} <= {*hidden}
+
+
 def test_jupyterlab_opens_the_first_lesson_and_keeps_to_itself(course):
     assert run_command(["start"]) == 0
 
     assert Lab.command[:3] == (sys.executable, "-m", "jupyterlab")
-    assert Lab.command[-1] == "lessons/00_guess.ipynb"
     assert {
+        "--LabApp.default_url=/lab/tree/lessons/00_guess.ipynb",
         "--LabApp.news_url=None",
         "--LabApp.check_for_updates_class=jupyterlab.handlers.announcements.NeverCheckForUpdate",
         "--LabApp.extension_manager=readonly",
@@ -149,7 +208,7 @@ def test_without_lessons_it_opens_the_course_itself(course):
         lesson.unlink()
 
     assert run_command(["start"]) == 0
-    assert Lab.command[-1] == "."
+    assert "--LabApp.default_url=/lab" in Lab.command
 
 
 @pytest.mark.usefixtures("course")
@@ -168,6 +227,15 @@ def test_each_system_is_told_its_own_way_to_activate():
 
     assert starting.describe_activation(place, windows=False) == f"source {place}/bin/activate"
     assert starting.describe_activation(place, windows=True) == rf"{place}\Scripts\activate"
+
+
+def test_jupyterlab_does_not_ask_whether_to_fetch_news():
+    settings = pytest.importorskip("jupyterlab_server.settings_utils")
+    folder = Path(starting.__file__).with_name("lab_settings")
+    found, problem = settings._get_overrides(str(folder))  # as JupyterLab reads them
+
+    assert found["@jupyterlab/apputils-extension:notification"]["fetchNews"] == "false"
+    assert problem == ""
 
 
 def test_jupyterlab_knows_the_settings_that_keep_it_quiet():

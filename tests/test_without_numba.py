@@ -106,3 +106,16 @@ def test_an_effect_without_numba_does_not_stop_at_what_is_undefined():
 
 def _swing(x):
     return math.cos(x)
+
+
+def test_a_notebook_says_why_its_first_simulation_takes_long(monkeypatch, capsys):
+    from sim.physics import engine  # noqa: PLC0415 - its private functions are replaced here
+
+    monkeypatch.setitem(sys.modules, "ipykernel", None)  # as in a kernel
+    monkeypatch.setattr(engine, "engine_can_compile", lambda: True)
+    monkeypatch.setattr(engine, "compose_engine", lambda _: "compiled")
+    for cached, said in ((False, 1), (True, 0)):
+        monkeypatch.setattr(engine, "engine_is_cached", lambda cached=cached: cached)
+
+        assert engine._build_engine.__wrapped__() == "compiled"
+        assert capsys.readouterr().out.count("Compiling the simulation, once") == said

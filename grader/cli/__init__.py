@@ -4,6 +4,7 @@ Exit codes: 0 full marks, 1 not all right yet, 2 could not do it (one line says 
 """
 
 import importlib.util
+import os
 import sys
 from dataclasses import replace
 from importlib import import_module
@@ -193,7 +194,7 @@ def start(folder: Path | None, student: str | None, *, no_lab: bool) -> int:
     For example: grade start my-course
     """
     from grader.class_package import read_class_package  # noqa: PLC0415 - the same
-    from grader.course import update_progress  # noqa: PLC0415 - --help has to start at once
+    from grader.course import Progress, update_progress  # noqa: PLC0415 - --help has to start at once
     from grader.start import start as begin  # noqa: PLC0415 - the same
 
     if folder is not None:
@@ -203,10 +204,29 @@ def start(folder: Path | None, student: str | None, *, no_lab: bool) -> int:
             _print_message(f"lessons and exercises are in {folder}. Grade inside it: cd {folder}")
     folder, progress, who = locate_course(student, inside=folder)
     of_class = read_class_package(folder)
+    if student is None and not no_lab and of_class is None and progress == Progress():
+        who = _ask_name(who)
     if who != progress.student and (of_class is None or of_class.is_for(who)):
         progress = replace(progress, student=who)
         _print_message(update_progress(folder, lambda now: replace(now, student=who)))
     return begin(folder, progress, student=who, lab=not no_lab)
+
+
+def _ask_name(known: str) -> str:
+    """Who is learning, typed on the terminal; ``known`` where nobody can type."""
+    from grader.variant import check_student_name  # noqa: PLC0415 - the same
+
+    if not sys.stdin.isatty() or "JPY_PARENT_PID" in os.environ:  # a notebook cell takes no typing
+        return known
+
+    def read_name(typed: str) -> str:
+        try:
+            return check_student_name(typed.strip())
+        except BadRequest as refusal:
+            raise click.UsageError(str(refusal)) from None
+
+    question = "Your name, which decides your numbers (in a class, as your teacher writes it)"
+    return click.prompt(question, default=known, value_proc=read_name)
 
 
 def locate_course(

@@ -296,13 +296,15 @@ def _compiled_engine() -> "Kernel | ModuleType":
 def _build_engine() -> "Kernel | ModuleType":
     """The compiled engine, or the uncompiled one if Numba is missing.
 
-    A message on the terminal says why the first use takes long.
+    A message on the terminal or in the notebook says why the first use takes long.
     """
     if not engine_can_compile():
         return _plain_engine()
     try:
-        if sys.stderr.isatty() and not engine_is_cached():
-            sys.stderr.write("Compiling the simulation, once; this takes about twenty seconds…\n")
+        stream = sys.stdout if "ipykernel" in sys.modules else sys.stderr  # red in a notebook
+        if (stream is sys.stdout or stream.isatty()) and not engine_is_cached():
+            stream.write("Compiling the simulation, once; this takes about twenty seconds…\n")
+            stream.flush()
         return compose_engine(EFFECTS)
     except ImportError:  # Numba refuses a NumPy that is newer than itself
         return _plain_engine()
