@@ -285,11 +285,6 @@ WRONG = {  # the change, the check that has to fail, and what its author is told
         "drive",
         "m_left gets",
     ),
-    "a comment that ends where javac says": (
-        (SENT, f"{SENT} // \\u000a m_left.setVoltage(0);"),
-        "drive",
-        "m_left gets no voltage",
-    ),
     "the name of one side for the other": (
         ('log.motor("right")', 'log.motor("left")'),
         "log",

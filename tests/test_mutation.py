@@ -13,7 +13,7 @@ from mutation.report import all_mutants, legal_variants, survey
 
 from grader.exercise import find_exercise
 from grader.robotcode.java.program import Program
-from grader.robotcode.java.run import allow_deep_calls
+from grader.robotcode.java.steps import allow_deep_calls
 
 BASES = Path(__file__).resolve().parent / "mutation" / "bases"
 EXERCISES = ("exercise4", "exercise5", "exercise10")

@@ -4,7 +4,7 @@ import enum
 import functools
 import keyword
 import types
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 from grader.robotcode.java import collections, lang, streams, text, type_names, values
@@ -97,7 +97,7 @@ def find_caller(cls: type, name: str, kinds: Sequence[str]) -> Call:
     table = _table(cls)
     if table is not None and (name in table or not issubclass(cls, enum.Enum)):
         if name not in table:
-            raise NoSuchMember(f"{type_names.type_name(cls)} has no {name}()")
+            raise no_member(cls, f"{name}()", table)
         method = (
             checked(table[name]) if isinstance(table[name], types.FunctionType) else table[name]
         )
@@ -129,7 +129,14 @@ def find_caller(cls: type, name: str, kinds: Sequence[str]) -> Call:
             return lambda value, args: find_caller(java, name, kinds)(java(value), args)
     if any("__call__" in vars(base) for base in cls.__mro__) and name in streams.FUNCTIONAL:
         return lambda value, args: value(*args)
-    raise NoSuchMember(f"{type_names.type_name(cls)} has no {name}()")
+    raise no_member(cls, f"{name}()", dir(cls))
+
+
+def no_member(cls: type, name: str, known: Iterable[str]) -> NoSuchMember:
+    """The error of a member that a class does not have, with the one that was meant."""
+    names = [one for one in known if not one.startswith(("_", "fake_", "java"))]
+    near = type_names.did_you_mean(name.removesuffix("()"), names)
+    return NoSuchMember(f"{type_names.type_name(cls)} has no {name}{near}")
 
 
 def _table(cls: type) -> dict[str, Callable[..., Any]] | None:
@@ -162,9 +169,8 @@ def _call_function(function: Function, name: str, args: Sequence[Any]) -> Any:
             result = function(*method.bind(args, spread=False))
             return method.owner.convert("" if method.returns == "void" else method.returns, result)
         return function(*args)
-    attribute = python_name(name)
-    if attribute in streams.FUNCTION_METHODS and name not in streams.FUNCTIONAL:
-        return streams.FUNCTION_METHODS[attribute](function, *args)
+    if name in streams.DEFAULT_METHODS:
+        return Unknown(f"{name}()")
     named = getattr(interface, "__name__", "Double" if name == "applyAsDouble" else "")
     kind = next((kind for start, kind in TAKEN.items() if named.startswith(start)), "")
     result = function(*(values.convert(kind, one) if kind else one for one in args))
@@ -259,7 +265,7 @@ def _static_member(cls: Any, name: str) -> Any:
             return getattr(cls, attribute)
         if isinstance(cls, FakeType):
             return FakeType.__getattr__(cls, attribute)
-    raise NoSuchMember(f"{cls.__name__} has no {name}")
+    raise no_member(cls, f"{name}()", dir(cls))
 
 
 def _no_method(found: Any, name: str) -> Any:
