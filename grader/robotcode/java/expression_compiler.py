@@ -5,7 +5,7 @@ import functools
 import inspect
 import operator
 import types
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 from tree_sitter import Node
@@ -255,18 +255,21 @@ class ExpressionCompiler(StaticTypes):
 
     def _imported(self, name: str) -> Code | None:
         """A field that a static import brings."""
-        for one in self.owner.unit.imports:
-            if not one.static or not (one.star or one.name == name):
-                continue
-            full = one.full if one.star else one.full.rpartition(".")[0]
-            cls = self.program.load(full)
-            if cls is None:
-                self.program.unknown.setdefault(full, one.at)
-                return _constant_of(Unknown(name))
+        for cls, _ in self._static_imports(name):
             code = self._static_member(cls, name)
             if code is not None:
                 return code
         return None
+
+    def _static_imports(self, name: str) -> Iterator[tuple[Any, bool]]:
+        """The classes of which a static import may bring a name, and whether it says the name."""
+        for one in self.owner.unit.imports:
+            if one.static and (one.star or one.name == name):
+                full = one.full if one.star else one.full.rpartition(".")[0]
+                cls = self.program.load(full)
+                if cls is None:
+                    self.program.unknown.setdefault(full, one.at)
+                yield Unknown(full) if cls is None else cls, not one.star
 
     def _static_member(self, cls: Any, name: str) -> Code | None:
         """A static field of a class; None if it has none of this name."""
@@ -786,15 +789,10 @@ class ExpressionCompiler(StaticTypes):
             if found is not None or (one.form == "enum" and name in ENUM_STATICS):
                 return self._static_call(one, name, args, node)
             one = one.outer
-        for imported in self.owner.unit.imports:
-            if imported.static and (imported.star or imported.name == name):
-                full = imported.full if imported.star else imported.full.rpartition(".")[0]
-                cls = self.program.load(full)
-                if cls is None:
-                    self.program.unknown.setdefault(full, imported.at)
-                    return Code(lambda _env: Unknown(name))
-                if not imported.star or runtime.find_attribute(python_class(cls), name) is not None:
-                    return self._static_call(cls, name, args, node)
+        for cls, said in self._static_imports(name):
+            sure = said or isinstance(cls, Unknown)
+            if sure or runtime.find_attribute(python_class(cls), name) is not None:
+                return self._static_call(cls, name, args, node)
         if self.frame.static:
             return self.refuse(unknown_name("method", name, member_names(self.owner), ""), node)
         base = self.owner.library_base
@@ -1104,10 +1102,6 @@ def write_place(place: tuple[Any, Any], value: Any) -> None:
 
 def _label(cls: Any) -> str:
     return str(cls.name if isinstance(cls, JavaClass) else cls.__name__)
-
-
-def _constant_of(value: Any) -> Code:
-    return Code(lambda _env: value)
 
 
 def _this_of(reach: Callable[[Env], Env]) -> Run:
