@@ -3,7 +3,6 @@
 import difflib
 import functools
 import inspect
-import operator
 import types
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
@@ -48,25 +47,26 @@ NEARLY = 0.84  # how much of two names has to agree, from 0 to 1
 UNITS, UNITS_2027 = "edu.wpi.first.units.Units", "org.wpilib.units.Units"
 ENUM_STATICS = frozenset({"values", "valueOf"})
 LONGEST_TEXT = 60  # [characters] of code that is cited
-ARITHMETIC: dict[str, tuple[Callable[..., Any], Callable[..., Any] | None]] = {
-    # sign -> in Java's arithmetic, and the same for two doubles
-    "+": (values.add, operator.add),
-    "-": (values.subtract, operator.sub),
-    "*": (values.multiply, operator.mul),
-    "/": (values.divide, None),
-    "%": (values.remainder, None),
-    "<<": (values.shift_left, None),
-    ">>": (values.shift_right, None),
-    ">>>": (values.shift_unsigned, None),
-    "&": (values.bit_and, None),
-    "|": (values.bit_or, None),
-    "^": (values.bit_xor, None),
+OPERATORS: dict[str, Callable[..., Any]] = {
+    "+": values.add,
+    "-": values.subtract,
+    "*": values.multiply,
+    "/": values.divide,
+    "%": values.remainder,
+    "<<": values.shift_left,
+    ">>": values.shift_right,
+    ">>>": values.shift_unsigned,
+    "&": values.bit_and,
+    "|": values.bit_or,
+    "^": values.bit_xor,
 }
-COMPARISONS = {
-    "<": (values.less, operator.lt),
-    "<=": (values.less_equal, operator.le),
-    ">": (values.greater, operator.gt),
-    ">=": (values.greater_equal, operator.ge),
+COMPARISONS: dict[str, Callable[..., Any]] = {
+    "<": values.less,
+    "<=": values.less_equal,
+    ">": values.greater,
+    ">=": values.greater_equal,
+    "==": values.same,
+    "!=": values.differ,
 }
 
 
@@ -415,35 +415,15 @@ class ExpressionCompiler(StaticTypes):
         a, b = left.run, right.run
         kinds = BOXES.get(left.kind, left.kind), BOXES.get(right.kind, right.kind)
         if sign in {"&&", "||"}:
-            run = (
-                (lambda env: a(env) and b(env)) if sign == "&&" else (lambda env: a(env) or b(env))
-            )
-            return Code(run, "boolean")
-        if sign in {"==", "!="}:
-            same = values.same
-            if sign == "==":
-                return Code(lambda env: same(a(env), b(env)), "boolean")
+            both = sign == "&&"
+            return Code(lambda env: (a(env) and b(env)) if both else (a(env) or b(env)), "boolean")
+        exact, at = OPERATORS.get(sign) or COMPARISONS[sign], self.at(node)
 
-            def differ(env: Env) -> Any:
-                equal = same(a(env), b(env))
-                return equal if isinstance(equal, Unknown) else not equal
+        def run(env: Env) -> Any:
+            one, other = a(env), b(env)
+            STATE.at = at
+            return exact(one, other)
 
-            return Code(differ, "boolean")
-        exact, fast = ARITHMETIC.get(sign) or COMPARISONS[sign]
-        doubles = "double" in kinds and all(
-            one in {"double", "int", "short", "byte"} for one in kinds
-        )
-        at = self.at(node)
-        if doubles and fast is not None:
-            run = lambda env: fast(a(env), b(env))
-        elif sign in "/%":
-
-            def run(env: Env) -> Any:
-                one, other = a(env), b(env)
-                STATE.at = at
-                return exact(one, other)
-        else:
-            run = lambda env: exact(a(env), b(env))
         kind = "boolean" if sign in COMPARISONS else promoted(sign, *kinds)
         if (
             left.constant is not MISSING

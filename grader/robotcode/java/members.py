@@ -49,13 +49,7 @@ def declare_members(owner: JavaClass) -> None:
         for name, kind in owner.components:
             _give(owner, name, [], kind, _reader(name))
         _give(owner, "toString", [], "String", _describe_record)
-        _give(
-            owner,
-            "hashCode",
-            [],
-            "int",
-            lambda this: values.hash_items(map(values.hash_code, _components(this))),
-        )
+        _give(owner, "hashCode", [], "int", _hash_record)
         _give(owner, "equals", ["Object"], "boolean", _equal_records)
 
 
@@ -148,6 +142,10 @@ def _describe_record(this: Any) -> str:
         for name, one in zip(names, _components(this), strict=True)
     )
     return f"{type(this).java.name}[{', '.join(shown)}]"
+
+
+def _hash_record(this: Any) -> int:
+    return values.hash_items(map(values.hash_code, _components(this)))
 
 
 def _equal_records(this: Any, other: Any) -> bool:

@@ -479,6 +479,12 @@ def same(a: Any, b: Any) -> Any:
     return a is b or (type(a) is type(b) and type(a) in (str, bool) and a == b)
 
 
+def differ(a: Any, b: Any) -> Any:
+    """Java's ``!=``."""
+    equal = same(a, b)
+    return equal if isinstance(equal, Unknown) else not equal
+
+
 def cast(kind: str, value: Any) -> Any:
     """Java's ``(kind) value`` for a primitive kind; for another kind the value as it is."""
     if kind not in _DEFAULTS or type(value) in (bool, Unknown):
