@@ -32,6 +32,7 @@ ANGULAR = (
 SIDES = (("left", "right"), ("front", "back"), ("front", "rear"), ("top", "bottom"))
 FEW = 2  # loops that may differ: the first of a test, and one more
 SAME = 0.02  # [share] what two ratios of voltages may differ in that are the same
+A_LOOP = 0.5  # [rot] that a motor may turn in a loop, before a limit stops it
 PATIENCE = 0.04  # [s] a callback may keep the loop waiting
 UNCHANGED = "Pass the voltage to setVoltage() unchanged."
 
@@ -504,7 +505,7 @@ def _are_limits(cuts: Sequence[tuple[bool, float]]) -> bool:
     """Whether a motor was cut off at the same places, as by the ends of an arm's travel."""
     for way in (True, False):
         found = [position for forward, position in cuts if forward is way]
-        if found and max(found) - min(found) > 0.1 * max(1.0, abs(found[0])):  # of a rotation
+        if found and max(found) - min(found) > max(A_LOOP, 0.1 * abs(found[0])):
             return False
     return True
 
