@@ -739,14 +739,19 @@ class ExpressionCompiler(StaticTypes):
                 if caller is None:
                     caller = callers[kind] = runtime.find_caller(kind, name, kinds)
                 return caller(one, given)
-            except (NoSuchMember, WrongArgument) as problem:
+            except (NoSuchMember, TypeError) as problem:
                 return self.mismatch(problem, at, name)
 
         return run
 
     def mismatch(self, problem: Exception, at: At, name: str) -> Unknown:
         """Write down a call that javac would have refused; what it gives is unknown."""
-        self.program.error(str(problem), at, name)
+        said = str(problem)
+        if not isinstance(problem, NoSuchMember | WrongArgument):
+            if not runtime.is_about_arguments(problem):
+                raise problem
+            said = f"{name} takes another number of arguments"
+        self.program.error(said, at, name)
         return Unknown(f"{name}()")
 
     def _own_call(self, name: str, args: Arguments, node: Node) -> Code:
@@ -808,7 +813,7 @@ class ExpressionCompiler(StaticTypes):
             STATE.at = at
             try:
                 return overloads.call(this(env), given, kinds)
-            except (NoSuchMember, WrongArgument) as problem:
+            except (NoSuchMember, TypeError) as problem:
                 return self.mismatch(problem, at, overloads.name)
 
         return run
@@ -841,7 +846,7 @@ class ExpressionCompiler(StaticTypes):
             STATE.at = at
             try:
                 return runtime.call_static(library, name, given)
-            except (NoSuchMember, WrongArgument) as problem:
+            except (NoSuchMember, TypeError) as problem:
                 return self.mismatch(problem, at, name)
 
         return Code(run)
@@ -898,7 +903,7 @@ class ExpressionCompiler(StaticTypes):
             STATE.at = at
             try:
                 return create(env, given)
-            except (NoSuchMember, WrongArgument) as problem:
+            except (NoSuchMember, TypeError) as problem:
                 return self.mismatch(problem, at, f"new {kind}")
 
         return Code(make, named_kind)

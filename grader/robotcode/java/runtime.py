@@ -123,7 +123,7 @@ def find_caller(cls: type, name: str, kinds: Sequence[str]) -> Call:
     if name in OBJECT_METHODS:
         return lambda value, args: OBJECT_METHODS[name](value, *args)
     if issubclass(cls, Fake):
-        return lambda value, args: _call_member(value, name, args)
+        return lambda value, args: _member(value, name)(*args)
     for plain, java in PLAIN.items():
         if issubclass(cls, plain):
             return lambda value, args: find_caller(java, name, kinds)(java(value), args)
@@ -194,19 +194,12 @@ def get_field(value: Any, name: str) -> Any:
     return _no_method(_member(value, name), name)
 
 
-def _call_member(value: Any, name: str, args: Sequence[Any]) -> Any:
-    """Call a member that a library's class makes up when it is asked for.
-
-    Raises:
-        WrongArgument: it takes another number of arguments.
-    """
-    member = _member(value, name)
-    try:
-        return member(*args)
-    except TypeError as problem:
-        if problem.__traceback__ is not None and problem.__traceback__.tb_next is None:
-            raise WrongArgument(f"{name} takes another number of arguments") from None
-        raise
+def is_about_arguments(problem: Exception) -> bool:
+    """Whether a TypeError comes from a call of ours, to which the function never got."""
+    trace = problem.__traceback__
+    while trace is not None and trace.tb_next is not None:
+        trace = trace.tb_next
+    return trace is not None and trace.tb_frame.f_globals["__package__"] == __package__
 
 
 def _member(value: Any, name: str) -> Any:
