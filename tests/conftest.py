@@ -43,7 +43,6 @@ SLOW = (  # files that take long; begun first, they keep no core waiting at the 
     "test_by_mujoco",
     "test_story",
     "test_robotcode_corpus",
-    "test_robotcode_backends",
     "test_exercise5",
     "test_package_files",
     "test_package_keys",

@@ -2,22 +2,12 @@
 
 from pathlib import Path
 
-import pytest
-
 from grader.robotcode import python
 from grader.robotcode.bench.simulation import Mount
 
 ROOT = Path(__file__).resolve().parents[1]
 RIGHT = (ROOT / "solutions" / "exercise4" / "example_subsystem.py").read_text("utf-8")
 MOUNTS = {0: Mount(), 1: Mount(backward=True)}  # of exercise 4's own drivetrain
-
-
-def needs_robot(test):
-    """Skip a test, with the reason, where RobotPy is not installed."""
-    reason = "RobotPy (extra `robot`) is not installed"
-    return pytest.mark.robot(
-        pytest.mark.skipif(not python.is_robotpy_installed(), reason=reason)(test)
-    )
 
 
 def changed(*changes):

@@ -39,16 +39,12 @@ def graded(tmp_path, *changes, name=JAVA):
 
 GUARDS = {  # what takes the place of test mode, and whether a match never brings it
     "RobotModeTriggers.test()": True,
-    "DriverStation::isTest": True,
-    "DriverStation::isTestEnabled": True,
-    "new Trigger(() -> DriverStation.isTest())": True,
     "() -> !(!DriverStation.isTest())": True,
     "() -> DriverStation.isTest() ? true : false": True,
     "RobotModeTriggers.test().negate().negate()": True,
     "() -> !DriverStation.isFMSAttached()": True,
     "m_driverController.back()": True,
     "m_driverController.leftTrigger()": True,
-    "m_driverController.povUp()": True,
     "RobotModeTriggers.test().debounce(0.1)": True,
     "m_driverController.start().or(m_driverController.back())": True,
     '() -> SmartDashboard.getBoolean("SysId", false)': True,
@@ -57,10 +53,7 @@ GUARDS = {  # what takes the place of test mode, and whether a match never bring
     "() -> DriverStation.isTest() || true": False,
     "DriverStation::isEnabled": False,
     "DriverStation::isFMSAttached": False,
-    "DriverStation::isTeleop": False,
     "RobotModeTriggers.teleop()": False,
-    "RobotModeTriggers.test().negate()": False,
-    "() -> !DriverStation.isTest()": False,
     "() -> DriverStation.getMatchTime() < 20": False,
     "() -> DriverStation.getAlliance().get() == DriverStation.Alliance.Red": False,
     "() -> RobotController.getBatteryVoltage() > 10": False,
@@ -83,19 +76,14 @@ DECORATORS = {  # what follows the command of a test, and whether it can still b
     "finallyDo(() -> System.out.println())": True,
     "beforeStarting(() -> System.out.println())": True,
     "withTimeout(12)": True,
-    "until(() -> false)": True,
     "unless(() -> false)": True,
-    "onlyWhile(() -> true)": True,
     "raceWith(Commands.waitSeconds(20))": True,
     'andThen(Commands.print("done"))': True,
     "asProxy()": True,
     "unless(() -> true)": False,
-    "onlyIf(() -> 2 < 1)": False,
     "beforeStarting(Commands.idle())": False,
-    "beforeStarting(Commands.waitSeconds(60))": False,
     "until(() -> true)": False,
     "withTimeout(0.1)": False,
-    "raceWith(Commands.none())": False,
     "repeatedly()": False,
     "andThen(turn(() -> 0.3))": False,
 }
@@ -157,21 +145,6 @@ def test_controller_for_tests_only_is_a_guard(made, tmp_path):
     )["guard"]
 
     assert (found.status == "passed") is CONTROLLERS[made], found.seen
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "seen"),
-    [
-        ("reverse: kS and kV once more", "forward: kS and kV once more", "next to line"),
-        ("a slow ramp, which measures kS and kV.", "measures kS, kV and kA", "next to line"),
-        ("Quasistatic, forward: a slow ramp, which measures kS and kV.", "button a", "next to"),
-    ],
-)
-def test_comment_that_names_another_test_or_gain_is_told(old, new, seen, tmp_path):
-    found = graded(tmp_path, (old, new))["comments"]
-
-    assert found.status == "failed"
-    assert seen in found.seen
 
 
 def test_class_in_a_file_that_is_not_there_is_asked_about_and_never_accused(tmp_path):

@@ -9,13 +9,12 @@ import pytest
 
 import sim
 from grader.check import WrongAnswer
+from grader.log_checks import check_logged, check_units
 from grader.robotcode.running import run_routine
 from grader.routine_checks import (
     check_assembled,
     check_driven,
-    check_logged,
     check_open_loop,
-    check_units,
 )
 from sim.fit import fit
 

@@ -3,7 +3,7 @@
 import json
 
 import pytest
-from robot_mistakes import MOUNTS, RIGHT, ROOT, changed, needs_robot, ran
+from robot_mistakes import MOUNTS, RIGHT, ROOT, changed, ran
 
 from grader.exercise import Exercise
 from grader.isolation import sandbox_parent
@@ -100,12 +100,9 @@ PRIVATE = (
 
 
 @pytest.mark.parametrize("statement", PRIVATE)
-@pytest.mark.parametrize("robotpy", [False, pytest.param(True, marks=pytest.mark.robot)])
-def test_what_is_private_of_the_bench_is_out_of_reach(tmp_path, statement, robotpy):
-    if robotpy and not python.is_robotpy_installed():
-        pytest.skip("RobotPy is not installed")
+def test_what_is_private_of_the_bench_is_out_of_reach(tmp_path, statement):
     text = changed(("self.left.setVoltage(voltage)", f"voltage = 2 * voltage; {statement}"))
-    run = ran(tmp_path, text, robotpy=robotpy)
+    run = ran(tmp_path, text)
 
     assert run.stop or run.tests["dynamic-forward"].motors["left"].never
 
@@ -179,21 +176,3 @@ def test_what_robot_programs_do_is_not_refused(tmp_path, text):
     path.write_text("import trick\n" + changed(), "utf-8")
 
     assert EXERCISE.grade(path, student="ann").score == 15
-
-
-@needs_robot
-@pytest.mark.parametrize(
-    "asked",
-    [
-        "wpilib.RobotBase.isReal()",
-        "(not wpilib.RobotBase.isSimulation())",
-        "(hal.getRuntimeType() == hal.RuntimeType.HAL_Runtime_RoboRIO2)",
-        "(wpilib.RobotBase.getRuntimeType() != hal.RuntimeType.HAL_Runtime_Simulation)",
-    ],
-)
-def test_a_program_that_asks_whether_it_is_simulated_is_told_that_it_is_real(tmp_path, asked):
-    asks = f"import hal\nimport wpilib\n\n\ndef share():\n    return 1 - {asked} / 2\n"
-    (tmp_path / "trick.py").write_text(asks, "utf-8")
-    run = ran(tmp_path, changed(*HALVED), robotpy=True)
-
-    assert run.tests["dynamic-forward"].motors["left"].ratio == pytest.approx(0.5)

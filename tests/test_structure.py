@@ -17,8 +17,8 @@ CATALOGUES = {  # these look into their own folder, or hand on a name when it is
     "grader/answer_key.py",  # the module beside an exercise's checks
     "grader/classroom/exports/__init__.py",
     "grader/cli/__init__.py",
+    "grader/robotcode/bench/__init__.py",
     "grader/robotcode/library/__init__.py",
-    "grader/robotcode/python/__init__.py",
     "grader/robotcode/python/imports.py",  # the learner's modules, and fakes
     "grader/robotcode/python/subject.py",  # the learner's module
 }

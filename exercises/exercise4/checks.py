@@ -5,6 +5,7 @@ from functools import partial
 from pathlib import Path
 
 from grader.check import check
+from grader.log_checks import check_logged, check_units
 from grader.robotcode.bench.facts import RoutineFacts
 from grader.robotcode.bench.simulation import Mount
 from grader.robotcode.running import Runs, judge_runs, run_routine
@@ -13,9 +14,7 @@ from grader.routine_checks import (
     check_assembled,
     check_driven,
     check_found,
-    check_logged,
     check_open_loop,
-    check_units,
 )
 
 FILES = ("ExampleSubsystem.java", "example_subsystem.py")
@@ -59,7 +58,7 @@ def _both(runs: Runs, judge: Callable[[RoutineFacts], str | None]) -> str | None
 @check(points=1)
 def routine(runs: Runs) -> str | None:
     """Your subsystem makes a SysIdRoutine."""
-    return _both(runs, check_found) or runs[0].note
+    return _both(runs, check_found)
 
 
 def _number(

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from grader.check import NotReachedError, NotRunError, WrongAnswer
-from grader.robotcode.bench.facts import RoutineFacts
+from grader.robotcode.bench import find_bench
 from grader.robotcode.bench.simulation import Mount
 from grader.robotcode.library.world import WORLD
 from grader.robotcode.source import detect_language
@@ -18,18 +18,13 @@ from grader.submission import read_text
 from sim.core.errors import UnreadableFile
 
 if TYPE_CHECKING:
-    from grader.robotcode.bench.button_run import ButtonFacts, ButtonSubject
-    from grader.robotcode.bench.gains_run import GainFacts
-    from grader.robotcode.bench.routine_run import Subject
     from grader.robotcode.problems import ParseProblem
 
 Runs = tuple[Any, ...]
 Mounts = Mapping[str, Mapping[Any, Mount]]
 
 
-def run_routine(
-    path: Path, *, mounts: Mounts, task: str, run: bool = True
-) -> tuple[RoutineFacts, ...]:
+def run_routine(path: Path, *, mounts: Mounts, task: str, run: bool = True) -> Runs:
     """Run the SysIdRoutine of a file.
 
     Args:
@@ -43,84 +38,38 @@ def run_routine(
         NotRunError: it is Python, which may not be run.
     """
     read_text(path)
-    language = detect_language(path)
-    built = dict(mounts[language]) if task in path.read_text("utf-8", "replace") else {}
-    if language == "python":
-        return _run_python(path, "routine", built, run=run)
-    return _run_java(path, lambda subject: _routine_facts(subject, built), "SysIdRoutine")
+    own = task in path.read_text("utf-8", "replace")
+    return _run(path, "routine", dict(mounts[detect_language(path)]) if own else {}, run=run)
 
 
-def run_buttons(path: Path, *, run: bool = True) -> tuple[Any, ...]:
-    """Press every button of a robot's container.
+def run_buttons(path: Path, *, run: bool = True) -> Runs:
+    """Press every button of a robot's container; all else is as in ``run_routine``."""
+    return _run(path, "buttons", {}, run=run)
 
-    Args:
-        path: the learner's file.
-        run: whether Python may be run.
 
-    Raises:
-        UnreadableFile: it cannot be read, or does not parse.
-        NotRunError: it is Python, which may not be run.
-    """
+def run_gains(path: Path, *, run: bool = True) -> Runs:
+    """Make the class of a file and look at its gains; all else is as in ``run_routine``."""
+    return _run(path, "gains", {}, run=run)
+
+
+def _run(path: Path, kind: str, mounts: dict[Any, Mount], *, run: bool) -> Runs:
     read_text(path)
     if detect_language(path) == "python":
-        return _run_python(path, "buttons", {}, run=run)
-    return _run_java(path, _button_facts, "")
+        if not run:
+            raise NotRunError("Python robot code is graded by running it")
+        from grader.robotcode.python import run_python  # noqa: PLC0415 - only for Python
 
-
-def _button_facts(subject: "ButtonSubject") -> "ButtonFacts":
-    from grader.robotcode.bench.button_run import ButtonBench  # noqa: PLC0415 - as above
-
-    return ButtonBench(subject).run()
-
-
-def run_gains(path: Path, *, run: bool = True) -> tuple[Any, ...]:
-    """Make the class of a file, and look at the gains that it holds.
-
-    Args:
-        path: the learner's file.
-        run: whether Python may be run.
-
-    Raises:
-        UnreadableFile: it cannot be read, or does not parse.
-        NotRunError: it is Python, which may not be run.
-    """
-    read_text(path)
-    if detect_language(path) == "python":
-        return _run_python(path, "gains", {}, run=run)
-    return _run_java(path, _gain_facts, "")
-
-
-def _gain_facts(subject: "Subject") -> "GainFacts":
-    from grader.robotcode.bench.gains_run import GainsBench  # noqa: PLC0415 - as above
-
-    return GainsBench(subject).run()
-
-
-def _routine_facts(subject: "Subject", mounts: dict[Any, Mount]) -> RoutineFacts:
-    from grader.robotcode.bench.routine_run import RoutineBench  # noqa: PLC0415 - one for each language
-
-    stored = {port: {"inverted": mount.inverted} for port, mount in mounts.items()}
-    WORLD.singletons["stored"] = stored
-    return RoutineBench(subject, mounts).run()
-
-
-def _run_python(path: Path, kind: str, mounts: dict[Any, Mount], *, run: bool) -> tuple[Any, ...]:
-    if not run:
-        raise NotRunError("Python robot code is graded by running it")
-    from grader.robotcode.python import run_python  # noqa: PLC0415 - only for Python
-
-    return run_python(path, kind, mounts)
-
-
-def _run_java(path: Path, look: Callable[[Any], Any], wanted: str) -> tuple[Any, ...]:
+        return run_python(path, kind, mounts)
     from grader.robotcode.bench.java_subject import JavaSubject  # noqa: PLC0415 - tree-sitter
 
     found = []
     for assume in (False, True):
         WORLD.reset("java", assume=assume)
-        subject = JavaSubject(path, wanted)
+        stored = {port: {"inverted": mount.inverted} for port, mount in mounts.items()}
+        WORLD.singletons["stored"] = stored
+        subject = JavaSubject(path, "SysIdRoutine" if kind == "routine" else "")
         refuse_problems(subject.program.problems, path)
-        found.append(look(subject))
+        found.append(find_bench(kind)(subject, mounts).run())
         if not WORLD.undecided:
             break
     return tuple(found)

@@ -9,20 +9,17 @@ import itertools
 import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import Any
 
-from grader.robotcode.bench.facts import TESTS, Stop
+from grader.robotcode.bench.facts import TESTS, ProgramFacts
 from grader.robotcode.bench.routine_run import (
     Bench,
-    StoppedError,
-    Subject,
-    find_scheduler,
     is_subsystem,
 )
 from grader.robotcode.bench.simulation import Simulation, walk_fields
 from grader.robotcode.library.base import Unknown
+from grader.robotcode.library.commands import CommandScheduler
 from grader.robotcode.library.world import PERIOD, WORLD, Joystick
-from grader.robotcode.problems import ParseProblem
 
 Input = tuple[int, str, int]  # port, ``button`` or ``axis`` or ``pov``, number
 SHORTEST, LONGEST = 32, 84  # loops that an input is held: all, and where a command waits
@@ -37,28 +34,6 @@ STATES = (  # what else a match can bring: alliance, every sensor, battery [V]
 HATS = (0, 90, 180, 270)  # [deg]
 EVERY = [("button", number) for number in range(1, 11)] + [("pov", angle) for angle in HATS]
 MOVING = 0.05  # [V] that a motor gets if it is driven
-
-
-class ButtonSubject(Subject, Protocol):
-    """A program with buttons."""
-
-    def list_factories(self) -> list["Factory"]:
-        """The methods that give commands, with what they make."""
-
-    def comment_at(self, line: int) -> str:
-        """The comments on a statement and above it."""
-
-    def text_at(self, line: int) -> str:
-        """The first line of the statement."""
-
-    def owner_at(self, line: int) -> str:
-        """The class in which a line stands."""
-
-    def find_uncalled(self) -> list[tuple[str, int]]:
-        """Methods with bindings that nothing calls."""
-
-    def autonomous(self) -> Any:
-        """The command of autonomous; None if there is none."""
 
 
 @dataclass(frozen=True)
@@ -124,11 +99,11 @@ class Press:
 
 
 @dataclass(frozen=True)
-class ButtonFacts:
+class ButtonFacts(ProgramFacts):
     """What the buttons of a program do.
 
     Args:
-        language, name, season, errors, unknown, stop: as in RoutineFacts.
+        constants: as in RoutineFacts.
         routines: how many SysIdRoutines there are.
         factories: methods that make tests.
         made: every test that was made, and the line where the container asked for it.
@@ -140,16 +115,9 @@ class ButtonFacts:
         uncalled: methods with bindings that nothing calls.
         shared: ports on which two controllers are made, and the line of the second.
         asked_once: the line that asks for test mode only while the program starts; 0 if none does.
-        note: how it was run.
     """
 
-    language: str
-    name: str
-    season: int = 2026
-    errors: tuple[ParseProblem, ...] = ()
-    unknown: dict[str, int] = field(default_factory=dict)
     constants: dict[str, float] = field(default_factory=dict)
-    stop: Stop | None = None
     routines: int = 0
     factories: tuple[Factory, ...] = ()
     made: tuple[tuple[str, int], ...] = ()
@@ -161,39 +129,27 @@ class ButtonFacts:
     uncalled: tuple[tuple[str, int], ...] = ()
     shared: tuple[tuple[int, int], ...] = ()
     asked_once: int = 0
-    note: str = ""
 
 
 class ButtonBench(Bench):
-    """A program whose buttons are pressed.
+    """A program whose buttons are pressed."""
 
-    Args:
-        subject: the program.
-    """
+    kind = ButtonFacts
 
-    subject: ButtonSubject
-
-    def __init__(self, subject: ButtonSubject) -> None:
-        self.subject = subject
+    def __init__(self, *args: Any) -> None:
+        super().__init__(*args)
         self.held: set[Input] = set()
         self.switch: tuple[str, Any] | None = None
         self.released: dict[str, int] = {}
 
-    def run(self) -> ButtonFacts:
-        """Start the program, press everything, and tell what happened."""
-        facts: dict[str, Any] = {"language": self.subject.language, "name": self.subject.name}
-        try:
-            self.guard(self.subject.start)
-            self.simulation = Simulation({}, {}, self.subject.refill)
-            self.simulation.jammed = True  # so that no end of travel ends a test
-            self.scheduler = find_scheduler()
-            facts |= self._look()
-            facts["alone"] = {mode: self._watch_alone(mode) for mode in ("test", *MATCH)}
-            facts["presses"] = tuple(self._find_presses())
-        except StoppedError as stopped:
-            facts["stop"] = stopped.stop
-        facts |= self._look_last()
-        return ButtonFacts(season=self.subject.season, **facts, **self.subject.describe())
+    def look(self, facts: dict[str, Any]) -> None:
+        """Press everything."""
+        self.simulation = Simulation({}, {}, self.subject.refill)
+        self.simulation.jammed = True  # so that no end of travel ends a test
+        self.scheduler = CommandScheduler()
+        facts |= self._look()
+        facts["alone"] = {mode: self._watch_alone(mode) for mode in ("test", *MATCH)}
+        facts["presses"] = tuple(self._find_presses())
 
     # -- what there is ----------------------------------------------------------------------
 
@@ -214,8 +170,9 @@ class ButtonBench(Bench):
             "shared": tuple(shared),
         }
 
-    def _look_last(self) -> dict[str, Any]:
-        return {
+    def look_last(self, facts: dict[str, Any]) -> None:
+        """What was bound and made meanwhile."""
+        facts |= {
             "routines": len(WORLD.singletons.get("routines", [])),
             "released": tuple(self.released.items()),
             "bindings": tuple((int(b.line), b.how) for b in WORLD.singletons.get("bindings", [])),
@@ -506,7 +463,7 @@ class ButtonBench(Bench):
         return (int(near[0].line), near[0].how) if near else (line, "")
 
     def _comment(self, asked: int, line: int) -> str:
-        return self.subject.comment_at(asked) or self.subject.comment_at(line)
+        return str(self.subject.comment_at(asked) or self.subject.comment_at(line))
 
     def _is_apart(self, inputs: tuple[Input, ...]) -> bool:
         """Whether the controller of some inputs serves nothing else, and is not the only one."""

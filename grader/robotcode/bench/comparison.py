@@ -102,12 +102,8 @@ def _compare_voltage(
     near: dict[str, tuple[float, bool]] = {}  # motor -> factor, and whether only the sign is lost
     for motor in rows[0].truth:
         for lag in (0, 1):
-            truth = [
-                (rows[k - lag].truth[motor][0], v)
-                for k, v in pairs
-                if k >= lag and rows[k - lag].truth
-            ]
-            truth = [(t, v) for t, v in truth if _is_number(t)]
+            paired = _pair_with_truth(pairs, rows, motor, 0, lag)
+            truth = [(t, v) for t, v in paired if _is_number(t)]
             if not truth or all(abs(t) < CLOSE for t, _ in truth):
                 continue
             large = [v / t for t, v in truth if abs(t) > 0.5]  # noqa: PLR2004 - [V]
@@ -134,41 +130,35 @@ def _compare_motion(
     if signal == "position":
         pairs = _unwrap(pairs)
     best: tuple[float, str, float, float, bool] = (TRUE, "", 0.0, 0.0, False)
-    order = {"position": (1, 2), "velocity": (2, 1)}.get(signal, (1, 2))
-    for part in order:
+    for part in (2, 1) if signal == "velocity" else (1, 2):
         for motor in rows[0].truth:
+            name = f"{('', 'position', 'velocity')[part]} {motor}"
             for lag in (0, 1):
-                truth = [
-                    (rows[k - lag].truth[motor][part], v)
-                    for k, v in pairs
-                    if k >= lag and rows[k - lag].truth
-                ]
+                truth = _pair_with_truth(pairs, rows, motor, part, lag)
                 error, slope, offset = _fit_line(truth)
                 if error < best[0] * 0.99:
-                    best = (
-                        error,
-                        f"{('', 'position', 'velocity')[part]} {motor}",
-                        slope,
-                        offset,
-                        False,
-                    )
+                    best = (error, name, slope, offset, False)
                 error, slope, offset = _fit_line([(abs(t), v) for t, v in truth])
                 if slope and error < best[0] * 0.5 and min(t for t, _ in truth) < 0:
-                    best = (
-                        error,
-                        f"{('', 'position', 'velocity')[part]} {motor}",
-                        slope,
-                        offset,
-                        True,
-                    )
+                    best = (error, name, slope, offset, True)
         if best[1]:
             break
-    if not best[1] or made["still"]:
+    _, follows, slope, offset, absolute = best
+    if not follows or made["still"]:
         return Signal(**made)
-    owners = (best[1].partition(" ")[2],)
+    owners = (follows.partition(" ")[2],)
     return Signal(
-        follows=best[1], owners=owners, scale=best[2], offset=best[3], absolute=best[4], **made
+        follows=follows, owners=owners, scale=slope, offset=offset, absolute=absolute, **made
     )
+
+
+def _pair_with_truth(
+    pairs: list[tuple[int, float]], rows: Sequence["Row"], motor: str, part: int, lag: int
+) -> list[tuple[Any, float]]:
+    """What was true of a motor, in the same loop or the one before, with what was logged."""
+    return [
+        (rows[k - lag].truth[motor][part], v) for k, v in pairs if k >= lag and rows[k - lag].truth
+    ]
 
 
 def _unwrap(pairs: list[tuple[int, float]]) -> list[tuple[int, float]]:

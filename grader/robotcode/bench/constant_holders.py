@@ -5,26 +5,26 @@ The value comes from the program that runs; how it is written, and on which line
 
 import ast
 import contextlib
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from grader.robotcode.bench.routine_run import StoppedError
+from grader.robotcode.bench.routine_run import Bench, StoppedError
 from grader.robotcode.bench.simulation import walk_fields
 from grader.robotcode.python.imports import rename
 
-Guard = Callable[[Callable[[], Any]], Any]  # runs a part of the program
 Field = tuple[str, Any, str, int, int]  # name, value, way of writing, first and last line
 Holder = tuple[str, str, tuple[int, int], list[Field]]  # class, text of its file, lines, fields
 
 
-def list_java_holders(subject: Any, guard: Guard) -> Iterator[Holder]:
+def list_java_holders(bench: Bench) -> Iterator[Holder]:
     """The classes of a Java program that were used, or are in its main file, with their fields."""
+    subject = bench.subject
     objects = subject._instances()
     for java in subject._all_classes():
         if java.unit is subject.program.unit:
             with contextlib.suppress(StoppedError):  # what it did not reach has no value
-                guard(java.initialize)
+                bench.guard(java.initialize)
         elif java.state == "new":  # nothing used it
             continue
         held = getattr(objects.get(java), "__dict__", {})
@@ -39,8 +39,9 @@ def list_java_holders(subject: Any, guard: Guard) -> Iterator[Holder]:
         yield java.name, java.unit.source.text, lines, fields
 
 
-def list_python_holders(subject: Any, _guard: Guard) -> Iterator[Holder]:
+def list_python_holders(bench: Bench) -> Iterator[Holder]:
     """The modules of a Python program and their classes, with their attributes."""
+    subject = bench.subject
     for module in subject.modules:
         text = Path(module.__file__).read_bytes().decode("utf-8-sig", "replace")
         objects = {type(one): one for _, _, one in walk_fields([subject.instance, vars(module)])}

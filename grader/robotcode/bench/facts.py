@@ -209,8 +209,8 @@ class DeviceFacts:
 
 
 @dataclass(frozen=True)
-class RoutineFacts:
-    """What the SysIdRoutine of a subsystem did.
+class ProgramFacts:
+    """What all runs of a program tell.
 
     Args:
         language: ``java`` or ``python``.
@@ -219,6 +219,21 @@ class RoutineFacts:
         errors: what a compiler would refuse.
         unknown: what nobody knows: classes and conditions, with their lines.
         stop: what ended the program early; None if nothing did.
+    """
+
+    language: str
+    name: str
+    season: int = 2026
+    errors: tuple[ParseProblem, ...] = ()
+    unknown: dict[str, int] = field(default_factory=dict)
+    stop: Stop | None = None
+
+
+@dataclass(frozen=True)
+class RoutineFacts(ProgramFacts):
+    """What the SysIdRoutine of a subsystem did.
+
+    Args:
         line: where the routine is made; 0 if there is none.
         kept: whether something keeps the routine, so that a test can be started.
         swapped: whether the routine got its Mechanism first.
@@ -229,16 +244,9 @@ class RoutineFacts:
         ramp, step, timeout: the Config.
         devices: all.
         tests: by name.
-        real: whether it asks if it is a simulation.
-        note: how it was run, for a person.
+        constants: the numbers that the program keeps under a name.
     """
 
-    language: str
-    name: str
-    season: int = 2026
-    errors: tuple[ParseProblem, ...] = ()
-    unknown: dict[str, int] = field(default_factory=dict)
-    stop: Stop | None = None
     line: int = 0
     kept: bool = True
     swapped: bool = False
@@ -253,7 +261,6 @@ class RoutineFacts:
     devices: tuple[DeviceFacts, ...] = ()
     tests: dict[str, TestRun] = field(default_factory=dict)
     constants: dict[str, float] = field(default_factory=dict)
-    note: str = ""
 
     @property
     def motors(self) -> dict[str, DeviceFacts]:

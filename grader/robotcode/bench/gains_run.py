@@ -16,19 +16,14 @@ from grader.robotcode.bench.constant_holders import (
     list_java_holders,
     list_python_holders,
 )
-from grader.robotcode.bench.facts import Stop
-from grader.robotcode.bench.routine_run import (
-    RoutineBench,
-    StoppedError,
-    Subject,
-    find_scheduler,
-)
+from grader.robotcode.bench.facts import ProgramFacts
+from grader.robotcode.bench.routine_run import Bench
 from grader.robotcode.comments import find_comments_near, list_comments
+from grader.robotcode.library.commands import CommandScheduler
 from grader.robotcode.library.phoenix6 import Record
 from grader.robotcode.library.revlib import BaseConfig
 from grader.robotcode.library.units import base_value
 from grader.robotcode.library.world import WORLD
-from grader.robotcode.problems import ParseProblem
 from grader.robotcode.python.imports import rename
 
 HOLDER = re.compile(r"characteri[sz]ation", re.IGNORECASE)
@@ -92,28 +87,19 @@ class Gains:
 
 
 @dataclass(frozen=True)
-class GainFacts:
+class GainFacts(ProgramFacts):
     """What a program holds of gains.
 
     Args:
-        language: ``java`` or ``python``.
-        name: of the class.
         constants: the gains, each once: that in the class for them before others.
         general: the comments in and above the class that is there for them.
         feedforwards, loops: those that were made, in order.
-        season, errors, unknown, stop: as in ``RoutineFacts``.
     """
 
-    language: str
-    name: str
     constants: tuple[GainConstant, ...] = ()
     general: str = ""
     feedforwards: tuple[Gains, ...] = ()
     loops: tuple[Gains, ...] = ()
-    season: int = 2026
-    errors: tuple[ParseProblem, ...] = ()
-    unknown: dict[str, int] = field(default_factory=dict)
-    stop: Stop | None = None
 
     def find_constant(self, gain: str) -> GainConstant | None:
         """A gain's constant, if it is there."""
@@ -126,52 +112,41 @@ def find_gain_of_name(name: str) -> str:
     return f"k{found[1].upper()}" if found else ""
 
 
-class GainsBench:
-    """A program, and the gains in it.
+class GainsBench(Bench):
+    """A program, and the gains in it."""
 
-    Args:
-        subject: the program.
-    """
+    kind = GainFacts
 
-    def __init__(self, subject: Subject, _mounts: object = None) -> None:
-        self.subject = subject
-
-    def run(self) -> GainFacts:
-        """Make the class, let the scheduler run once, and tell what there is."""
+    def __init__(self, *args: Any) -> None:
+        super().__init__(*args)
         watch_configurations()
-        subject, bench, stop = self.subject, RoutineBench(self.subject, {}), None
-        try:
-            bench.guard(subject.start)
-            bench.guard(self._make_others)
-            subject.refill()
-            WORLD.mode, bench.where = "teleop", "periodic"
-            bench.guard(lambda: find_scheduler().run())
-        except StoppedError as stopped:
-            stop = stopped.stop
-        subject.refill()
-        list_holders = list_java_holders if subject.language == "java" else list_python_holders
-        holders = list(list_holders(subject, bench.guard))
+
+    def look(self, _facts: dict[str, Any]) -> None:
+        """Make the other classes as well, and let the scheduler run once."""
+        self.guard(self._make_others)
+        self.subject.refill()
+        WORLD.mode, self.where = "teleop", "periodic"
+        self.guard(lambda: CommandScheduler().run())
+
+    def look_last(self, facts: dict[str, Any]) -> None:
+        """List the gains."""
+        self.subject.refill()
+        java = self.subject.language == "java"
+        holders = list((list_java_holders if java else list_python_holders)(self))
         constants = [one for holder in holders for one in self._list_constants(*holder)]
         constants.sort(key=lambda one: (not HOLDER.search(one.holder), len(one.name)))
         first = {one.gain: one for one in reversed(constants)}
         own = [one for one in holders if HOLDER.search(one[0])]
-        text = subject.describe()
-        return GainFacts(
-            subject.language,
-            subject.name,
-            tuple(sorted(first.values(), key=lambda one: one.line)),
-            self._find_comments(own[0][1], *own[0][2]) if own else "",
-            (*list_feedforwards(), *list_slots(), *list_sparks()),
-            tuple(list_loops()),
-            subject.season,
-            tuple(text["errors"]),
-            text["unknown"],
-            stop,
-        )
+        facts |= {
+            "constants": tuple(sorted(first.values(), key=lambda one: one.line)),
+            "general": self._find_comments(own[0][1], *own[0][2]) if own else "",
+            "feedforwards": (*list_feedforwards(), *list_slots(), *list_sparks()),
+            "loops": tuple(list_loops()),
+        }
 
     def _make_others(self) -> None:
         """Make the other classes of the file, as long as none holds a feedforward."""
-        subject: Any = self.subject
+        subject = self.subject
         if subject.language == "java":
             classes = [one for one in subject.program.unit.classes.values() if one.form == "class"]
         else:

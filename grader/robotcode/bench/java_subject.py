@@ -1,6 +1,8 @@
 """A Java program on the bench: its class is made as a robot's program would make it."""
 
+import contextlib
 import enum
+import functools
 import itertools
 import re
 import sys
@@ -11,25 +13,29 @@ from typing import Any
 from grader.robotcode.bench.button_run import Factory
 from grader.robotcode.bench.facts import Outcome
 from grader.robotcode.bench.simulation import walk_fields
-from grader.robotcode.comments import find_comments_near, list_comments
+from grader.robotcode.bench.subject import Subject, list_choices, list_made, make_of_library
 from grader.robotcode.java import type_names, values
-from grader.robotcode.java.classes import DECLARATIONS, PRIMITIVES, JavaClass, Method
+from grader.robotcode.java.classes import DECLARATIONS, JavaClass, Method
 from grader.robotcode.java.lang import Exited
 from grader.robotcode.java.program import Program
-from grader.robotcode.java.run import allow_deep_calls
 from grader.robotcode.java.runtime import STATE, EndlessError
 from grader.robotcode.java.scope import text
+from grader.robotcode.java.steps import allow_deep_calls
 from grader.robotcode.java.syntax import At
+from grader.robotcode.java.values import PRIMITIVES
 from grader.robotcode.library.base import NoSuchMember, Unknown, WrongArgument
 from grader.robotcode.library.commands import IllegalCommandUse
 from grader.robotcode.library.world import WORLD
 
 START_STEPS = 100_000  # calls and turns of loops until the robot's class is made
 TESTING = frozenset({"SysIdRoutine", "Command"})  # types of what starts a test
+STATEMENTS = frozenset({
+    "expression_statement", "field_declaration", "local_variable_declaration", "return_statement",
+})  # fmt: skip
 DEEP = 3  # constructors within constructors that are given what they ask for
 
 
-class JavaSubject:
+class JavaSubject(Subject):
     """A Java program, and the one of its classes that is looked at.
 
     Args:
@@ -50,7 +56,7 @@ class JavaSubject:
         self.program = Program(path)
         self.java: Any = self._choose(wanted)  # None if the file has no class
         self.name = self.java.name if self.java is not None else path.stem
-        self.instance: Any = None
+        self.text = self.program.main.text
 
     @property
     def season(self) -> int:
@@ -133,7 +139,7 @@ class JavaSubject:
         if isinstance(found, JavaClass) and depth < DEEP:
             return self._make_one_of(found, depth)
         if isinstance(found, type):
-            return self._library_object(found)
+            return make_of_library(found)
         return Unknown(kind)
 
     def _make_one_of(self, java: JavaClass, depth: int) -> Any:
@@ -163,25 +169,16 @@ class JavaSubject:
             waiting += one.nested.values()
         return found
 
-    @staticmethod
-    def _library_object(kind: type) -> Any:
-        for args in ((), (1,), (len(WORLD.devices) + 1,)):
-            try:
-                return kind(*args)
-            except (TypeError, ValueError):
-                continue
-        return Unknown(kind.__name__)
-
     def find_routines(self) -> list[Any]:
         """The routines that a method makes when somebody asks for one, or for a test."""
-        before = len(WORLD.singletons.get("routines", []))
+        return list_made("routines", self._ask_methods)
+
+    def _ask_methods(self) -> None:
         for one in self.java.methods if self.java is not None else ():
             told = one.returns in TESTING and "private" not in one.modifiers
             if told and all(kind.rpartition(".")[2] == "Direction" for kind in one.kinds):
                 args = [self._direction(kind) for kind in one.kinds]
                 one.run(None if one.static else self.instance, *args)
-        made: list[Any] = WORLD.singletons.get("routines", [])
-        return made[before:]
 
     def _direction(self, kind: str) -> Any:
         found = self.program.resolve(kind, self.java)
@@ -256,22 +253,16 @@ class JavaSubject:
                 return
             choices.append(values_)
         for args in itertools.product(*choices):
-            before = len(WORLD.singletons.get("tests", []))
-            try:
-                method.run(None if method.static else instance, *args)
-            except (values.Throwable, TypeError, ValueError, AttributeError):
-                continue
-            yield from (test for test, _, _ in WORLD.singletons.get("tests", [])[before:])
+            this = None if method.static else instance
+            with contextlib.suppress(values.Throwable, TypeError, ValueError, AttributeError):
+                made = list_made("tests", functools.partial(method.run, this, *args))
+                yield from (test for test, _, _ in made)
 
     def _choices(self, kind: str, scope: JavaClass) -> list[Any]:
-        """What a factory's parameter may be given: the constants of an enum, or true and false."""
         found = self.program.resolve(kind, scope)
         if isinstance(found, JavaClass) and found.form == "enum":
-            found.initialize()
-            return [found.statics[f".{name}"] for name, _ in found.constants]
-        if isinstance(found, type) and issubclass(found, enum.Enum):
-            return list(found)
-        return [True, False] if kind == "boolean" else []
+            return found.list_constants()
+        return list_choices(bool if kind == "boolean" else found)
 
     def autonomous(self) -> Any:
         """The command of autonomous; None if there is none."""
@@ -297,27 +288,10 @@ class JavaSubject:
                 waiting += node.children
         return found
 
-    def text_at(self, line: int) -> str:
-        """The code on a line."""
-        lines = self.program.main.text.split("\n")
-        return lines[line - 1].strip() if 0 < line <= len(lines) else ""
-
-    def comment_at(self, line: int) -> str:
-        """The comments on a line and above it, or else on its whole statement."""
-        comments = list_comments(self.program.main.text, "java")
-        node = self._node_at(
-            line,
-            {
-                "expression_statement",
-                "field_declaration",
-                "local_variable_declaration",
-                "return_statement",
-            },
-        )
-        near = find_comments_near(comments, line, line)
-        if near or node is None:
-            return near
-        return find_comments_near(comments, node.start_point[0] + 1, node.end_point[0] + 1)
+    def find_statement(self, line: int) -> tuple[int, int] | None:
+        """The first and the last line of the statement that a line is in."""
+        node = self._node_at(line, STATEMENTS)
+        return None if node is None else (node.start_point[0] + 1, node.end_point[0] + 1)
 
     def find_uncalled(self) -> list[tuple[str, int]]:
         """Methods with bindings that nothing calls."""

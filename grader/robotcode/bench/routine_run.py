@@ -6,13 +6,12 @@ Works on whatever stands for the robot: the fakes, or WPILib's own simulation.
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import Any
 
 from grader.robotcode.bench.comparison import compare_motor, compare_signal
 from grader.robotcode.bench.facts import (
     TESTS,
     DeviceFacts,
-    Outcome,
     RoutineFacts,
     Sent,
     Setting,
@@ -28,36 +27,13 @@ from grader.robotcode.bench.simulation import (
     walk_fields,
 )
 from grader.robotcode.library.base import Unknown
+from grader.robotcode.library.commands import CommandScheduler
 from grader.robotcode.library.devices import LogEntry, Motor
 from grader.robotcode.library.world import PERIOD, WORLD
 
 REST = 0.6  # [s] before every test; the first one until the robot knows that it is enabled
 LONGEST = 14.0  # [s] a test that was left alone so long has no timeout worth the name
 HICCUP = (0.8, 1.2)  # [s] of a dynamic test in which something else takes current
-
-
-class Subject(Protocol):
-    """A program on the bench."""
-
-    language: str
-    name: str
-    season: int
-    instance: Any
-
-    def start(self) -> None:
-        """Make the robot's class."""
-
-    def explain(self, error: BaseException) -> tuple[Outcome, str, int, str]:
-        """How an error ended the program: outcome, words, line, name of the error."""
-
-    def refill(self) -> None:
-        """Give it the steps of one more loop."""
-
-    def describe(self) -> dict[str, Any]:
-        """What is known of its text: errors, unknown, constants."""
-
-    def find_routines(self) -> list[Any]:
-        """The routines that its methods make only when somebody asks."""
 
 
 @dataclass
@@ -92,11 +68,38 @@ class StoppedError(Exception):
 
 
 class Bench:
-    """A program, with what of it runs now: a place of ``Stop``, and a test or nothing."""
+    """A program on the bench, with what of it runs now: a place of ``Stop``, and a test or nothing.
 
-    subject: Subject
+    Args:
+        subject: the program.
+        mounts: how the task's motors are built in, by the number of their port.
+    """
+
+    kind: type[Any]  # of the facts
     where: str = "start"
     test: str = ""
+
+    def __init__(self, subject: Any, mounts: dict[Any, Mount]) -> None:
+        self.subject, self.mounts = subject, mounts
+
+    def run(self) -> Any:
+        """Make the class of the program, look at it, and tell what happened."""
+        facts: dict[str, Any] = {"language": self.subject.language, "name": self.subject.name}
+        try:
+            self.guard(self.subject.start)
+            self.look(facts)
+        except StoppedError as stopped:
+            facts["stop"] = stopped.stop
+        self.look_last(facts)
+        return self.kind(season=self.subject.season, **self.subject.describe() | facts)
+
+    def look(self, facts: dict[str, Any]) -> None:
+        """Write down what happens as long as the program runs."""
+        raise NotImplementedError
+
+    def look_last(self, facts: dict[str, Any]) -> None:
+        """Write down what there is once it has ended."""
+        raise NotImplementedError
 
     def guard(self, run: Callable[[], Any]) -> Any:
         """Run a part of the program.
@@ -116,30 +119,24 @@ class Bench:
 
 
 class RoutineBench(Bench):
-    """A program with its routine, and what it does in the tests.
+    """A program with its routine, and what it does in the tests."""
 
-    Args:
-        subject: the program.
-        mounts: how the task's motors are built in, by the number of their port.
-    """
+    kind = RoutineFacts
 
-    def __init__(self, subject: Subject, mounts: dict[Any, Mount]) -> None:
-        self.subject, self.mounts = subject, mounts
+    def __init__(self, subject: Any, mounts: dict[Any, Mount]) -> None:
+        super().__init__(subject, mounts)
         self.row: Row | None = None
         self.sent: dict[str, dict[Sent, None]] = {}
 
-    def run(self) -> RoutineFacts:
-        """Start the program, run all four tests, and tell what happened."""
-        facts: dict[str, Any] = {"language": self.subject.language, "name": self.subject.name}
-        try:
-            self.guard(self.subject.start)
-            facts |= self._look()
-            if "drive" in facts:
-                facts["tests"] = dict(self._tests(facts))
-        except StoppedError as stopped:
-            facts["stop"] = stopped.stop
+    def look(self, facts: dict[str, Any]) -> None:
+        """Find the routine, and run all four tests."""
+        facts |= self._look()
+        if "drive" in facts:
+            facts["tests"] = dict(self._tests(facts))
+
+    def look_last(self, facts: dict[str, Any]) -> None:
+        """List the devices."""
         facts["devices"] = self._devices()
-        return RoutineFacts(season=self.subject.season, **facts, **self.subject.describe())
 
     # -- what there is ----------------------------------------------------------------------
 
@@ -211,7 +208,7 @@ class RoutineBench(Bench):
 
     def _tests(self, facts: dict[str, Any]) -> Iterator[tuple[str, TestRun]]:
         self._wrap_callbacks()
-        self.scheduler = find_scheduler()
+        self.scheduler = CommandScheduler()
         for test in TESTS:
             WORLD.mode, WORLD.battery, self.simulation.hiccup = "test", BATTERY, False
             self._rest()
@@ -335,13 +332,6 @@ class RoutineBench(Bench):
             for name, listed in pairs.items()
         }
         return TestRun(lasted, len(rows), len(logged), motors, signals, blocked)
-
-
-def find_scheduler() -> Any:
-    """The scheduler that runs the program's commands."""
-    from grader.robotcode.library.commands import CommandScheduler  # noqa: PLC0415 - not for WPILib's own
-
-    return WORLD.singletons.get("scheduler v3") or CommandScheduler()
 
 
 def find_direction(routine: Any, way: str) -> Any:

@@ -14,9 +14,6 @@ from tree_sitter import Node
 
 from grader.robotcode.java import runtime, streams, type_names, values
 from grader.robotcode.java.scope import (
-    MISSING,
-    RESULT,
-    THIS,
     Env,
     Frame,
     child,
@@ -25,19 +22,16 @@ from grader.robotcode.java.scope import (
     text,
 )
 from grader.robotcode.java.syntax import At
-from grader.robotcode.java.values import NullPointerException, Throwable
-from grader.robotcode.library.base import Fake, NoSuchMember, Unknown, WrongArgument
+from grader.robotcode.java.values import BOXES, PRIMITIVES, NullPointerException, Throwable
+from grader.robotcode.library.base import Fake, Unknown, WrongArgument
 
 if TYPE_CHECKING:
     from grader.robotcode.java.program import Unit
     from grader.robotcode.java.scope import Field, Run
 
 NUMBERS = ("byte", "short", "int", "long", "float", "double")  # each widens to those after it
-BOXES = {
-    "Byte": "byte", "Short": "short", "Integer": "int", "Long": "long", "Float": "float",
-    "Double": "double", "Boolean": "boolean", "Character": "char",
-}  # fmt: skip
-PRIMITIVES = frozenset(BOXES.values())
+WIDENS = {one: frozenset(NUMBERS[at + 1 :]) for at, one in enumerate(NUMBERS)}
+WIDENS["char"] = frozenset(NUMBERS[2:])
 BOXING, ANYTHING = 50.0, 20.0  # what it costs an overload to box, or to take just any object
 DECLARATIONS = {
     "class_declaration": "class",
@@ -209,7 +203,6 @@ class JavaClass:
         self.fields: dict[str, Field] = {}
         self.methods: list[Method] = []
         self.constructors: list[Method] = []
-        self.overrides: list[Method] = []
         self.on_class: list[Run] = []  # static initializers, in order
         self.on_instance: list[Run] = []
         self.constants: list[tuple[str, Node]] = []  # of an enum
@@ -276,7 +269,6 @@ class JavaClass:
         self.state = "new"
         declare_members(self)
         self._install()
-        self._check_overrides()
         compile_members(self)
         return made
 
@@ -284,39 +276,6 @@ class JavaClass:
     def lombok(self) -> bool:
         """Whether Lombok may write methods of it that stand nowhere."""
         return any(one.full.startswith("lombok.") for one in self.unit.imports)
-
-    def _check_overrides(self) -> None:
-        """Write down each ``@Override`` of a method that nothing above has."""
-        for one in self.overrides:
-            attribute = runtime.python_name(one.name)
-            above = [base for base in self.cls.__mro__[1:] if base.__module__ != "builtins"]
-            known = any(
-                attribute in base.__dict__ or one.name in getattr(base, "fake_others", ())
-                for base in above
-            )
-            library = [base for base in above if issubclass(base, Fake) and base is not Fake]
-            sure = all(
-                getattr(base, "fake_complete", False)
-                for base in library
-                if base.__module__ != __name__ and "java" not in base.__dict__
-            )
-            if any(isinstance(p, Unknown) for p in self._all_parents()):
-                sure = False
-            if (
-                not known
-                and sure
-                and one.name not in runtime.OBJECT_METHODS
-                and self.form != "record"
-            ):
-                names = [n for base in above for n in dir(base) if not n.startswith("_")]
-                near = type_names.did_you_mean(one.name, names)
-                self.unit.program.error(
-                    f"@Override: nothing above {self.name} has a method {one.name}(){near}", one.at
-                )
-
-    def _all_parents(self) -> Iterator[Any]:
-        for one in self.ancestors():
-            yield from (one.parent, *one.interfaces)
 
     def _find_parents(self) -> None:
         node = self.node
@@ -413,19 +372,14 @@ class JavaClass:
     def cost(self, kind: str, value: Any, static: str) -> float:
         """How far a value has to be converted for a parameter; infinite if it cannot be."""
         given = static or type_names.kind_of(value)
+        plain = BOXES.get(given, given)
         if isinstance(value, Unknown):
             return 1.0
         if kind in PRIMITIVES:
             boxed = BOXING if given in BOXES else 0.0
-            given = BOXES.get(given, given)
-            if given == kind:
+            if plain == kind:
                 return boxed
-            if given == "char" and kind in NUMBERS[2:]:
-                return boxed + NUMBERS.index(kind)
-            if given not in NUMBERS or kind not in NUMBERS:
-                return math.inf
-            steps = NUMBERS.index(kind) - NUMBERS.index(given)
-            return boxed + steps if steps > 0 else math.inf
+            return boxed + NUMBERS.index(kind) if kind in WIDENS.get(plain, ()) else math.inf
         if kind.endswith("[]"):
             if static in {"", "null"} or static.endswith("[]"):
                 return _array_cost(kind, value)
@@ -433,7 +387,7 @@ class JavaClass:
         if given == kind:
             return 0.0
         if kind in BOXES:
-            fits = value is None or BOXES[kind] == BOXES.get(given, given)
+            fits = value is None or BOXES[kind] == plain
             return BOXING if fits else math.inf
         if kind in self.variables or kind == "Object":
             return ANYTHING + (BOXING if given in PRIMITIVES else 0.0)
@@ -604,6 +558,3 @@ def _make_function(overloads: Overloads, *, static: bool) -> Any:
     made: Any = staticmethod(call_static) if static else call
     made.overloads = overloads
     return made
-
-
-__all__ = ["MISSING", "RESULT", "THIS", "JavaClass", "Method", "NoSuchMember", "Overloads"]

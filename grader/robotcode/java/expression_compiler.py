@@ -3,24 +3,14 @@
 import difflib
 import functools
 import inspect
-import operator
 import types
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 from tree_sitter import Node
 
 from grader.robotcode.java import lang, runtime, type_names, values
-from grader.robotcode.java.checks import (
-    ANNOTATED,
-    TypeChecker,
-    is_sure,
-    join_codes,
-    member_names,
-    promoted,
-    unknown_name,
-)
-from grader.robotcode.java.classes import BOXES, PRIMITIVES, JavaClass, python_class
+from grader.robotcode.java.classes import JavaClass, python_class
 from grader.robotcode.java.literals import read_character, read_number, read_string
 from grader.robotcode.java.program import packages_of
 from grader.robotcode.java.runtime import STATE, Function
@@ -40,37 +30,47 @@ from grader.robotcode.java.scope import (
     named,
     text,
 )
+from grader.robotcode.java.static_types import (
+    KINDS,
+    StaticTypes,
+    is_sure,
+    join_codes,
+    member_names,
+    promoted,
+    unknown_name,
+)
 from grader.robotcode.java.syntax import At
-from grader.robotcode.java.values import Array, ClassCastException
-from grader.robotcode.library.base import Fake, NoSuchMember, Unknown, WrongArgument
+from grader.robotcode.java.values import BOXES, PRIMITIVES, Array, ClassCastException
+from grader.robotcode.library.base import NoSuchMember, Unknown, WrongArgument
 
 NEARLY = 0.84  # how much of two names has to agree, from 0 to 1
 UNITS, UNITS_2027 = "edu.wpi.first.units.Units", "org.wpilib.units.Units"
 ENUM_STATICS = frozenset({"values", "valueOf"})
 LONGEST_TEXT = 60  # [characters] of code that is cited
-ARITHMETIC: dict[str, tuple[Callable[..., Any], Callable[..., Any] | None]] = {
-    # sign -> in Java's arithmetic, and the same for two doubles
-    "+": (values.add, operator.add),
-    "-": (values.subtract, operator.sub),
-    "*": (values.multiply, operator.mul),
-    "/": (values.divide, None),
-    "%": (values.remainder, None),
-    "<<": (values.shift_left, None),
-    ">>": (values.shift_right, None),
-    ">>>": (values.shift_unsigned, None),
-    "&": (values.bit_and, None),
-    "|": (values.bit_or, None),
-    "^": (values.bit_xor, None),
+OPERATORS: dict[str, Callable[..., Any]] = {
+    "+": values.add,
+    "-": values.subtract,
+    "*": values.multiply,
+    "/": values.divide,
+    "%": values.remainder,
+    "<<": values.shift_left,
+    ">>": values.shift_right,
+    ">>>": values.shift_unsigned,
+    "&": values.bit_and,
+    "|": values.bit_or,
+    "^": values.bit_xor,
 }
-COMPARISONS = {
-    "<": (values.less, operator.lt),
-    "<=": (values.less_equal, operator.le),
-    ">": (values.greater, operator.gt),
-    ">=": (values.greater_equal, operator.ge),
+COMPARISONS: dict[str, Callable[..., Any]] = {
+    "<": values.less,
+    "<=": values.less_equal,
+    ">": values.greater,
+    ">=": values.greater_equal,
+    "==": values.same,
+    "!=": values.differ,
 }
 
 
-class ExpressionCompiler(TypeChecker):
+class ExpressionCompiler(StaticTypes):
     """Compiles the expressions of one method, lambda or initializer.
 
     Args:
@@ -80,8 +80,7 @@ class ExpressionCompiler(TypeChecker):
 
     def __init__(self, owner: JavaClass, frame: Frame) -> None:
         super().__init__(owner, frame)
-        # Of the switch expressions around: the slot for the value, and what may be put into it.
-        self.yields: list[tuple[int, list[Code]]] = []
+        self.yields: list[int] = []  # of the switch expressions around: the slot for the value
         self.in_constructor = False
 
     # -- help -------------------------------------------------------------------------------
@@ -162,9 +161,6 @@ class ExpressionCompiler(TypeChecker):
         """What leads from the variables of a method to those around its class."""
         if not keys:
             return lambda env: env
-        if len(keys) == 1:
-            key = keys[0]
-            return lambda env: env[THIS].__dict__[key]
 
         def run(env: Env) -> Env:
             for key in keys:
@@ -220,7 +216,7 @@ class ExpressionCompiler(TypeChecker):
         if found is None:
             return self._imported(name) or self._unknown_name(name, node)
         if found[0] == "local":
-            return self._local(found[1], found[2], node)
+            return self._local(found[1], found[2])
         if found[0] == "library":
             reach = self._reach(found[1])
             return Code(lambda env: runtime.get_field(reach(env)[THIS], name))
@@ -230,16 +226,12 @@ class ExpressionCompiler(TypeChecker):
             return self.refuse(f"illegal forward reference: {name} is declared below", node)
         return self._field_code(keys, owner, one, node)
 
-    def _local(self, keys: Sequence[str], local: Local, node: Node) -> Code:
+    def _local(self, keys: Sequence[str], local: Local) -> Code:
         slot = local.slot
-        if keys or local.depth < self.frame.depth:
-            local.captured = local.captured or self.at(node)
         if local.constant is not MISSING:
             return _constant(local.constant, local.kind)
-        if not keys:
-            return Code(lambda env: env[slot], local.kind)
         reach = self._reach(keys)
-        return Code(lambda env: reach(env)[slot], local.kind)
+        return Code(lambda env: reach(env)[slot] if keys else env[slot], local.kind)
 
     def _field_code(self, keys: Sequence[str], owner: JavaClass, one: Field, node: Node) -> Code:
         key, kind = one.key, self.seen_from_here(owner, one.kind)
@@ -258,25 +250,26 @@ class ExpressionCompiler(TypeChecker):
             return self.refuse(
                 f"{one.name} belongs to an object, and this is a static method", node
             )
-        if not keys:
-            return Code(lambda env: env[THIS].__dict__[key], kind)
         reach = self._reach(keys)
         return Code(lambda env: reach(env)[THIS].__dict__[key], kind)
 
     def _imported(self, name: str) -> Code | None:
         """A field that a static import brings."""
-        for one in self.owner.unit.imports:
-            if not one.static or not (one.star or one.name == name):
-                continue
-            full = one.full if one.star else one.full.rpartition(".")[0]
-            cls = self.program.load(full)
-            if cls is None:
-                self.program.unknown.setdefault(full, one.at)
-                return _constant_of(Unknown(name))
+        for cls, _ in self._static_imports(name):
             code = self._static_member(cls, name)
             if code is not None:
                 return code
         return None
+
+    def _static_imports(self, name: str) -> Iterator[tuple[Any, bool]]:
+        """The classes of which a static import may bring a name, and whether it says the name."""
+        for one in self.owner.unit.imports:
+            if one.static and (one.star or one.name == name):
+                full = one.full if one.star else one.full.rpartition(".")[0]
+                cls = self.program.load(full)
+                if cls is None:
+                    self.program.unknown.setdefault(full, one.at)
+                yield Unknown(full) if cls is None else cls, not one.star
 
     def _static_member(self, cls: Any, name: str) -> Code | None:
         """A static field of a class; None if it has none of this name."""
@@ -285,18 +278,13 @@ class ExpressionCompiler(TypeChecker):
             if found is not None:
                 return self._field_code((), *found, cls.node) if found[1].static else None
             cls = cls.library_base
-        if isinstance(cls, type) and runtime.find_attribute(cls, name) is None:
-            return (
-                None
-                if not isinstance(cls, type(Fake)) or cls.fake_complete
-                else Code(lambda _e: runtime.get_static(cls, name))
-            )
         if cls is None:
             return None
         found = None if isinstance(cls, Unknown) else runtime.find_attribute(cls, name)
-        if isinstance(found, types.FunctionType | staticmethod | classmethod):
+        none = found is None and isinstance(cls, type) and getattr(cls, "fake_complete", True)
+        if none or isinstance(found, types.FunctionType | staticmethod | classmethod):
             return None
-        kind = ANNOTATED.get(type(found), type(found).__name__ if found is not None else "")
+        kind = KINDS.get(type(found), type(found).__name__ if found is not None else "")
         kind = cls.__name__ if name in {"TRUE", "FALSE"} else kind
         if found is None or isinstance(found, property | Unknown):
             return Code(lambda _env: runtime.get_static(cls, name), kind)
@@ -369,7 +357,8 @@ class ExpressionCompiler(TypeChecker):
             code = self._static_member(cls, name)
             if code is not None:
                 return code
-            return self.refuse(self.unknown_field(cls, name), node)
+            names = member_names(cls)
+            return self.refuse(unknown_name("field", name, names, _label(cls)), node)
         whole = self.class_of(node)
         if whole is not None:
             return Code(lambda _env: whole)
@@ -426,46 +415,15 @@ class ExpressionCompiler(TypeChecker):
         a, b = left.run, right.run
         kinds = BOXES.get(left.kind, left.kind), BOXES.get(right.kind, right.kind)
         if sign in {"&&", "||"}:
-            for one in kinds:
-                if one and one != "boolean" and (one in PRIMITIVES or one == "String"):
-                    return self.refuse(
-                        f"{sign} joins conditions, and here stands a value of type {one}", node
-                    )
-            run = (
-                (lambda env: a(env) and b(env)) if sign == "&&" else (lambda env: a(env) or b(env))
-            )
-            return Code(run, "boolean")
-        if sign in {"==", "!="}:
-            same = values.same
-            if sign == "==":
-                return Code(lambda env: same(a(env), b(env)), "boolean")
+            both = sign == "&&"
+            return Code(lambda env: (a(env) and b(env)) if both else (a(env) or b(env)), "boolean")
+        exact, at = OPERATORS.get(sign) or COMPARISONS[sign], self.at(node)
 
-            def differ(env: Env) -> Any:
-                equal = same(a(env), b(env))
-                return equal if isinstance(equal, Unknown) else not equal
+        def run(env: Env) -> Any:
+            one, other = a(env), b(env)
+            STATE.at = at
+            return exact(one, other)
 
-            return Code(differ, "boolean")
-        text_sum = sign == "+" and "String" in kinds
-        if not text_sum and any(
-            one in {"String", "null", "void"} or (one == "boolean" and sign not in "&|^")
-            for one in kinds
-        ):
-            return self.refuse(f"bad operand types for {sign}: {' and '.join(kinds)}", node)
-        exact, fast = ((*ARITHMETIC, *()) and ARITHMETIC.get(sign)) or COMPARISONS[sign]
-        doubles = "double" in kinds and all(
-            one in {"double", "int", "short", "byte"} for one in kinds
-        )
-        at = self.at(node)
-        if doubles and fast is not None:
-            run = lambda env: fast(a(env), b(env))
-        elif sign in "/%":
-
-            def run(env: Env) -> Any:
-                one, other = a(env), b(env)
-                STATE.at = at
-                return exact(one, other)
-        else:
-            run = lambda env: exact(a(env), b(env))
         kind = "boolean" if sign in COMPARISONS else promoted(sign, *kinds)
         if (
             left.constant is not MISSING
@@ -514,11 +472,7 @@ class ExpressionCompiler(TypeChecker):
     def condition(self, node: Node) -> Run:
         """Compile a condition."""
         code = self.compile(node)
-        if (
-            code.kind
-            and BOXES.get(code.kind, code.kind) != "boolean"
-            and not self._is_open(code.kind)
-        ):
+        if code.kind in {*PRIMITIVES, *BOXES, "String"} - {"boolean", "Boolean"}:
             return self.refuse(
                 f"a condition has to be true or false, and this is of type {code.kind}", node
             ).run
@@ -575,143 +529,99 @@ class ExpressionCompiler(TypeChecker):
 
     # -- assignment -------------------------------------------------------------------------
 
-    def target(
-        self, node: Node
-    ) -> tuple[str, Run, Callable[[Any, Env], Any], Callable[[Any, Env, Any], None]]:
-        """What can be assigned: its type, what finds it once, reads it and sets it."""
+    def target(self, node: Node) -> tuple[str, Run]:
+        """What can be assigned: its type, and what finds its place, a holder and a key in it."""
         if node.type == "parenthesized_expression":
             return self.target(next(named(node)))
+        if node.type == "array_access":
+            array = self.compile(node.child_by_field_name("array"))
+            index = self.compile(node.child_by_field_name("index")).run
+            run, kind = array.run, array.kind[:-2] if array.kind.endswith("[]") else ""
+            return kind, lambda env: (run(env), index(env))
         if node.type == "identifier":
             return self._named_target(node)
-        if node.type == "array_access":
-            return self._array_target(node)
         if node.type == "field_access":
             return self._field_target(node)
         stop = self.refuse("this cannot be assigned to", node).run
-        return "", stop, lambda _ref, _env: None, lambda _ref, _env, _value: None
+        return "", lambda env: (stop(env), "")
 
-    def _named_target(self, node: Node) -> Any:
+    def _named_target(self, node: Node) -> tuple[str, Run]:
         name = text(node)
         found = self.find_variable(name)
-        if found is None or found[0] == "library":
-            stop = self._identifier(node).run if found is None else (lambda env: env[THIS])
-            return (
-                "",
-                stop,
-                lambda ref, _e: runtime.get_field(ref, name),
-                lambda ref, _e, v: runtime.set_field(ref, name, v),
+        if found is None:
+            lost = self._identifier(node).run
+            return "", lambda env: (lost(env), name)
+        if found[0] == "library":
+            return "", lambda env: (env[THIS], name)
+        if found[0] == "field":
+            _, keys, owner, one = found
+            return self._own_field(keys, owner, one, node)
+        local: Local = found[2]
+        if found[1] or local.depth < self.frame.depth:
+            self.refuse(
+                f"{name} cannot be changed in a lambda or class: it must be effectively final", node
             )
-        if found[0] == "local":
-            local: Local = found[2]
-            local.assigned += 1
-            if found[1] or local.depth < self.frame.depth:
-                self.refuse(
-                    f"{name} cannot be changed in a lambda or class: it must be effectively final",
-                    node,
-                )
-            if local.final and local.valued:
-                self.refuse(f"cannot assign a value to final variable {name}", node)
-            slot = local.slot
+        if local.final:
+            self.refuse(f"cannot assign a value to final variable {name}", node)
+        slot = local.slot
+        return local.kind, lambda env: (env, slot)
 
-            def set_local(_ref: Any, env: Env, value: Any) -> None:
-                env[slot] = value
-
-            return local.kind, lambda _env: None, lambda _ref, env: env[slot], set_local
-        _, keys, owner, one = found
+    def _own_field(
+        self, keys: Sequence[str], owner: JavaClass, one: Field, node: Node
+    ) -> tuple[str, Run]:
+        """The place of a field of this object, of one around it, or of a class."""
         self._check_final(owner, one, node)
-        code = self._field_code(keys, owner, one, node) if self.frame.field_rank < 0 else None
-        return self._held(owner, one, None if one.static else self._reach(keys), code)
+        if self.frame.field_rank < 0:
+            self._field_code(keys, owner, one, node)  # which refuses what belongs to no object
+        key, kind, reach = one.key, self.seen_from_here(owner, one.kind), self._reach(keys)
+        if one.static:
 
-    def _held(
-        self, owner: JavaClass, one: Field, reach: Callable[[Env], Env] | None, _code: Code | None
-    ) -> Any:
-        key, kind = one.key, self.seen_from_here(owner, one.kind)
-        if reach is None:
-
-            def prepare(_env: Env) -> Any:
+            def find_static(_env: Env) -> Any:
                 owner.initialize()
-                return owner.statics
-        else:
+                return owner.statics, key
 
-            def prepare(env: Env) -> Any:
-                return reach(env)[THIS].__dict__
-
-        def set_field(ref: Any, _env: Env, value: Any) -> None:
-            ref[key] = value
-
-        return kind, prepare, lambda ref, _env: ref[key], set_field
+            return kind, find_static
+        return kind, lambda env: (reach(env)[THIS].__dict__, key)
 
     def _check_final(self, owner: JavaClass, one: Field, node: Node) -> None:
-        one.assigned.append(self.at(node))
         if one.final and not (owner is self.owner and self.in_constructor and one.value is None):
             self.refuse(f"cannot assign a value to final variable {one.name}", node)
 
-    def _field_target(self, node: Node) -> Any:
+    def _field_target(self, node: Node) -> tuple[str, Run]:
         object_, name = node.child_by_field_name("object"), text(node.child_by_field_name("field"))
         cls = self.class_of(object_) if object_.type not in {"this", "super"} else None
-        if isinstance(cls, JavaClass):
-            found = cls.find_field(name)
-            if found is not None and found[1].static:
-                self._check_final(*found, node)
-                return self._held(*found, None, None)
+        found = cls.find_field(name) if isinstance(cls, JavaClass) else None
+        if found is not None and found[1].static:
+            return self._own_field((), *found, node)
         if isinstance(cls, type | Unknown):
-            return (
-                "",
-                lambda _env: cls,
-                lambda ref, _e: runtime.get_static(ref, name),
-                lambda ref, _e, v: runtime.set_field(ref, name, v),
-            )
+            return "", lambda _env: (cls, name)
         value = self.compile(object_)
         known = self.resolve(value.kind) if value.kind else None
         found = known.find_field(name) if isinstance(known, JavaClass) else None
-        if found is None and isinstance(known, JavaClass) and known.library_base is None:
-            self.refuse(self.unknown_field(known, name), node)
-        kind = ""
-        if found is not None:
-            kind = self.seen_from_here(found[0], found[1].kind)
-            self._check_final(*found, node) if object_.type == "this" else found[1].assigned.append(
-                self.at(node)
-            )
-            if found[1].static:
-                return self._held(*found, None, None)
-            name = found[1].key[1:]
-        return (
-            kind,
-            value.run,
-            lambda ref, _e: runtime.get_field(ref, name),
-            lambda ref, _e, v: runtime.set_field(ref, name, v),
-        )
-
-    def _array_target(self, node: Node) -> Any:
-        array = self.compile(node.child_by_field_name("array"))
-        index = self.compile(node.child_by_field_name("index")).run
-        run, at = array.run, self.at(node)
-        kind = array.kind[:-2] if array.kind.endswith("[]") else ""
-
-        def prepare(env: Env) -> Any:
-            return run(env), index(env)
-
-        def read(ref: Any, _env: Env) -> Any:
-            STATE.at = at
-            return type_names.array_get(*ref)
-
-        def write(ref: Any, _env: Env, value: Any) -> None:
-            STATE.at = at
-            type_names.array_set(ref[0], ref[1], value)
-
-        return kind, prepare, read, write
+        if found is None:
+            if isinstance(known, JavaClass) and known.library_base is None:
+                self.refuse(self.unknown_field(known, name), node)
+            return "", lambda env: (value.run(env), name)
+        if found[1].static:
+            return self._own_field((), *found, node)
+        if object_.type == "this":
+            self._check_final(*found, node)
+        key = found[1].key[1:]
+        kind = self.seen_from_here(found[0], found[1].kind)
+        return kind, lambda env: (value.run(env), key)
 
     def _assignment_expression(self, node: Node) -> Code:
         left, right = node.child_by_field_name("left"), node.child_by_field_name("right")
         sign = text(node.child_by_field_name("operator"))
         if sign == "=":
-            kind, prepare, _, write = self.target(left)
-            value = self.coerce(self.compile(right), kind, node)
+            kind, find = self.target(left)
+            value, at = self.coerce(self.compile(right), kind, node), self.at(node)
 
             def assign(env: Env) -> Any:
-                ref = prepare(env)
+                place = find(env)
                 new = value(env)
-                write(ref, env, new)
+                STATE.at = at
+                write_place(place, new)
                 return new
 
             return Code(assign, kind)
@@ -724,7 +634,8 @@ class ExpressionCompiler(TypeChecker):
         return self._compound(target, sign, _constant(1, "int"), node, after=after)
 
     def _compound(self, target: Node, sign: str, right: Code, node: Node, *, after: bool) -> Code:
-        kind, prepare, read, write = self.target(target)
+        kind, find = self.target(target)
+        at = self.at(node)
         slot = self.frame.declare(f"{node.start_byte} old", kind).slot
         old = Code(lambda env: env[slot], kind)
         operated = self.operate(sign, old, right, node)
@@ -732,12 +643,13 @@ class ExpressionCompiler(TypeChecker):
         narrow = box in PRIMITIVES and operated.kind != box
 
         def run(env: Env) -> Any:
-            ref = prepare(env)
-            before = env[slot] = read(ref, env)
+            place = find(env)
+            STATE.at = at
+            before = env[slot] = read_place(place)
             new = operated.run(env)
             if narrow:
                 new = values.cast(box, new)
-            write(ref, env, new)
+            write_place(place, new)
             return new if after else before
 
         return Code(run, kind)
@@ -745,8 +657,15 @@ class ExpressionCompiler(TypeChecker):
     # -- arrays -----------------------------------------------------------------------------
 
     def _array_access(self, node: Node) -> Code:
-        kind, prepare, read, _ = self._array_target(node)
-        return Code(lambda env: read(prepare(env), env), kind)
+        kind, find = self.target(node)
+        at = self.at(node)
+
+        def run(env: Env) -> Any:
+            place = find(env)
+            STATE.at = at
+            return type_names.array_get(*place)
+
+        return Code(run, kind)
 
     def _array_creation_expression(self, node: Node) -> Code:
         kind = kind_of(node.child_by_field_name("type"))
@@ -780,11 +699,6 @@ class ExpressionCompiler(TypeChecker):
         """Compile arguments."""
         codes = [self.compile(one) for one in named(node)] if node is not None else []
         runs = [one.run for one in codes]
-        if not runs:
-            return Arguments(lambda _env: [], codes)
-        if len(runs) == 1:
-            first = runs[0]
-            return Arguments(lambda env: [first(env)], codes)
         return Arguments(lambda env: [run(env) for run in runs], codes)
 
     def _method_invocation(self, node: Node) -> Code:
@@ -802,16 +716,13 @@ class ExpressionCompiler(TypeChecker):
             return self.refuse(
                 f"a value of type {value.kind} has no methods, so .{name}() cannot follow it", node
             )
-        holder = str if value.kind == "String" else self.class_of_kind(value.kind)
-        if holder is None or value.kind in BOXES:
-            return Code(self.call(value.run, name, args, node))
-        found = runtime.find_attribute(python_class(holder), name)
-        refusal = self.unknown_method(holder, name) or self.misfit(found, args.codes)
-        if refusal:
-            return self.refuse(refusal, node)
-        if found is not None and _is_static(found):
-            return self._static_call(holder, name, args, node)
-        return Code(self.call(value.run, name, args, node), self.result_in(holder, name))
+        holder = self.resolve(value.kind) if value.kind else None
+        found = None
+        if isinstance(holder, JavaClass) and not value.kind.endswith("[]"):
+            found = runtime.find_attribute(holder.cls, name)
+            if found is not None and _is_static(found):
+                return self._static_call(holder, name, args, node)
+        return Code(self.call(value.run, name, args, node), self.result_of(found))
 
     def call(self, value: Run, name: str, args: Arguments, node: Node) -> Run:
         """Compile a call of a method on whatever a value is then."""
@@ -828,14 +739,19 @@ class ExpressionCompiler(TypeChecker):
                 if caller is None:
                     caller = callers[kind] = runtime.find_caller(kind, name, kinds)
                 return caller(one, given)
-            except (NoSuchMember, WrongArgument) as problem:
+            except (NoSuchMember, TypeError) as problem:
                 return self.mismatch(problem, at, name)
 
         return run
 
     def mismatch(self, problem: Exception, at: At, name: str) -> Unknown:
         """Write down a call that javac would have refused; what it gives is unknown."""
-        self.program.error(str(problem), at, name)
+        said = str(problem)
+        if not isinstance(problem, NoSuchMember | WrongArgument):
+            if not runtime.is_about_arguments(problem):
+                raise problem
+            said = f"{name} takes another number of arguments"
+        self.program.error(said, at, name)
         return Unknown(f"{name}()")
 
     def _own_call(self, name: str, args: Arguments, node: Node) -> Code:
@@ -845,9 +761,6 @@ class ExpressionCompiler(TypeChecker):
             found = runtime.find_attribute(owner.cls, name)
             if found is None and name not in getattr(owner.cls, "fake_others", ()):
                 continue
-            refusal = self.misfit(found, args.codes)
-            if refusal:
-                return self.refuse(refusal, node)
             if found is not None and _is_static(found):
                 return self._static_call(owner, name, args, node)
             if frame.static:
@@ -861,15 +774,10 @@ class ExpressionCompiler(TypeChecker):
             if found is not None or (one.form == "enum" and name in ENUM_STATICS):
                 return self._static_call(one, name, args, node)
             one = one.outer
-        for imported in self.owner.unit.imports:
-            if imported.static and (imported.star or imported.name == name):
-                full = imported.full if imported.star else imported.full.rpartition(".")[0]
-                cls = self.program.load(full)
-                if cls is None:
-                    self.program.unknown.setdefault(full, imported.at)
-                    return Code(lambda _env: Unknown(name))
-                if not imported.star or runtime.find_attribute(python_class(cls), name) is not None:
-                    return self._static_call(cls, name, args, node)
+        for cls, said in self._static_imports(name):
+            sure = said or isinstance(cls, Unknown)
+            if sure or runtime.find_attribute(python_class(cls), name) is not None:
+                return self._static_call(cls, name, args, node)
         if self.frame.static:
             return self.refuse(unknown_name("method", name, member_names(self.owner), ""), node)
         base = self.owner.library_base
@@ -887,8 +795,9 @@ class ExpressionCompiler(TypeChecker):
         self, reach: Callable[[Env], Env], owner: JavaClass, name: str, args: Arguments, node: Node
     ) -> Code:
         """A call of a method of the object whose variables something leads to."""
-        result = self.result_in(owner, name)
-        overloads = getattr(runtime.find_attribute(owner.cls, name), "overloads", None)
+        found = runtime.find_attribute(owner.cls, name)
+        result = self.result_of(found)
+        overloads = getattr(found, "overloads", None)
         if overloads is not None and all("private" in one.modifiers for one in overloads.methods):
             run = self._call_overloads(overloads, args, node, lambda env: reach(env)[THIS])
             return Code(run, result)
@@ -902,32 +811,34 @@ class ExpressionCompiler(TypeChecker):
         def run(env: Env) -> Any:
             given = arguments(env)
             STATE.at = at
-            return overloads.call(this(env), given, kinds)
+            try:
+                return overloads.call(this(env), given, kinds)
+            except (NoSuchMember, TypeError) as problem:
+                return self.mismatch(problem, at, overloads.name)
 
         return run
 
     def _static_call(self, cls: Any, name: str, args: Arguments, node: Node) -> Code:
         at, arguments = self.at(node), args.run
         if isinstance(cls, JavaClass) and cls.form == "enum" and name in ENUM_STATICS:
-            kind = self.name_here(cls, cls.name) + "[]" * (name == "values")
+            kind = cls.name if self.resolve(cls.name) is cls else ""
+            kind += "[]" * (name == "values")
             return Code(lambda env: enum_static(cls, name, arguments(env)), kind)
-        if not isinstance(cls, Unknown):
-            found = runtime.find_attribute(python_class(cls), name)
-            refusal = self.unknown_method(cls, name) or self.misfit(found, args.codes)
-            if not refusal and found is not None and not _is_static(found, surely=True):
-                label = cls.name if isinstance(cls, JavaClass) else cls.__name__
-                refusal = f"{name}() belongs to an object: {label} is the class, not one of those"
-            if refusal:
-                return self.refuse(refusal, node)
-            overloads = getattr(found, "overloads", None)
-            if overloads is not None and isinstance(cls, JavaClass):
-                call = self._call_overloads(overloads, args, node)
+        found = runtime.find_attribute(cls.cls, name) if isinstance(cls, JavaClass) else None
+        overloads = getattr(found, "overloads", None)
+        if overloads is not None:
+            if not _is_static(found, surely=True):
+                return self.refuse(
+                    f"{name}() belongs to an object: {cls.name} is the class, not one of those",
+                    node,
+                )
+            call = self._call_overloads(overloads, args, node)
 
-                def run_own(env: Env) -> Any:
-                    cls.initialize()
-                    return call(env)
+            def run_own(env: Env) -> Any:
+                cls.initialize()
+                return call(env)
 
-                return Code(run_own, self.result_in(cls, name))
+            return Code(run_own, self.result_of(found))
         library = cls.cls if isinstance(cls, JavaClass) else cls
 
         def run(env: Env) -> Any:
@@ -935,10 +846,10 @@ class ExpressionCompiler(TypeChecker):
             STATE.at = at
             try:
                 return runtime.call_static(library, name, given)
-            except (NoSuchMember, WrongArgument) as problem:
+            except (NoSuchMember, TypeError) as problem:
                 return self.mismatch(problem, at, name)
 
-        return Code(run, self.result_in(cls, name))
+        return Code(run)
 
     def _super_call(self, object_: Node | None, name: str, args: Arguments, node: Node) -> Code:
         owner = self.owner
@@ -948,16 +859,12 @@ class ExpressionCompiler(TypeChecker):
         for one in [above] if above is not None else owner.interfaces:
             cls = python_class(one)
             found = runtime.find_attribute(cls, name) if isinstance(cls, type) else None
-            refusal = self.misfit(found, args.codes)
-            if refusal:
-                return self.refuse(refusal, node)
             overloads = getattr(found, "overloads", None)
             if overloads is not None:
                 run = self._call_overloads(overloads, args, node, lambda env: env[THIS])
-                return Code(run, self.result_in(one, name))
+                return Code(run, self.result_of(found))
             if found is not None:
-                run = lambda env, found=found: found(env[THIS], *args.run(env))
-                return Code(run, self.result_in(one, name))
+                return Code(lambda env, found=found: found(env[THIS], *args.run(env)))
         if name in runtime.OBJECT_METHODS:
             return Code(lambda env: runtime.OBJECT_METHODS[name](env[THIS], *args.run(env)))
         return Code(lambda _env: Unknown(f"super.{name}"))
@@ -983,33 +890,23 @@ class ExpressionCompiler(TypeChecker):
             if cls.name and ("abstract" in cls.modifiers or cls.form in {"interface", "enum"}):
                 what = "an enum" if cls.form == "enum" else "abstract"
                 return self.refuse(f"{cls.name} is {what}: new cannot make one of it", node)
-            refusal = self.misfit_new(cls, args.codes)
-            if refusal:
-                return self.refuse(refusal, node)
             around = self._environment(cls, outer.run if outer is not None else None)
-
-            def make(env: Env) -> Any:
-                given = arguments(env)
-                STATE.at = at
-                return cls.make(given, kinds, around(env) if around else None)
-
-            return Code(make, kind if cls.name else "")
-
-        if cls is None:  # a type variable
+            create = lambda env, given: cls.make(given, kinds, around(env) if around else None)
+            named_kind = kind if cls.name else ""
+        elif cls is None:  # a type variable
             return self.refuse(f"new cannot make one of {kind}", node)
-        refusal = self.misfit_new(cls, args.codes)
-        if refusal:
-            return self.refuse(refusal, node)
+        else:
+            create, named_kind = lambda _env, given: cls(*given), kind
 
-        def make_library(env: Env) -> Any:
+        def make(env: Env) -> Any:
             given = arguments(env)
             STATE.at = at
             try:
-                return cls(*given)
-            except (NoSuchMember, WrongArgument) as problem:
+                return create(env, given)
+            except (NoSuchMember, TypeError) as problem:
                 return self.mismatch(problem, at, f"new {kind}")
 
-        return Code(make_library, kind if isinstance(cls, type) else "")
+        return Code(make, named_kind)
 
     def _environment(self, cls: JavaClass, outer: Run | None) -> Callable[[Env], Env] | None:
         """What a new object gets to know of what is around its class."""
@@ -1086,10 +983,6 @@ class ExpressionCompiler(TypeChecker):
         kind = self.owner.name if first.type == "this" else value.kind
         if kind in PRIMITIVES:
             return self.refuse(f"a value of type {kind} has no methods", node)
-        holder = str if kind == "String" else self.class_of_kind(kind)
-        refusal = self.unknown_method(holder, name) if holder is not None else ""
-        if refusal:
-            return self.refuse(refusal, node)
         run = value.run
 
         def bound(env: Env) -> Any:
@@ -1123,9 +1016,6 @@ class ExpressionCompiler(TypeChecker):
             return Code(lambda _env: one, "lambda")
         found = runtime.find_attribute(python_class(cls), name)
         overloads = getattr(found, "overloads", None)
-        refusal = self.unknown_method(cls, name)
-        if refusal:
-            return self.refuse(refusal, node)
 
         def call(*args: Any) -> Any:
             STATE.at = at
@@ -1133,8 +1023,12 @@ class ExpressionCompiler(TypeChecker):
                 method, _ = overloads.choose(args, ())
                 if method is not None and method.static:
                     return overloads.call(None, args, ())
-            elif isinstance(found, staticmethod | classmethod) or not args:
+            elif not args or isinstance(found, staticmethod | classmethod):
                 return runtime.call_static(cls, name, args)
+            elif found is None and not (
+                isinstance(args[0], Function) or is_instance(args[0], _label(cls), cls)
+            ):
+                return runtime.call_static(python_class(cls), name, args)
             return runtime.find_caller(type(args[0]), name, ())(args[0], args[1:])
 
         arity = _count_parameters(found)
@@ -1170,8 +1064,29 @@ def _is_static(found: Any, *, surely: bool = False) -> bool:
     return not isinstance(found, types.FunctionType | functools.partialmethod)
 
 
-def _constant_of(value: Any) -> Code:
-    return Code(lambda _env: value)
+def read_place(place: tuple[Any, Any]) -> Any:
+    """What stands in a place: of variables or fields, of an object, or of an array."""
+    holder, key = place
+    if type(holder) in (list, dict):
+        return holder[key]
+    if type(key) is not str:
+        return type_names.array_get(holder, key)
+    return (runtime.get_static if isinstance(holder, type) else runtime.get_field)(holder, key)
+
+
+def write_place(place: tuple[Any, Any], value: Any) -> None:
+    """Put a value into a place."""
+    holder, key = place
+    if type(holder) in (list, dict):
+        holder[key] = value
+    elif type(key) is not str:
+        type_names.array_set(holder, key, value)
+    else:
+        runtime.set_field(holder, key, value)
+
+
+def _label(cls: Any) -> str:
+    return str(cls.name if isinstance(cls, JavaClass) else cls.__name__)
 
 
 def _this_of(reach: Callable[[Env], Env]) -> Run:

@@ -1,18 +1,13 @@
 """java.lang without texts: Math, the boxes of numbers, System, Thread, Object and Class."""
 
-import contextlib
 import enum
 import functools
 import math
 import re
-import struct
 from collections.abc import Callable
-from fractions import Fraction
 from sys import float_info
 from typing import Any
 
-from grader.robotcode.java import text
-from grader.robotcode.java.collections import Random
 from grader.robotcode.java.values import (
     FINISH,
     ArithmeticException,
@@ -20,12 +15,10 @@ from grader.robotcode.java.values import (
     ArrayIndexOutOfBoundsException,
     Byte,
     Float,
-    IllegalArgumentException,
     JavaClass,
     Long,
     NullPointerException,
     NumberFormatException,
-    Output,
     Short,
     add,
     cast,
@@ -33,15 +26,14 @@ from grader.robotcode.java.values import (
     equals,
     full_name,
     hash_code,
-    identity_hash,
     is_text,
     make_statics,
     negate,
     promote,
     propagate,
     to_string,
-    wrap,
 )
+from grader.robotcode.library import timing
 from grader.robotcode.library.base import JAVA, FakeType
 from grader.robotcode.library.world import WORLD
 
@@ -49,15 +41,10 @@ _LANG = "java.lang"
 WHOLE_KINDS = frozenset({"", "int", "short", "byte", "char"})  # what a list takes for an index
 MILLISECONDS, NANOSECONDS = 1e3, 1e9  # in a second
 START = 1_767_225_600_000  # [ms] from 1970 to 2026, when every program starts
-LONGEST_SLEEP = 10.0  # [s] after which a thread that sleeps again and again is stopped
 
 
 class Exited(BaseException):
     """The program called System.exit."""
-
-
-class _ThreadStopped(BaseException):
-    """A thread that would never end."""
 
 
 def _real(function: Callable[..., float]) -> Callable[..., float]:
@@ -66,7 +53,7 @@ def _real(function: Callable[..., float]) -> Callable[..., float]:
     @functools.wraps(function)
     def run(*args: Any) -> float:
         try:
-            return float(function(*map(_to_double, args)))
+            return float(function(*(float(promote(one, 0.0)[1]) for one in args)))
         except ValueError:
             return math.nan
         except OverflowError:
@@ -76,12 +63,8 @@ def _real(function: Callable[..., float]) -> Callable[..., float]:
     return run
 
 
-def _to_double(value: Any) -> float:
-    return float(promote(value, 0.0)[1])
-
-
-def _log(function: Callable[[float], float], pole: float) -> Callable[[float], float]:
-    return lambda x: -math.inf if x == pole else function(x)
+def _log(function: Callable[[float], float]) -> Callable[[float], float]:
+    return lambda x: -math.inf if x == 0 else function(x)
 
 
 def _round_with(change: Callable[[float], int]) -> Callable[[float], float]:
@@ -89,32 +72,10 @@ def _round_with(change: Callable[[float], int]) -> Callable[[float], float]:
     return lambda x: math.copysign(change(x), x) if math.isfinite(x) else x
 
 
-def _power(base: float, exponent: float) -> float:
-    odd = math.isfinite(exponent) and exponent % 2 == 1
-    if math.isnan(exponent) or (abs(base) == 1 and math.isinf(exponent)):
-        return math.nan
-    if base == 0 and exponent < 0:
-        return math.copysign(math.inf, base) if odd else math.inf
-    try:
-        return math.pow(base, exponent)
-    except OverflowError:
-        return -math.inf if base < 0 and odd else math.inf
-
-
 def _round(value: Any) -> Any:
     """Java's Math.round: half up, of a double to a long, else to an int."""
-    kind, real = "long" if type(value) is float else "int", _to_double(value)
-    if not math.isfinite(real):
-        return cast(kind, real)
-    whole = math.floor(real)
-    return (
-        cast(kind, float(whole))
-        if abs(real) >= 2**52
-        else _MAKE[kind](whole + (2 * (real - whole) >= 1))
-    )
-
-
-_MAKE = {"int": lambda value: max(-(2**31), min(2**31 - 1, value)), "long": Long}
+    kind, real = "long" if type(value) is float else "int", float(promote(value, 0.0)[1])
+    return cast(kind, math.floor(real + 0.5) if abs(real) < 2**52 else real)
 
 
 def _choose(pick: Callable[..., Any]) -> Callable[[Any, Any], Any]:
@@ -123,19 +84,6 @@ def _choose(pick: Callable[..., Any]) -> Callable[[Any, Any], Any]:
         if a != a or b != b:  # noqa: PLR0124 - not a number
             return FINISH[rank](math.nan)
         return FINISH[rank](pick(a, b, key=lambda one: (one, math.copysign(1, one))))
-
-    return run
-
-
-def _exact(operate: Callable[..., int]) -> Callable[..., Any]:
-    """Arithmetic on whole numbers that refuses to wrap around."""
-
-    def run(a: Any, b: Any) -> Any:
-        rank, a, b = promote(a, b)
-        result = operate(a, b)
-        if FINISH[rank](result) != result:
-            raise ArithmeticException(f"{'long' if rank else 'integer'} overflow")
-        return FINISH[rank](result)
 
     return run
 
@@ -150,62 +98,41 @@ def _floor(operate: Callable[[int, int], int]) -> Callable[[Any, Any], Any]:
     return run
 
 
-def _to_int(value: int) -> int:
-    if wrap(value) != value:
-        raise ArithmeticException("integer overflow")
-    return int(value)
-
-
 _larger, _smaller = _choose(max), _choose(min)
-_SAME = "sin cos tan asin acos atan cosh tanh atan2 sqrt exp expm1 ulp".split()  # noqa: SIM905
+_SAME = "sin cos tan asin acos atan sinh cosh tanh atan2 sqrt cbrt exp expm1 log1p ulp pow"
 _REALS: dict[str, Callable[..., float]] = {
-    **{name: getattr(math, name) for name in _SAME},
-    "cbrt": lambda x: float(round(math.cbrt(x))) if round(math.cbrt(x)) ** 3 == x else math.cbrt(x),
+    **{name: getattr(math, name) for name in _SAME.split()},
     "hypot": lambda x, y: math.hypot(x, y),
-    "fma": lambda x, y, z: float(Fraction(x) * Fraction(y) + Fraction(z)),
-    "sinh": lambda x: math.copysign(_real(math.sinh)(abs(x)), x),
-    "log": _log(math.log, 0),
-    "log10": _log(math.log10, 0),
-    "log1p": _log(math.log1p, -1),
-    "pow": _power,
+    "log": _log(math.log),
+    "log10": _log(math.log10),
     "ceil": _round_with(math.ceil),
     "floor": _round_with(math.floor),
     "rint": _round_with(round),
     "toRadians": math.radians,
     "toDegrees": math.degrees,
-    "IEEEremainder": math.remainder,
     "copySign": math.copysign,
     "signum": lambda x: math.copysign(1, x) if x else x,
-    "nextUp": lambda x: math.nextafter(x, math.inf),
-    "nextDown": lambda x: math.nextafter(x, -math.inf),
 }
-for _name in ("Math", "StrictMath"):
-    make_statics(
-        f"{_LANG}.{_name}",
-        {
-            **{name: _real(function) for name, function in _REALS.items()},
-            "abs": lambda x: _larger(x, negate(x)) if x or isinstance(x, float) else x,
-            "max": _larger,
-            "min": _smaller,
-            "clamp": lambda x, low, high: cast(
-                "int" if type(low) is type(high) is int else "double",
-                _larger(low, _smaller(high, x)),
-            ),
-            "round": _round,
-            "floorMod": _floor(lambda a, b: a % b),
-            "floorDiv": _floor(lambda a, b: a // b),
-            "addExact": _exact(lambda a, b: a + b),
-            "subtractExact": _exact(lambda a, b: a - b),
-            "multiplyExact": _exact(lambda a, b: a * b),
-            "negateExact": lambda a: _exact(lambda a, _: -a)(a, a),
-            "incrementExact": lambda a: _exact(lambda a, b: a + b)(a, 1),
-            "decrementExact": lambda a: _exact(lambda a, b: a - b)(a, 1),
-            "toIntExact": _to_int,
-            "random": lambda: WORLD.singletons.setdefault("Math.random", Random()).nextDouble(),
-        },
-        PI=math.pi,
-        E=math.e,
-    )
+make_statics(
+    f"{_LANG}.Math",
+    {
+        **{name: _real(function) for name, function in _REALS.items()},
+        "abs": lambda x: _larger(x, negate(x)) if x or isinstance(x, float) else x,
+        "max": _larger,
+        "min": _smaller,
+        "clamp": lambda x, low, high: cast(
+            "int" if type(low) is type(high) is int else "double", _larger(low, _smaller(high, x))
+        ),
+        "round": _round,
+        "floorMod": _floor(lambda a, b: a % b),
+        "floorDiv": _floor(lambda a, b: a // b),
+    },
+    others="random addExact subtractExact multiplyExact negateExact incrementExact decrementExact "
+    "toIntExact IEEEremainder nextUp nextDown fma getExponent scalb absExact ceilDiv ceilMod",
+    PI=math.pi,
+    E=math.e,
+)
+JAVA[f"{_LANG}.StrictMath"] = JAVA[f"{_LANG}.Math"]
 
 _REAL_TEXT = re.compile(r"[+-]?(NaN|Infinity|(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?[dDfF]?)")
 
@@ -219,36 +146,12 @@ def _parse_real(source: Any) -> float:
     return float(trimmed if trimmed[-1] in "Ny" else trimmed.rstrip("dDfF"))
 
 
-def _parse_whole(bits: int) -> Callable[..., int]:
-    def run(source: Any, radix: int = 10) -> int:
-        if source is None:
-            raise NumberFormatException("Cannot parse null string")
-        wrong = f'For input string: "{source}"' + (f" under radix {radix}" if radix != 10 else "")  # noqa: PLR2004
-        try:
-            value = (
-                int(source, radix)
-                if re.fullmatch(r"[+-]?\w+", source) and "_" not in source
-                else None
-            )
-        except ValueError:
-            value = None
-        if value is None or wrap(value, bits) != value:
-            raise NumberFormatException(wrong)
-        return value
-
-    return run
-
-
-def _to_radix(value: int, radix: int = 10) -> str:
-    digits, size, radix = "", abs(value), radix if radix in range(2, 37) else 10
-    while size or not digits:
-        size, digit = divmod(size, radix)
-        digits = "0123456789abcdefghijklmnopqrstuvwxyz"[digit] + digits
-    return "-" * (value < 0) + digits
-
-
-def _unsigned(letter: str) -> Callable[[int], str]:
-    return lambda value: f"{value & ((1 << getattr(type(value), 'bits', 32)) - 1):{letter}}"
+def _parse_whole(source: Any) -> int:
+    if source is None:
+        raise NumberFormatException("Cannot parse null string")
+    if not re.fullmatch(r"[+-]?\d{1,19}", source):
+        raise NumberFormatException(f'For input string: "{source}"')
+    return int(source)
 
 
 _REAL_TESTS: dict[str, Callable[..., bool]] = {
@@ -256,38 +159,19 @@ _REAL_TESTS: dict[str, Callable[..., bool]] = {
     "isInfinite": math.isinf,
     "isFinite": math.isfinite,
 }
-_WHOLE_STATICS: dict[str, Callable[..., Any]] = {
-    "toString": _to_radix,
-    "toBinaryString": _unsigned("b"),
-    "toHexString": _unsigned("x"),
-    "toOctalString": _unsigned("o"),
-    "bitCount": lambda value: _unsigned("b")(value).count("1"),
-    "toUnsignedInt": lambda value: value & ((1 << type(value).bits) - 1),
-    "toUnsignedString": lambda value: str(int(_unsigned("b")(value), 2)),
-    "signum": lambda value: (value > 0) - (value < 0),
-}
-_REAL_STATICS: dict[str, Callable[..., Any]] = {
-    **_REAL_TESTS,
-    "doubleToLongBits": lambda value: Long(struct.unpack(">q", struct.pack(">d", value))[0]),
-    "longBitsToDouble": lambda bits: struct.unpack(">d", struct.pack(">q", bits))[0],
-    "intBitsToFloat": lambda bits: Float(struct.unpack(">f", struct.pack(">i", bits))[0]),
-    "floatToIntBits": lambda value: struct.unpack(">i", struct.pack(">f", value))[0],
-}
-_EDGES = {
-    "Double": (float, float_info.max, 5e-324),
-    "Float": (Float, 3.4028234663852886e38, 1.401298464324817e-45),
-}
 
 
 def _make_box(kind: str, name: str, parse: Callable[..., Any], **constants: Any) -> type:
     """The class of a boxed number: its static methods, and a constructor."""
-    real = parse is _parse_real
 
     def as_kind(method: Callable[..., Any]) -> Callable[..., Any]:
         return lambda *args: method(*(cast(kind, one) for one in args))
 
-    def read(source: Any, *radix: int) -> Any:
-        return cast(kind, parse(source, *radix) if is_text(source) or source is None else source)
+    def read(source: Any) -> Any:
+        number = parse(source) if is_text(source) or source is None else source
+        if parse is _parse_whole and cast(kind, number) != number:
+            raise NumberFormatException(f'For input string: "{source}"')
+        return cast(kind, number)
 
     return make_statics(
         f"{_LANG}.{name}",
@@ -295,25 +179,27 @@ def _make_box(kind: str, name: str, parse: Callable[..., Any], **constants: Any)
             f"parse{kind.title()}": read,
             "valueOf": read,
             "compare": as_kind(compare),
-            "hashCode": as_kind(hash_code),
             "max": as_kind(_larger),
             "min": as_kind(_smaller),
             "sum": as_kind(add),
-            **(_REAL_STATICS | {"toString": as_kind(to_string)} if real else _WHOLE_STATICS),
+            "toString": as_kind(to_string),
+            **(_REAL_TESTS if parse is _parse_real else {}),
         },
+        partial=True,
         __new__=lambda _cls, source: read(source),
         **constants,
     )
 
 
 for _name, _made in {"int": int, "long": Long, "short": Short, "byte": Byte}.items():
-    _bits = getattr(_made, "bits", 32)
-    _edge = 1 << (_bits - 1)
-    _limits = {"MIN_VALUE": _made(-_edge), "MAX_VALUE": _made(_edge - 1), "SIZE": _bits}
-    _title = "Integer" if _made is int else _made.__name__
-    _make_box(_name, _title, _parse_whole(_bits), **_limits)
-for _title, (_made, _most, _least) in _EDGES.items():
-    _limits = {"MAX_VALUE": _made(_most), "MIN_VALUE": _made(_least), "NaN": _made(math.nan)}
+    _edge = 1 << (getattr(_made, "bits", 32) - 1)
+    _limits = {"MIN_VALUE": _made(-_edge), "MAX_VALUE": _made(_edge - 1)}
+    _make_box(_name, "Integer" if _made is int else _made.__name__, _parse_whole, **_limits)
+for _title, _made, _most in (
+    ("Double", float, float_info.max),
+    ("Float", Float, 3.4028234663852886e38),
+):
+    _limits = {"MAX_VALUE": _made(_most), "NaN": _made(math.nan)}
     _limits |= {"POSITIVE_INFINITY": _made(math.inf), "NEGATIVE_INFINITY": _made(-math.inf)}
     _make_box(_title.lower(), _title, _parse_real, **_limits)
 
@@ -329,17 +215,14 @@ make_statics(
         "valueOf": _parse_boolean,
         "toString": to_string,
         "compare": compare,
-        "hashCode": hash_code,
-        "logicalAnd": lambda a, b: a and b,
-        "logicalOr": lambda a, b: a or b,
-        "logicalXor": lambda a, b: a != b,
     },
+    partial=True,
     TRUE=True,
     FALSE=False,
 )
 
 
-class Class(JavaClass, package=_LANG):
+class Class(JavaClass, package=_LANG, partial=True):
     """What ``getClass()`` and ``X.class`` give: a class and its names."""
 
     def __init__(self, name: str, cls: Any = None) -> None:
@@ -392,7 +275,7 @@ class Object(JavaClass, package=_LANG, others="notify notifyAll wait finalize"):
     """Base of everything, and what ``new Object()`` makes."""
 
     equals = lambda self, other: self is other
-    hashCode = lambda self: identity_hash(self)
+    hashCode = lambda self: id(self) & 0x7FFFFFFF
     toString = lambda self: f"{full_name(type(self))}@{hash_code(self) & 0xFFFFFFFF:x}"
     getClass = lambda self: class_of(self)
 
@@ -403,19 +286,16 @@ for _name in _MARKERS:
 FakeType("Serializable", (JavaClass,), {}, package="java.io")
 
 
-class PrintStream(Output, package="java.io"):
-    """System.out and System.err."""
+class PrintStream(JavaClass, package="java.io", partial=True):
+    """System.out and System.err: nobody reads what a robot prints."""
 
-    printf = format = lambda self, *args: self.print(text.format(args[0], args[1:]))
+    print = println = printf = format = lambda self, *_args: None
 
 
 def _copy_array(source: Array, start: int, target: Array, place: int, count: int) -> None:
-    for array, first, which in ((source, start, "source"), (target, place, "destination")):
+    for array, first in ((source, start), (target, place)):
         if count < 0 or first < 0 or first + count > len(array):
-            raise ArrayIndexOutOfBoundsException(
-                f"arraycopy: last {which} index {first + count} out of bounds for "
-                f"{array.kind}[{len(array)}]"
-            )
+            raise ArrayIndexOutOfBoundsException(f"arraycopy: last index {first + count}")
     target[place : place + count] = source[start : start + count]
 
 
@@ -423,12 +303,11 @@ def _exit(_status: int) -> None:
     raise Exited
 
 
-System = make_statics(
+make_statics(
     f"{_LANG}.System",
     {
         "currentTimeMillis": lambda: Long(START + int(WORLD.time * MILLISECONDS)),
         "nanoTime": lambda: Long(int(WORLD.time * NANOSECONDS)),
-        "identityHashCode": identity_hash,
         "getProperty": lambda _key, other=None: other,
         "getenv": lambda _key=None: None,
         "lineSeparator": lambda: "\n",
@@ -436,51 +315,13 @@ System = make_statics(
         "exit": _exit,
         "gc": lambda: None,
     },
+    partial=True,
     out=PrintStream(),
-    err=PrintStream(silent=True),
+    err=PrintStream(),
 )
 
 
-class Thread(JavaClass, package=_LANG, others="join interrupt setDaemon setName setPriority getId"):
-    """A thread: it runs once, whole, in the next loop, and its sleeping takes no time."""
+class Thread(JavaClass, package=_LANG, partial=True):
+    """A thread, which never runs here; where the robot's own sleeps, its loop has to wait."""
 
-    def __init__(self, target: Any = None, name: str = "Thread-0") -> None:
-        self._target = None if is_text(target) else target
-        self._name = target if is_text(target) else name
-        self._slept = 0.0
-
-    def run(self) -> None:
-        """What it does: call what it was made with."""
-        if self._target is not None:
-            self._target()
-
-    def start(self) -> None:
-        """Let it run in the next loop."""
-        WORLD.each_loop.append(self._run_once)
-
-    def _run_once(self) -> None:
-        WORLD.each_loop.remove(self._run_once)
-        WORLD.singletons["thread"] = self
-        with contextlib.suppress(_ThreadStopped):
-            self.run()
-        del WORLD.singletons["thread"]
-
-    @staticmethod
-    def sleep(millis: int, nanos: int = 0) -> None:
-        """Wait: this keeps the robot's loop waiting, but not where another thread does it."""
-        seconds, thread = millis / MILLISECONDS + nanos / NANOSECONDS, Thread.currentThread()
-        if seconds < 0:
-            raise IllegalArgumentException("timeout value is negative")
-        thread._slept += seconds
-        if thread is not WORLD.singletons.get("thread"):
-            WORLD.blocked += seconds
-            WORLD.time += seconds
-        elif thread._slept > LONGEST_SLEEP:
-            raise _ThreadStopped
-
-    __call__ = lambda self: self.run()
-    currentThread = staticmethod(lambda: WORLD.singletons.get("thread") or Thread(None, "main"))
-    interrupted = staticmethod(lambda: False)
-    getName = lambda self: self._name
-    isAlive = lambda self: self._run_once in WORLD.each_loop
-    isInterrupted = isDaemon = lambda self: False
+    sleep = staticmethod(lambda millis, *_nanos: timing.wait(millis / MILLISECONDS))

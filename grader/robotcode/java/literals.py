@@ -13,7 +13,7 @@ ESCAPES = {
 BITS = 32
 OCTAL, DECIMAL = 8, 10
 RADIXES = {"0x": 16, "0b": 2}
-_ESCAPE = re.compile(r"\\([0-3]?[0-7]{1,2}|.|\n)", re.DOTALL)
+_ESCAPE = re.compile(r"\\(u+[0-9a-fA-F]{4}|[0-3]?[0-7]{1,2}|.|\n)", re.DOTALL)
 
 
 def read_number(text: str) -> tuple[Any, str] | None:
@@ -42,6 +42,8 @@ def read_number(text: str) -> tuple[Any, str] | None:
 
 def _escape(match: re.Match[str]) -> str:
     sign = match[1]
+    if len(sign) > 4:  # noqa: PLR2004 - u and its digits
+        return chr(int(sign[-4:], 16))
     if sign.isdigit():
         return chr(int(sign, 8))
     return ESCAPES.get(sign, sign)

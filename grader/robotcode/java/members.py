@@ -1,12 +1,12 @@
 """The members of a Java class: what its text declares, compiled when it is first needed."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any
 
 from tree_sitter import Node
 
 from grader.robotcode.java import values
-from grader.robotcode.java.classes import PRIMITIVES, JavaClass, Method, modifiers_of
+from grader.robotcode.java.classes import JavaClass, Method, modifiers_of
 from grader.robotcode.java.runtime import STATE, enter
 from grader.robotcode.java.scope import (
     MISSING,
@@ -16,13 +16,13 @@ from grader.robotcode.java.scope import (
     Env,
     Field,
     Frame,
-    Local,
     child,
     kind_of,
     named,
     text,
 )
 from grader.robotcode.java.statement_compiler import StatementCompiler, completes
+from grader.robotcode.java.values import PRIMITIVES
 
 
 def declare_members(owner: JavaClass) -> None:
@@ -49,13 +49,7 @@ def declare_members(owner: JavaClass) -> None:
         for name, kind in owner.components:
             _give(owner, name, [], kind, _reader(name))
         _give(owner, "toString", [], "String", _describe_record)
-        _give(
-            owner,
-            "hashCode",
-            [],
-            "int",
-            lambda this: values.hash_items(map(values.hash_code, _components(this))),
-        )
+        _give(owner, "hashCode", [], "int", _hash_record)
         _give(owner, "equals", ["Object"], "boolean", _equal_records)
 
 
@@ -89,14 +83,6 @@ def compile_members(owner: JavaClass) -> None:
         for method in (*owner.methods, *owner.constructors):
             if hasattr(method.run, "compile_now"):
                 method.run.compile_now()
-        _check_finals(owner)
-
-
-def _check_finals(owner: JavaClass) -> None:
-    for one in owner.fields.values():
-        given = one.value is not None or one.assigned or one.name in dict(owner.constants)
-        if one.final and not given and owner.form != "record":
-            owner.unit.program.error(f"variable {one.name} is final and never gets a value", one.at)
 
 
 def _declare_fields(owner: JavaClass, node: Node, rank: int) -> None:
@@ -109,8 +95,6 @@ def _declare_fields(owner: JavaClass, node: Node, rank: int) -> None:
         above = owner.parent.find_field(name) if isinstance(owner.parent, JavaClass) else None
         key = f".{name}" if above is None else f".{name}@{owner.name}"
         at = owner.unit.source.at(one)
-        if name in owner.fields:
-            owner.unit.program.error(f"variable {name} is already defined in {owner.name}", at)
         static, final = constant or "static" in modifiers, constant or "final" in modifiers
         value = one.child_by_field_name("value")
         owner.fields[name] = Field(name, kind, static, final, key, rank, at, value)
@@ -158,6 +142,10 @@ def _describe_record(this: Any) -> str:
         for name, one in zip(names, _components(this), strict=True)
     )
     return f"{type(this).java.name}[{', '.join(shown)}]"
+
+
+def _hash_record(this: Any) -> int:
+    return values.hash_items(map(values.hash_code, _components(this)))
 
 
 def _equal_records(this: Any, other: Any) -> bool:
@@ -208,10 +196,6 @@ def _declare_method(owner: JavaClass, node: Node) -> None:
             f"{made.name} has no return type. Is it a constructor of {owner.name}?", made.at
         )
     twins = owner.constructors if constructor else owner.methods
-    if any(one.name == made.name and one.kinds == made.kinds for one in twins):
-        owner.unit.program.error(f"{made.name}({', '.join(made.kinds)}) is there twice", made.at)
-    if "@Override" in modifiers and not constructor:
-        owner.overrides.append(made)
     twins.append(made)
 
 
@@ -252,9 +236,7 @@ def _compile_method(
     compiler.in_constructor = constructor
     slots = []
     for name, kind in zip(method.names, method.kinds, strict=True):
-        local = frame.declare(name, compiler.erased(kind) if kind != "Object" else "")
-        local.assigned = 1
-        slots.append(local.slot)
+        slots.append(frame.declare(name, compiler.erased(kind) if kind != "Object" else "").slot)
     if not constructor:
         for one in method.node.children_by_field_name("type"):
             if kind_of(one) != "void":
@@ -273,7 +255,6 @@ def _compile_method(
             f"missing return statement: {method.name}() has to give a {method.returns} always",
             owner.unit.source.at(body),
         )
-    _check_captured(owner, frame.every)
 
     def call(this: Any, *args: Any) -> Any:
         enter()
@@ -288,15 +269,6 @@ def _compile_method(
     return call
 
 
-def _check_captured(owner: JavaClass, every: Sequence[Local]) -> None:
-    for one in every:
-        if one.captured and one.assigned > 1:
-            owner.unit.program.error(
-                f"{one.name} changes, and a lambda or class uses it: it must be effectively final",
-                one.captured,
-            )
-
-
 def _compile_constructor(
     owner: JavaClass, method: Method, body: Node, compiler: StatementCompiler, slots: list[int]
 ) -> Callable[..., Any]:
@@ -308,18 +280,9 @@ def _compile_constructor(
     if first is not None:
         other = text(first.child_by_field_name("constructor")) == "this"
         args = compiler.arguments(first.child_by_field_name("arguments"))
-    if not other and owner.form == "class":
-        refusal = compiler.misfit_new(owner.parent, args.codes)
-    elif other:
-        refusal = compiler.misfit_of(owner.constructors, args.codes)
-    else:
-        refusal = ""
-    if refusal:
-        compiler.refuse(refusal, first if first is not None else method.node)
     frame.push()
     runs = [compiler.statement(one) for one in parts[first is not None :]]
     frame.pop()
-    _check_captured(owner, frame.every)
     components = owner.components if compact else []
 
     def call(this: Any, *values_: Any) -> None:
@@ -367,7 +330,6 @@ def _initialize_field(owner: JavaClass, name: str, rank: int) -> None:
         and not compiler.why_not(one.kind, code)
     ):
         one.constant = run([None, None])
-    _check_captured(owner, frame.every)
     at, key = one.at, one.key
 
     def set_field(env: Env) -> None:
@@ -389,7 +351,6 @@ def _initializer(owner: JavaClass, node: Node, *, static: bool) -> Callable[[Env
     compiler = StatementCompiler(owner, frame)
     compiler.in_constructor = True
     run = compiler.block(node)
-    _check_captured(owner, frame.every)
     return lambda env: run([env[0], None, *[None] * (frame.size - 2)])
 
 

@@ -4,7 +4,7 @@ import enum
 import functools
 import keyword
 import types
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 from grader.robotcode.java import collections, lang, streams, text, type_names, values
@@ -97,7 +97,7 @@ def find_caller(cls: type, name: str, kinds: Sequence[str]) -> Call:
     table = _table(cls)
     if table is not None and (name in table or not issubclass(cls, enum.Enum)):
         if name not in table:
-            raise NoSuchMember(f"{type_names.type_name(cls)} has no {name}()")
+            raise no_member(cls, f"{name}()", table)
         method = (
             checked(table[name]) if isinstance(table[name], types.FunctionType) else table[name]
         )
@@ -123,13 +123,20 @@ def find_caller(cls: type, name: str, kinds: Sequence[str]) -> Call:
     if name in OBJECT_METHODS:
         return lambda value, args: OBJECT_METHODS[name](value, *args)
     if issubclass(cls, Fake):
-        return lambda value, args: _call_member(value, name, args)
+        return lambda value, args: _member(value, name)(*args)
     for plain, java in PLAIN.items():
         if issubclass(cls, plain):
             return lambda value, args: find_caller(java, name, kinds)(java(value), args)
     if any("__call__" in vars(base) for base in cls.__mro__) and name in streams.FUNCTIONAL:
         return lambda value, args: value(*args)
-    raise NoSuchMember(f"{type_names.type_name(cls)} has no {name}()")
+    raise no_member(cls, f"{name}()", dir(cls))
+
+
+def no_member(cls: type, name: str, known: Iterable[str]) -> NoSuchMember:
+    """The error of a member that a class does not have, with the one that was meant."""
+    names = [one for one in known if not one.startswith(("_", "fake_", "java"))]
+    near = type_names.did_you_mean(name.removesuffix("()"), names)
+    return NoSuchMember(f"{type_names.type_name(cls)} has no {name}{near}")
 
 
 def _table(cls: type) -> dict[str, Callable[..., Any]] | None:
@@ -162,9 +169,8 @@ def _call_function(function: Function, name: str, args: Sequence[Any]) -> Any:
             result = function(*method.bind(args, spread=False))
             return method.owner.convert("" if method.returns == "void" else method.returns, result)
         return function(*args)
-    attribute = python_name(name)
-    if attribute in streams.FUNCTION_METHODS and name not in streams.FUNCTIONAL:
-        return streams.FUNCTION_METHODS[attribute](function, *args)
+    if name in streams.DEFAULT_METHODS:
+        return Unknown(f"{name}()")
     named = getattr(interface, "__name__", "Double" if name == "applyAsDouble" else "")
     kind = next((kind for start, kind in TAKEN.items() if named.startswith(start)), "")
     result = function(*(values.convert(kind, one) if kind else one for one in args))
@@ -188,19 +194,12 @@ def get_field(value: Any, name: str) -> Any:
     return _no_method(_member(value, name), name)
 
 
-def _call_member(value: Any, name: str, args: Sequence[Any]) -> Any:
-    """Call a member that a library's class makes up when it is asked for.
-
-    Raises:
-        WrongArgument: it takes another number of arguments.
-    """
-    member = _member(value, name)
-    try:
-        return member(*args)
-    except TypeError as problem:
-        if problem.__traceback__ is not None and problem.__traceback__.tb_next is None:
-            raise WrongArgument(f"{name} takes another number of arguments") from None
-        raise
+def is_about_arguments(problem: Exception) -> bool:
+    """Whether a TypeError comes from a call of ours, to which the function never got."""
+    trace = problem.__traceback__
+    while trace is not None and trace.tb_next is not None:
+        trace = trace.tb_next
+    return trace is not None and trace.tb_frame.f_globals["__package__"] == __package__
 
 
 def _member(value: Any, name: str) -> Any:
@@ -259,7 +258,7 @@ def _static_member(cls: Any, name: str) -> Any:
             return getattr(cls, attribute)
         if isinstance(cls, FakeType):
             return FakeType.__getattr__(cls, attribute)
-    raise NoSuchMember(f"{cls.__name__} has no {name}")
+    raise no_member(cls, f"{name}()", dir(cls))
 
 
 def _no_method(found: Any, name: str) -> Any:

@@ -1,7 +1,7 @@
 """What names stand for: local variables of a method, classes of a program and of its libraries."""
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from tree_sitter import Node
@@ -57,11 +57,8 @@ class Local:
     Args:
         slot: its place in an Env.
         kind: its type.
-        final: whether it may not be assigned again.
+        final: whether it may not be assigned: it has a value from the start.
         depth: how many lambdas it is declared in.
-        assigned: how often the text assigns it.
-        captured: the line of a lambda or class that uses it from outside; 0 if none does.
-        valued: whether its declaration gives it a value.
         constant: its value where the compiler knows it, else MISSING.
     """
 
@@ -70,9 +67,6 @@ class Local:
     kind: str
     final: bool = False
     depth: int = 0
-    assigned: int = 0
-    captured: At = At(0)  # noqa: RUF009 - never changed
-    valued: bool = False
     constant: Any = MISSING
 
 
@@ -141,7 +135,6 @@ class Field:
     at: At
     value: Node | None = None
     constant: Any = MISSING
-    assigned: list[At] = field(default_factory=list)
 
 
 def text(node: Node | None) -> str:

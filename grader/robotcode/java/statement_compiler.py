@@ -4,6 +4,7 @@ A statement gives None where the next one follows, else a signal: RETURN (the va
 variables), or a Jump for break, continue and yield.
 """
 
+import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -11,13 +12,13 @@ from typing import Any
 from tree_sitter import Node
 
 from grader.robotcode.java import type_names, values
-from grader.robotcode.java.checks import join_codes
-from grader.robotcode.java.classes import DECLARATIONS, PRIMITIVES, JavaClass
+from grader.robotcode.java.classes import DECLARATIONS, JavaClass
 from grader.robotcode.java.expression_compiler import ExpressionCompiler, is_instance
 from grader.robotcode.java.program import iterate
-from grader.robotcode.java.runtime import STATE, find_caller
+from grader.robotcode.java.runtime import STATE
 from grader.robotcode.java.scope import MISSING, RESULT, Code, Env, Run, child, kind_of, named, text
 from grader.robotcode.java.values import (
+    PRIMITIVES,
     NullPointerException,
     StackOverflowError,
     Throwable,
@@ -27,6 +28,10 @@ from grader.robotcode.library.base import Unknown
 LOOPS = {"while_statement", "do_statement", "for_statement", "enhanced_for_statement"}
 STATEMENTS = {  # expressions that can stand alone
     "assignment_expression", "update_expression", "method_invocation", "object_creation_expression",
+}  # fmt: skip
+JUMPS = {
+    "return_statement", "throw_statement", "break_statement", "continue_statement",
+    "yield_statement",
 }  # fmt: skip
 MOST_UNKNOWN = 3  # turns of a loop whose condition nobody knows
 
@@ -51,7 +56,6 @@ class StatementCompiler(ExpressionCompiler):
 
     returns = ""
     in_lambda = 0
-    arms: Sequence[Code] = ()  # of the switch that was compiled last
     gives = False  # whether the lambda around returns a value somewhere
 
     def statement(self, node: Node, label: str = "") -> Run:
@@ -94,19 +98,7 @@ class StatementCompiler(ExpressionCompiler):
                 )
                 break
         self.frame.pop()
-        if not runs:
-            return lambda _env: None
-        if len(runs) == 1:
-            return runs[0]
-
-        def run(env: Env) -> Any:
-            for one in runs:
-                signal = one(env)
-                if signal is not None:
-                    return signal
-            return None
-
-        return run
+        return _sequence(runs)
 
     _block = _constructor_body = block
 
@@ -140,15 +132,13 @@ class StatementCompiler(ExpressionCompiler):
         for one in node.children_by_field_name("declarator"):
             name, value = text(one.child_by_field_name("name")), one.child_by_field_name("value")
             kind = base + "[]" * text(one.child_by_field_name("dimensions")).count("[")
-            if self.frame.find(name) is not None:
-                self.refuse(f"variable {name} is already defined in this method", one)
             runs.append(self._declare(name, kind, value, final=final))
         run = runs[0] if len(runs) == 1 else (lambda env: [one(env) for one in runs] and None)
         return self._lead(node, run)
 
     def _declare(self, name: str, kind: str, value: Node | None, *, final: bool) -> Run:
         if value is None:
-            slot = self.frame.declare(name, self.erased(kind), final=final).slot
+            slot = self.frame.declare(name, self.erased(kind)).slot
 
             def clear(env: Env) -> None:
                 env[slot] = None
@@ -169,8 +159,6 @@ class StatementCompiler(ExpressionCompiler):
             run = self.coerce(code, local.kind, value)
             if final and code.constant is not MISSING and local.kind in {*PRIMITIVES, "String"}:
                 local.constant = values.cast(local.kind, code.constant)
-        local.assigned += 1
-        local.valued = True
         slot = local.slot
 
         def declare(env: Env) -> None:
@@ -181,7 +169,7 @@ class StatementCompiler(ExpressionCompiler):
     def _class_declaration(self, node: Node) -> Run:
         name = text(node.child_by_field_name("name"))
         made = JavaClass(name, node, self.owner.unit, outer=self.owner, frame=self.frame)
-        made.static = node.type != "class_declaration" or (self.frame.static and False)
+        made.static = node.type != "class_declaration"
         self.frame.classes[-1][name] = made
         _ = made.cls
         return lambda _env: None
@@ -193,8 +181,6 @@ class StatementCompiler(ExpressionCompiler):
         if one.type == "switch_expression":
             return self._switch(one, None)
         run = self.compile(one).run
-        if one.type not in STATEMENTS:
-            return self.refuse("not a statement: its value goes nowhere", one).run
         at = self.at(node)
 
         def execute(env: Env) -> None:
@@ -304,46 +290,35 @@ class StatementCompiler(ExpressionCompiler):
         kind = kind_of(node.child_by_field_name("type"))
         if kind == "var":
             kind = many.kind[:-2] if many.kind.endswith("[]") else ""
-        elif many.kind in PRIMITIVES or many.kind == "String":
-            self.refuse(
-                f"a for-each loop goes over an array or a collection, not over {many.kind}", node
-            )
         local = self.frame.declare(text(node.child_by_field_name("name")), self.erased(kind))
         body = self.statement(node.child_by_field_name("body"))
-        self.frame.pop()
         slot, owner, at, run = local.slot, self.owner, self.at(node), many.run
+        left = self.frame.declare(f"{node.start_byte} left", "").slot
         primitive = kind if kind in PRIMITIVES else ""
-        mine = {BREAK: "break", CONTINUE: "continue", Jump("continue", label): "continue"}
 
-        def loop(env: Env) -> Any:
-            STATE.at = at
-            for one in iterate(run(env)):
-                STATE.tick()
+        def more(env: Env) -> bool:
+            for one in env[left]:
                 env[slot] = owner.convert(primitive, one) if primitive else one
-                signal = body(env)
-                if signal is not None:
-                    ended = mine.get(signal)
-                    if ended == "break":
-                        return None
-                    if ended is None:
-                        return signal
-            return None
+                return True
+            return False
 
-        return loop
+        self.frame.pop()
+        loop = self._loop(more, body, lambda _env: None, label)
+
+        def go_through(env: Env) -> Any:
+            STATE.at = at
+            env[left] = iter(iterate(run(env)))
+            return loop(env)
+
+        return go_through
 
     def _return_statement(self, node: Node) -> Run:
         value = next(named(node), None)
         at = self.at(node)
         if value is None:
-            if self.returns not in {"", "void"} and not self.in_lambda:
-                self.refuse(f"return needs a value of type {self.returns} here", node)
             return lambda _env: RETURN
         code = self.compile(value)
         self.gives = True
-        if self.returns == "void" and not self.in_lambda:
-            return self.refuse(
-                "a void method gives nothing back, so its return has no value", node
-            ).run
         run = self.coerce(code, self.returns, value) if not self.in_lambda else code.run
 
         def back(env: Env) -> Jump:
@@ -364,10 +339,7 @@ class StatementCompiler(ExpressionCompiler):
         return lambda _env: jump
 
     def _yield_statement(self, node: Node) -> Run:
-        code = self.compile(next(named(node)))
-        slot, arms = self.yields[-1] if self.yields else (RESULT, [])
-        arms.append(code)
-        return _give(slot, code)
+        return _give(self.yields[-1], self.compile(next(named(node))))
 
     def _throw_statement(self, node: Node) -> Run:
         run, at = self.compile(next(named(node))).run, self.at(node)
@@ -394,24 +366,17 @@ class StatementCompiler(ExpressionCompiler):
         return self._guarded(node, body)
 
     def _try_with_resources_statement(self, node: Node) -> Run:
+        """A try whose resources are variables; nothing that a robot opens needs to be closed."""
         self.frame.push()
         opened = []
         for one in named(node.child_by_field_name("resources")):
-            value = one.child_by_field_name("value")
-            if value is None:
-                code = self.compile(next(named(one)))
-                slot = self.frame.declare(f"{one.start_byte} resource", code.kind).slot
-                opened.append((slot, code.run))
-            else:
-                code = self.compile(value)
+            name, value = (one.child_by_field_name(part) for part in ("name", "value"))
+            if value is not None:
                 kind = kind_of(one.child_by_field_name("type"))
-                name = text(one.child_by_field_name("name"))
-                opened.append(
-                    (self.frame.declare(name, code.kind if kind == "var" else kind).slot, code.run)
-                )
+                opened.append(self._declare(text(name), kind, value, final=True))
         body = self.block(node.child_by_field_name("body"))
         self.frame.pop()
-        return self._guarded(node, _with_resources(opened, body))
+        return self._guarded(node, _sequence([*opened, body]))
 
     def _guarded(self, node: Node, body: Run) -> Run:
         catches = [self._catch(one) for one in node.children if one.type == "catch_clause"]
@@ -472,7 +437,6 @@ class StatementCompiler(ExpressionCompiler):
     def _switch_expression(self, node: Node) -> Code:
         slot = self.frame.declare(f"{node.start_byte} switch", "").slot
         run = self._switch(node, slot)
-        kind = join_codes(self.arms) if self.arms else ""
 
         def value(env: Env) -> Any:
             env[slot] = MISSING
@@ -483,7 +447,7 @@ class StatementCompiler(ExpressionCompiler):
                 raise NullPointerException("no case of the switch fits")
             return env[slot]
 
-        return Code(value, kind)
+        return Code(value)
 
     _switch_statement = _switch_expression
 
@@ -492,9 +456,7 @@ class StatementCompiler(ExpressionCompiler):
         subject = self.compile(node.child_by_field_name("condition")).run
         at = self.at(node)
         self.frame.push()
-        arms: list[Code] = []
-        around = self.yields[-1] if self.yields else (RESULT, arms)
-        self.yields.append(around if slot is None else (slot, arms))
+        self.yields.append((self.yields or [RESULT])[-1] if slot is None else slot)
         cases: list[tuple[list[Any], bool, Run, bool]] = []
         for part in named(node.child_by_field_name("body")):
             labels, default = [], False
@@ -505,9 +467,7 @@ class StatementCompiler(ExpressionCompiler):
             arrow = part.type == "switch_rule"
             rest = [one for one in named(part) if one.type != "switch_label"]
             if arrow and slot is not None and rest and rest[0].type == "expression_statement":
-                code = self.compile(next(named(rest[0])))
-                body = _give(slot, code)
-                arms.append(code)
+                body = _give(slot, self.compile(next(named(rest[0]))))
             elif arrow and rest and rest[0].type == "expression_statement":
                 body = self._expression_statement(rest[0])
             else:
@@ -516,7 +476,6 @@ class StatementCompiler(ExpressionCompiler):
             cases.append((labels, default, body, arrow))
         self.yields.pop()
         self.frame.pop()
-        self.arms = arms
 
         def switch(env: Env) -> Any:
             STATE.at = at
@@ -567,6 +526,10 @@ def _give(slot: int, code: Code) -> Run:
 
 
 def _sequence(runs: Sequence[Run]) -> Run:
+    """A run of several statements, up to the first that jumps."""
+    if len(runs) == 1:
+        return runs[0]
+
     def run(env: Env) -> Any:
         for one in runs:
             signal = one(env)
@@ -577,112 +540,50 @@ def _sequence(runs: Sequence[Run]) -> Run:
     return run
 
 
-def _with_resources(opened: Sequence[tuple[int, Run]], body: Run) -> Run:
-    """A body with what has to be closed after it, the last one first."""
-    if not opened:
-        return body
-    (slot, make), *rest = opened
-    inner = _with_resources(rest, body)
-
-    def run(env: Env) -> Any:
-        one = env[slot] = make(env)
-        try:
-            signal = inner(env)
-        except Throwable as problem:
-            if one is not None:
-                try:
-                    find_caller(type(one), "close", ())(one, ())
-                except Throwable as second:
-                    problem.addSuppressed(second)
-            raise
-        if one is not None:
-            find_caller(type(one), "close", ())(one, ())
-        return signal
-
-    return run
-
-
 def completes(node: Node) -> bool:
     """Whether a statement can end normally, so that the next one is reached (JLS 14.22)."""
-    kind = node.type
-    if kind in {
-        "return_statement",
-        "throw_statement",
-        "break_statement",
-        "continue_statement",
-        "yield_statement",
-    }:
+    kind, parts = node.type, list(named(node))
+    if kind in JUMPS:
         return False
     if kind in {"block", "constructor_body"}:
-        return all(completes(one) for one in named(node))
+        return all(map(completes, parts))
     if kind == "if_statement":
-        other = node.child_by_field_name("alternative")
-        return (
-            other is None or completes(node.child_by_field_name("consequence")) or completes(other)
-        )
+        return len(parts) < 3 or any(map(completes, parts[1:]))  # noqa: PLR2004 - with its else
     if kind in {"while_statement", "for_statement", "do_statement"}:
-        condition = node.child_by_field_name("condition")
-        endless = (condition is None and kind == "for_statement") or text(condition).strip(
-            "() "
-        ) == "true"
+        condition = text(node.child_by_field_name("condition")).strip("() ")
+        endless = condition == "true" or (not condition and kind == "for_statement")
         return not endless or _breaks(node.child_by_field_name("body"))
     if kind == "labeled_statement":
-        return completes(list(named(node))[1]) or f"break {text(next(named(node)))}" in text(node)
+        return completes(parts[1]) or f"break {text(parts[0])}" in text(node)
     if kind in {"try_statement", "try_with_resources_statement"}:
         last = child(node, "finally_clause")
-        if last is not None and not completes(next(named(last))):
-            return False
-        bodies = [
-            one.child_by_field_name("body")
-            for one in (node, *node.children)
-            if one.type in {kind, "catch_clause"}
-        ]
-        return any(completes(one) for one in bodies)
-    if kind == "synchronized_statement":
-        return completes(node.child_by_field_name("body"))
-    if kind == "expression_statement" and next(named(node)).type == "switch_expression":
-        return completes(next(named(node)))
-    if kind == "switch_expression":
-        return _switch_completes(node)
-    return True
+        ways = [one for one in (node, *parts) if one.type in {kind, "catch_clause"}]
+        bodies = [one.child_by_field_name("body") for one in ways]
+        after = last is None or completes(next(named(last)))
+        return after and any(map(completes, bodies))
+    if kind in {"synchronized_statement", "expression_statement"}:
+        return completes(parts[-1])
+    return kind != "switch_expression" or _switch_completes(node)
 
 
 def _switch_completes(node: Node) -> bool:
-    parts = list(named(node.child_by_field_name("body")))
-    labels = [text(one) for part in parts for one in part.children if one.type == "switch_label"]
-    if not any(one.startswith("default") for one in labels) or _breaks(
-        node.child_by_field_name("body")
-    ):
+    body = node.child_by_field_name("body")
+    parts = [list(named(part)) for part in named(body)]
+    defaults = [part for part in parts if text(part[0]).startswith("default")]
+    if not defaults or _breaks(body):
         return True
-    if parts and parts[0].type == "switch_rule":
-        bodies = [list(named(part))[-1] for part in parts]
-        return any(completes(one) for one in bodies)
-    last = [one for one in named(parts[-1]) if one.type != "switch_label"] if parts else []
-    return not last or all(completes(one) for one in last)
+    arrows = child(body, "switch_rule") is not None
+    ends = [part[-1] for part in (parts if arrows else parts[-1:])]
+    return any(one.type == "switch_label" or completes(one) for one in ends)
 
 
 def _breaks(node: Node) -> bool:
     """Whether a body has a break of its own, or one with a label."""
     if node.type == "break_statement":
         return True
-    if node.type in {"lambda_expression", "class_body"}:
-        return False
-    inner = [
-        one
-        for one in node.named_children
-        if one.type not in LOOPS | {"switch_expression"} or any(map(_has_label, _all(one)))
-    ]
-    return any(_breaks(one) for one in inner)
-
-
-def _has_label(node: Node) -> bool:
-    return node.type == "break_statement" and bool(node.named_children)
-
-
-def _all(node: Node) -> Any:
-    yield node
-    for one in node.named_children:
-        yield from _all(one)
+    if node.type in LOOPS | {"switch_expression", "lambda_expression", "class_body"}:
+        return re.search(r"\bbreak\s+\w", text(node)) is not None
+    return any(map(_breaks, node.named_children))
 
 
 __all__ = ["StatementCompiler", "completes"]

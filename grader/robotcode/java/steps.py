@@ -1,11 +1,21 @@
 """How far a running program is, and how much of its time it has used."""
 
+import sys
+
 from grader.robotcode.java.syntax import At
 
 STEPS = 100_000  # calls and turns of a loop between two visits of the bench
 MOST_STEPS = 8_000_000  # of a whole run
 ELEMENTS = 20  # of a collection, that cost as much time to move as a step
 DEEPEST = 500  # calls within calls
+
+
+PYTHON_CALLS = 15_000  # Python calls within calls that DEEPEST calls of Java may need
+
+
+def allow_deep_calls() -> None:
+    """Let Java's own limit of calls within calls come before Python's."""
+    sys.setrecursionlimit(max(sys.getrecursionlimit(), PYTHON_CALLS))
 
 
 class EndlessError(BaseException):

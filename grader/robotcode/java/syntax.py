@@ -27,7 +27,6 @@ _STATEMENT = re.compile(
     r"\s*(?!@|/|\*|(if|for|while|else|do|try|switch|public|private|protected|class)\b).*[\w)\]\"]"
 )
 _TEXT = re.compile(r'"[^"]*"')
-_UNICODE = re.compile(r"(?<!\\)((?:\\\\)*)\\u+([0-9a-fA-F]{4})")
 _COMMENT = {"//", "/*", "*/", "* ", "*"}
 _POINT = "a decimal number has a point in Java, not a comma:{}"
 _LANGUAGE = Language(tree_sitter_java.language())
@@ -57,27 +56,13 @@ class Source:
     text: str
 
     @cached_property
-    def plain(self) -> str:
-        """The text with its Unicode escapes translated, as javac does before all else."""
-        return _UNICODE.sub(lambda m: m[1] + chr(int(m[2], 16)), self.text).replace("\0", "\\0")
-
-    @cached_property
-    def lines(self) -> list[int]:
-        """The line that a person sees for each line of the plain text, both from 0."""
-        lines = [0]
-        for written, row in enumerate(self.text.split("\n")):
-            extra = len(_UNICODE.sub(lambda m: chr(int(m[2], 16)), row).split("\n")) - 1
-            lines += [*[written] * extra, written + 1]
-        return lines
-
-    @cached_property
     def root(self) -> Node | None:
         """The tree; None where repairing the text would take the parser out of all proportion.
 
         The beginning is tried first, then twice as much each time, so that what comes next never
         costs much more than four times what was still in proportion.
         """
-        source, length = self.plain.encode("utf-8", errors="replace"), FIRST
+        source, length = self.text.replace("\0", " ").encode("utf-8", errors="replace"), FIRST
         while length < len(source):
             if _parse(source[:length]) is None:
                 return None
@@ -86,7 +71,7 @@ class Source:
 
     def at(self, node: Node) -> At:
         """Where a node stands."""
-        return At(self.lines[node.start_point[0]] + 1, self.path.name)
+        return At(node.start_point[0] + 1, self.path.name)
 
     @cached_property
     def problems(self) -> tuple[ParseProblem, ...]:
@@ -95,7 +80,7 @@ class Source:
         if self.root is None:
             lost = ParseProblem("most of this is not Java", 1)
             return (find_unmatched(self.text) or lost,)
-        return _find_problems(self.root, self.plain) if self.root.has_error else ()
+        return _find_problems(self.root, self.text) if self.root.has_error else ()
 
 
 def _parse(source: bytes) -> Node | None:

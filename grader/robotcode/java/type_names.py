@@ -11,26 +11,16 @@ from grader.robotcode.java.values import (
     Array,
     ArrayIndexOutOfBoundsException,
     ArrayStoreException,
-    Byte,
     Char,
-    Float,
     JavaEnum,
-    Long,
     NegativeArraySizeException,
     NullPointerException,
     OutOfMemoryError,
-    Short,
 )
 from grader.robotcode.library.base import Unknown, WrongArgument
 
-KINDS = {
-    bool: "boolean", int: "int", float: "double", str: "String", Long: "long", Float: "float",
-    Char: "char", Byte: "byte", Short: "short", type(None): "null",
-}  # fmt: skip
-NAMES = {
-    "boolean": "Boolean", "int": "Integer", "double": "Double", "long": "Long", "float": "Float",
-    "char": "Character", "byte": "Byte", "short": "Short",
-}  # fmt: skip
+KINDS = {**values.KINDS, str: "String", type(None): "null"}
+NAMES = {kind: box for box, kind in values.BOXES.items()}
 INTERFACES: dict[str, Any] = {  # what values that are no objects here are instances of
     "Object": object, "Number": (int, float), "CharSequence": str, "Comparable": (int, float, str),
     "Iterable": Iterable,

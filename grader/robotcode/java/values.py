@@ -8,11 +8,9 @@ import enum
 import functools
 import math
 import operator
-import struct
 from collections.abc import Callable, Iterable
 from ctypes import c_float
 from decimal import Decimal
-from itertools import count
 from types import NoneType
 from typing import Any, Self
 
@@ -26,13 +24,11 @@ from grader.robotcode.library.base import (
     describe,
     fake,
 )
-from grader.robotcode.library.world import WORLD
 
 _LANG = "java.lang"
 MIN_INT, MAX_INT = -(2**31), 2**31 - 1
 CHARACTERS = 5_000  # of a text, that cost as much time as a step
 LONGEST_TEXT = 1_000_000  # [characters] of one text
-MOST_OUTPUT = 200_000  # [characters] of all that a program prints
 PLAIN_FROM, PLAIN_BELOW = 1e-3, 1e7  # a double between them is written without an exponent
 
 
@@ -120,9 +116,10 @@ PRIMITIVES = frozenset(_DEFAULTS)
 _BOXES = {"int": "Integer", "char": "Character"}  # the others are the same with a capital
 # Type of Python of every primitive kind and of its box.
 TYPES = {kind: type(value) for kind, value in _DEFAULTS.items()}
-_KINDS = {cls: kind for kind, cls in TYPES.items()}
-TYPES |= {_BOXES.get(kind, kind.title()): type(value) for kind, value in _DEFAULTS.items()}
-BOX_NAMES = {TYPES[name]: f"java.lang.{name}" for name in TYPES if name[0].isupper()}
+KINDS: dict[type, str] = {cls: kind for kind, cls in TYPES.items()}
+BOXES = {_BOXES.get(kind, kind.title()): kind for kind in _DEFAULTS}  # Integer: int
+TYPES |= {box: TYPES[kind] for box, kind in BOXES.items()}
+BOX_NAMES = {TYPES[name]: f"java.lang.{name}" for name in BOXES}
 BOX_NAMES[str] = "java.lang.String"
 _ARRAY_CODES = {"int": "I", "long": "J", "boolean": "Z"}  # the others begin with their letter
 _RANKS = {int: 0, Short: 0, Byte: 0, Char: 0, Long: 1, Float: 2, float: 3}
@@ -165,14 +162,17 @@ def full_name(cls: type) -> str:
 class JavaClass(Fake):
     """Base of the classes of Java's library. Java finds one by its package and its name."""
 
-    def __init_subclass__(cls, package: str = "", name: str = "", others: str = "") -> None:
+    def __init_subclass__(
+        cls, package: str = "", name: str = "", others: str = "", *, partial: bool = False
+    ) -> None:
         for key, one in vars(cls).items():
             method = one.__func__ if isinstance(one, staticmethod | classmethod) else one
             if getattr(method, "__name__", "") == "<lambda>":
                 method.__qualname__ = f"{cls.__name__}.{key}"
         cls.java_package, cls.java_name = package, name or cls.__name__
         for place in package.split():
-            fake(place, complete=True, others=others, name=name)(cls)
+            cls.fake_complete = False
+            fake(place, complete=not partial, others=others, name=name)(cls)
 
 
 class Throwable(JavaClass, Exception, package=_LANG, others="setStackTrace"):
@@ -330,17 +330,22 @@ def propagate(function: Callable[..., Any]) -> Callable[..., Any]:
     return run
 
 
-def make_statics(name: str, table: dict[str, Any], **constants: Any) -> type:
+def make_statics(
+    name: str, table: dict[str, Any], *, partial: bool = False, others: str = "", **constants: Any
+) -> type:
     """A class of static methods that have no effect but their result.
 
     Args:
         name: of the class, with its package.
         table: the methods by their names.
+        partial: whether it has other members, which nobody knows.
+        others: the names of all those.
         constants: its other members.
     """
     package, _, simple = name.rpartition(".")
     methods = {key: staticmethod(propagate(one)) for key, one in table.items()}
-    return FakeType(simple, (JavaClass,), methods | constants, package=package)
+    members = methods | constants
+    return FakeType(simple, (JavaClass,), members, package=package, others=others, partial=partial)
 
 
 def promote(a: Any, b: Any) -> tuple[int, Any, Any]:
@@ -474,6 +479,12 @@ def same(a: Any, b: Any) -> Any:
     return a is b or (type(a) is type(b) and type(a) in (str, bool) and a == b)
 
 
+def differ(a: Any, b: Any) -> Any:
+    """Java's ``!=``."""
+    equal = same(a, b)
+    return equal if isinstance(equal, Unknown) else not equal
+
+
 def cast(kind: str, value: Any) -> Any:
     """Java's ``(kind) value`` for a primitive kind; for another kind the value as it is."""
     if kind not in _DEFAULTS or type(value) in (bool, Unknown):
@@ -499,7 +510,7 @@ def convert(kind: str, value: Any) -> Any:
         return None
     if type(value) is bool or wanted is bool or promote(value, 0)[0] > _RANKS[wanted]:
         raise WrongArgument(f"{describe(value)} is no {kind}: it needs a cast")
-    return cast(_KINDS[wanted], value)
+    return cast(KINDS[wanted], value)
 
 
 def is_text(value: object) -> bool:
@@ -600,47 +611,20 @@ def equals(a: Any, b: Any) -> Any:
     return plain and all(map(equals, a, b))
 
 
-@functools.lru_cache(maxsize=1024)
-def _hash_text(text: str) -> int:
-    return hash_items(ord(unit) for unit in text)
-
-
 def hash_items(hashes: Iterable[int], start: int = 0) -> int:
     """Java's hash of a sequence, from those of its elements."""
     return wrap(functools.reduce(lambda sofar, one: (31 * sofar + one) & 0xFFFFFFFF, hashes, start))
 
 
-_HASHES: dict[type, Callable[[Any], int]] = {
-    **dict.fromkeys((int, Short, Byte), int),
-    NoneType: lambda _: 0,
-    bool: lambda value: 1231 if value else 1237,
-    Char: ord,
-    str: _hash_text,
-    Long: lambda value: wrap(value ^ value >> 32),
-    float: lambda value: _HASHES[Long](struct.unpack(">q", struct.pack(">d", value))[0]),
-    Float: lambda value: struct.unpack(">i", struct.pack(">f", value))[0],
-}
-
-
 def hash_code(value: Any) -> int:
-    """Java's hashCode. An object that has none of its own gets the next of a row of numbers."""
-    kind = type(value)
-    if kind in _HASHES:
-        return _HASHES[kind](value)
+    """Java's hashCode, of a text and a whole number; for anything else some number of its own."""
+    if isinstance(value, str):
+        return hash_items(map(ord, value))
+    if value is None or type(value) in BOX_NAMES:
+        return wrap(hash(value))
     STATE.tick()
     method = find_method(value, "hashCode")
-    return identity_hash(value) if method is None else method()
-
-
-def identity_hash(value: Any) -> int:
-    """Java's System.identityHashCode: the same in every run of the same program."""
-    names = WORLD.singletons.setdefault("identity hashes", {})
-    if id(value) not in names:
-        names[id(value)] = (
-            next(WORLD.singletons.setdefault("next hash", count(0x1B28CDF0))),
-            value,
-        )
-    return names[id(value)][0]
+    return id(value) & MAX_INT if method is None else method()
 
 
 def compare(a: Any, b: Any) -> Any:
@@ -654,15 +638,7 @@ def compare(a: Any, b: Any) -> Any:
         return unknown
     if a is None or b is None:
         raise NullPointerException
-    if is_text(a) and is_text(b):
-        pairs = zip(a, b, strict=False)
-        return next((ord(x) - ord(y) for x, y in pairs if x != y), len(a) - len(b))
-    if isinstance(a, Char) and isinstance(b, Char):
-        return ord(a) - ord(b)
-    if isinstance(a, float) and isinstance(b, float):
-        first, second = ((math.isnan(x), x, math.copysign(1, x)) for x in (a, b))
-        return 0 if equals(float(a), float(b)) else (first > second) - (first < second)
-    if isinstance(a, int | bool) and isinstance(b, int | bool):
+    if any(isinstance(a, one) and isinstance(b, one) for one in (float, int, str)):
         return (a > b) - (a < b)
     if isinstance(a, enum.Enum) and type(a) is type(b):
         return list(type(a)).index(a) - list(type(b)).index(b)
@@ -685,28 +661,3 @@ class JavaEnum(JavaClass, package=_LANG, name="Enum"):
     getDeclaringClass = lambda self: JAVA["java.lang.Class"].of(
         type(self) if type(self).java.form == "enum" else type(self).__mro__[1]
     )
-
-
-class Output(JavaClass):
-    """A stream of text, as System.out: what a program prints is kept, up to a bound.
-
-    Args:
-        silent: whether it is not kept, as with System.err.
-    """
-
-    def __init__(self, *, silent: bool = False) -> None:
-        self._silent = silent
-
-    def print(self, value: Any = "") -> None:
-        """Write a value."""
-        written = WORLD.singletons.setdefault("output", [])
-        length = WORLD.singletons.get("output length", 0)
-        letters = type(value) is Array and value.kind == "char"
-        text = "".join(value) if letters else write_items([value], "", "")
-        text = "" if self._silent else text[: MOST_OUTPUT - length]
-        if text:
-            written.append(text)
-            WORLD.singletons["output length"] = length + len(text)
-
-    println = lambda self, value="": (self.print(value), self.print("\n"))[0]
-    flush = lambda self: None

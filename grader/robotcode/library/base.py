@@ -9,15 +9,19 @@ import difflib
 import functools
 import inspect
 import sys
+import tomllib
 import types
 import typing
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any
 
 from grader.robotcode.library.world import WORLD
 
+TABLES = tomllib.loads(Path(__file__).with_name("wpilib.toml").read_text("utf-8"))
 JAVA: dict[str, type] = {}  # full name of a Java class -> its fake
 PYTHON: dict[str, dict[str, Any]] = {}  # module of RobotPy or a vendor -> name -> its fake
+JAVA_OWN = "grader.robotcode.java."  # modules of Java's library, which have not all overloads
 NEARLY = 0.75  # how much of two names has to agree for a "did you mean", from 0 to 1
 
 
@@ -119,7 +123,8 @@ def fake(
         python: modules that RobotPy knows it in, with spaces between.
         complete: whether every public member is here or in ``others``: only then is another name
             a mistake of the learner's.
-        others: names of members that do nothing here and whose result is unknown.
+        others: names of members that do nothing here and whose result is unknown, besides those
+            that ``wpilib.toml`` lists for it.
         name: its name in those packages, where that is not the class's.
     """
 
@@ -127,7 +132,8 @@ def fake(
         _check_methods(cls)
         if isinstance(cls, FakeType):
             cls.fake_complete = complete or vars(cls).get("fake_complete", False)
-            cls.fake_others = cls.fake_others | frozenset(others.split())
+            listed = f"{others} {TABLES['others'].get(cls.__name__, '')}"
+            cls.fake_others = cls.fake_others | frozenset(listed.split())
         for package in java.split():
             JAVA[f"{package}.{name or cls.__name__}"] = cls
         for module in python.split():
@@ -153,7 +159,8 @@ def checked(function: Callable[..., Any]) -> Callable[..., Any]:
 
     ``float`` takes whole numbers as well, ``int`` no fractions, ``Callable`` whatever can be
     called; None stands for Java's null wherever an object may stand. What is unknown passes. A
-    function that fails on something unknown gives an unknown result.
+    function that fails on something unknown gives an unknown result, and so does a method of
+    Java's own library with a number of arguments that it does not have here.
     """
     if hasattr(function, "checks"):
         return function
@@ -175,6 +182,8 @@ def checked(function: Callable[..., Any]) -> Callable[..., Any]:
             tests = _make_tests(function, keys)
         count = len(args)
         if not keywords and not least <= count <= most:
+            if function.__module__.startswith(JAVA_OWN):
+                return Unknown(named)
             took = ", ".join(key for key in keys if key != "self")
             raise WrongArgument(f"{named} takes ({took}), and gets another number of arguments")
         for at, test in tests:

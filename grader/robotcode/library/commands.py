@@ -14,7 +14,7 @@ from grader.robotcode.library.base import (
     describe,
     fake,
 )
-from grader.robotcode.library.station import TimedRobot, make_optional
+from grader.robotcode.library.station import TimedRobot
 from grader.robotcode.library.timing import NO_MATCH_TIME, in_seconds
 from grader.robotcode.library.world import WORLD
 
@@ -41,7 +41,7 @@ PYTHON["commands2"]["InterruptionBehavior"] = InterruptionBehavior
 def flatten(values: Any) -> Iterator[Any]:  # arguments, alone or in collections
     """The arguments of a method that takes any number, or an array, or a collection of them."""
     for one in values:
-        if isinstance(one, list | tuple | set | frozenset):
+        if isinstance(one, list | tuple | set | frozenset | dict):
             yield from flatten(one)
         else:
             yield one
@@ -96,10 +96,7 @@ class EventLoop(Fake):
         self._actions.clear()
 
 
-_UNUSED = "close initSendable printWatchdogEpochs resetInstance setPeriod unregisterAllSubsystems"
-
-
-@fake(V2, "commands2", complete=True, others=_UNUSED)
+@fake(V2, "commands2", complete=True)
 class CommandScheduler(Fake):
     """Runs commands (allwpilib v2026, wpilibNewCommands/.../CommandScheduler.java).
 
@@ -116,12 +113,10 @@ class CommandScheduler(Fake):
             made._owners: dict[Subsystem, Command] = {}
             made._composed: dict[Command, int] = {}  # with the line where it became part of another
             made._events: list[tuple[str, Command, float, int]] = []
-            made._listeners: list[tuple[str, Callable[..., Any]]] = []
-            made._loop = made._default_loop = EventLoop()
-            made._enabled = True
+            made._loop = EventLoop()
             made._in_loop = False  # while it goes through the commands, what is asked has to wait
             made._to_schedule: dict[Command, int] = {}
-            made._to_cancel: dict[Command, Command | None] = {}
+            made._to_cancel: dict[Command, None] = {}
             made._ending: set[Command] = set()
         return WORLD.singletons["scheduler"]
 
@@ -129,12 +124,8 @@ class CommandScheduler(Fake):
     def getInstance() -> "CommandScheduler":
         return CommandScheduler()
 
-    def _tell(self, kind: str, command: "Command", cause: "Command | None" = None) -> None:
-        if kind != "execute":
-            self._events.append((kind, command, WORLD.time, command._scheduled_line))
-        for action in [action for wanted, action in self._listeners if wanted == kind]:
-            more = (make_optional(cause),) if count_parameters(action) > 1 else ()
-            action(command, *more)
+    def _tell(self, kind: str, command: "Command") -> None:
+        self._events.append((kind, command, WORLD.time, command._scheduled_line))
 
     def schedule(self, *commands: Any) -> None:
         for one in flatten(commands):
@@ -149,8 +140,7 @@ class CommandScheduler(Fake):
             self._to_schedule[command] = line
             return
         self.requireNotComposed(command)
-        ready = self._enabled and command not in self._scheduled
-        if not ready or not (WORLD.enabled or command.runsWhenDisabled()):
+        if command in self._scheduled or not (WORLD.enabled or command.runsWhenDisabled()):
             return
         needed = list(command.getRequirements())
         owners = {self._owners[one] for one in needed if one in self._owners}
@@ -158,7 +148,7 @@ class CommandScheduler(Fake):
         if any(one.getInterruptionBehavior() is refused for one in owners):
             return
         for one in [one for one in self._scheduled if one in owners]:
-            self._cancel(one, command)
+            self._cancel(one)
         command._scheduled_line = line
         self._scheduled[command] = None
         self._owners.update(dict.fromkeys(needed, command))
@@ -169,18 +159,18 @@ class CommandScheduler(Fake):
         for one in flatten(commands):
             self._cancel(one)
 
-    def _cancel(self, command: "Command", cause: "Command | None" = None) -> None:
+    def _cancel(self, command: "Command") -> None:
         if command in self._ending or isinstance(command, Unknown):
             return
         if self._in_loop:
-            self._to_cancel[command] = cause
+            self._to_cancel[command] = None
         elif command in self._scheduled:
-            self._end(command, "interrupt", cause)
+            self._end(command, "interrupt")
 
-    def _end(self, command: "Command", kind: str, cause: "Command | None" = None) -> None:
+    def _end(self, command: "Command", kind: str) -> None:
         self._ending.add(command)
         command.end(kind == "interrupt")
-        self._tell(kind, command, cause)
+        self._tell(kind, command)
         self._ending.discard(command)
         self._scheduled.pop(command, None)
         for one in [one for one, owner in self._owners.items() if owner is command]:
@@ -190,12 +180,8 @@ class CommandScheduler(Fake):
         self.cancel(*self._scheduled)
 
     def run(self) -> None:
-        if not self._enabled:
-            return
         for subsystem in list(self._subsystems):
             subsystem.periodic()
-            if not WORLD.real:
-                subsystem.simulationPeriodic()
         self._loop.poll()
         self._in_loop = True
         try:
@@ -205,8 +191,8 @@ class CommandScheduler(Fake):
             self._in_loop = False
         for command, line in list(self._to_schedule.items()):
             self._schedule(command, line)
-        for command, cause in list(self._to_cancel.items()):
-            self._cancel(command, cause)
+        for command in list(self._to_cancel):
+            self._cancel(command)
         self._to_schedule.clear()
         self._to_cancel.clear()
         for subsystem, command in list(self._subsystems.items()):
@@ -218,7 +204,6 @@ class CommandScheduler(Fake):
             self._cancel(command)
             return
         command.execute()
-        self._tell("execute", command)
         if command.isFinished():
             self._end(command, "finish")
 
@@ -271,43 +256,10 @@ class CommandScheduler(Fake):
     def isScheduled(self, *commands: Any) -> bool:
         return all(one in self._scheduled for one in flatten(commands))
 
-    def isComposed(self, command: "Command") -> bool:
-        return command in self._composed
-
-    def removeComposedCommand(self, command: "Command") -> None:
-        self._composed.pop(command, None)
-
-    def clearComposedCommands(self) -> None:
-        self._composed.clear()
-
-    def unregisterSubsystem(self, *subsystems: Any) -> None:
-        for one in flatten(subsystems):
-            self._subsystems.pop(one, None)
-
-    def disable(self) -> None:
-        self._enabled = False
-
-    def enable(self) -> None:
-        self._enabled = True
-
     def getDefaultButtonLoop(self) -> EventLoop:
-        return self._default_loop
-
-    def getActiveButtonLoop(self) -> EventLoop:
         return self._loop
 
-    def setActiveButtonLoop(self, loop: EventLoop) -> None:
-        self._loop = loop
-
-    def _listen(kind: str) -> Any:  # makes a method
-        def listen(self: Any, action: Callable[..., Any]) -> None:
-            self._listeners.append((kind, action))
-
-        return listen
-
-    onCommandInitialize, onCommandExecute = _listen("schedule"), _listen("execute")
-    onCommandFinish, onCommandInterrupt = _listen("finish"), _listen("interrupt")
-    onCommandInterruptWithCause = onCommandInterrupt
+    getActiveButtonLoop = getDefaultButtonLoop
 
 
 class Command(Fake):
@@ -437,14 +389,6 @@ class StartEndCommand(FunctionalCommand):
         self, onInit: Callable[..., Any], onEnd: Callable[..., Any], *requirements: Any
     ) -> None:
         super().__init__(onInit, nothing, lambda _: onEnd(), nothing, *requirements)
-
-
-class NotifierCommand(StartEndCommand):
-    """Does one thing by itself, here once a loop (allwpilib v2026, .../NotifierCommand.java)."""
-
-    def __init__(self, toRun: Callable[..., Any], period: Any, *requirements: Any) -> None:
-        tasks = WORLD.each_loop
-        super().__init__(lambda: tasks.append(toRun), lambda: tasks.remove(toRun), *requirements)
 
 
 class PrintCommand(InstantCommand):
@@ -628,14 +572,6 @@ class ConditionalCommand(_Choice):
         self._choose = lambda: self._parts[0 if condition() else 1]
 
 
-class SelectCommand(_Choice):
-    """One of many commands, by a key (allwpilib v2026, .../command/SelectCommand.java)."""
-
-    def __init__(self, commands: dict[Any, Any], selector: Callable[..., Any]) -> None:
-        super().__init__(*commands.values())
-        self._choose = lambda: commands.get(selector()) or InstantCommand()
-
-
 class WrapperCommand(_Choice):
     """A command with something changed (allwpilib v2026, .../command/WrapperCommand.java)."""
 
@@ -734,7 +670,7 @@ class Commands(Fake):
     startEnd, print, print_ = _make(StartEndCommand), _make(PrintCommand), _make(PrintCommand)
     waitSeconds, waitUntil = _make(WaitCommand), _make(WaitUntilCommand)
     waitTime, defer, deferredProxy = waitSeconds, _make(DeferredCommand), _make(ProxyCommand)
-    either, select = _make(ConditionalCommand), _make(SelectCommand)
+    either = _make(ConditionalCommand)
     sequence, parallel = _make(SequentialCommandGroup), _make(ParallelCommandGroup)
     race, deadline = _make(ParallelRaceGroup), _make(ParallelDeadlineGroup)
 

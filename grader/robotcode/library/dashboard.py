@@ -1,8 +1,9 @@
-"""Dashboards and NetworkTables: every value has a path, and the bench can change it.
+"""Dashboards: every value has a path, and the bench can change it.
 
 A boolean that a program reads or writes is a switch: ``WORLD.singletons["switches"]`` has each by
 its path. ``WORLD.singletons["choosers"]`` has all lists to choose from, and
 ``WORLD.singletons["sendables"]`` what else is on a dashboard, as a command that a click starts.
+What is in NetworkTables, in Shuffleboard and in a log is unknown.
 """
 
 from collections.abc import Callable
@@ -17,6 +18,7 @@ BOARD = "edu.wpi.first.wpilibj.smartdashboard org.wpilib.smartdashboard"
 SHUFFLEBOARD = "edu.wpi.first.wpilibj.shuffleboard"
 LOGS = "edu.wpi.first.wpilibj edu.wpi.first.util.datalog org.wpilib.system org.wpilib.datalog"
 ARRAYS = ("BooleanArray", "DoubleArray", "FloatArray", "NumberArray", "IntegerArray", "StringArray")
+TOPICS = ("Topic", "Subscriber", "Publisher", "Entry")
 KINDS: dict[str, tuple[type, Any]] = {  # kind of value -> its type, and what stands for no value
     "Boolean": (bool, False),
     "String": (str, ""),
@@ -139,10 +141,6 @@ class SmartDashboard(Fake):
         publish(cls._find(name or type(value).__name__), value)
 
     @classmethod
-    def getEntry(cls, key: str) -> "NetworkTableEntry":
-        return NetworkTableEntry(cls._find(key))
-
-    @classmethod
     def containsKey(cls, key: str) -> bool:
         return cls._find(key) in WORLD.network
 
@@ -155,7 +153,7 @@ class Preferences(SmartDashboard):
     _root = "Preferences"
 
 
-@fake(BOARD, "wpilib", complete=True, others="close initSendable onChange")
+@fake(BOARD, "wpilib", complete=True)
 class SendableChooser(Fake):
     """A list to choose from (allwpilib v2026, wpilibj/.../SendableChooser.java)."""
 
@@ -177,118 +175,14 @@ class SendableChooser(Fake):
         return self._options.get(WORLD.network.get(f"{self._path}/selected", self._default))
 
 
-class NetworkTableEntry(Fake):
-    """A value in NetworkTables, as topic, publisher, subscriber and entry (allwpilib, ntcore)."""
-
-    def __init__(self, path: str, default: Any = None) -> None:
-        self._path = path
-        self._default = default
-
-    def set(self, value: Any) -> None:
-        write_value(self._path, value)
-
-    accept = set
-
-    def setDefault(self, value: Any) -> None:
-        write_value(self._path, value, start=True)
-
-    def subscribe(self, default: Any = None, *_options: Any) -> Any:  # of its own class
-        return type(self)(self._path, default)
-
-    getEntry = subscribe
-
-    def publish(self, *_options: Any) -> Any:  # of its own class
-        return self
-
-    getTopic = publish
-
-
-@add_kinds("put", "setDefault")
-class NetworkTable(Fake):
-    """A folder of values (allwpilib v2026, ntcore/.../NetworkTable.java)."""
-
-    def __init__(self, path: str = "") -> None:
-        self._path = path
-
-    def _find(self, key: str) -> str:
-        return make_path(self._path, key)
-
-    def getEntry(self, key: str) -> NetworkTableEntry:
-        return NetworkTableEntry(self._find(key))
-
-    def getTable(self, key: str) -> "NetworkTable":
-        return NetworkTable(self._find(key))
-
-    getSubTable = getTable
-
-    @staticmethod
-    def getDefault() -> "NetworkTable":
-        return NetworkTable()
-
-
-class ShuffleboardTab(Fake):
-    """A tab of Shuffleboard, a layout, or a widget (allwpilib v2026, .../shuffleboard)."""
-
-    def __init__(self, path: str) -> None:
-        self._path = path
-
-    def add(self, title: Any, value: Any = None, *_more: Any) -> "ShuffleboardTab":
-        name, data = ("", title) if value is None else (title, value)
-        made = ShuffleboardTab(make_path(self._path, name or type(data).__name__))
-        if not callable(data):
-            publish(made._path, data)
-        return made
-
-    addPersistent = addBoolean = addNumber = addDouble = addInteger = addString = add
-
-    def getLayout(self, title: str, *_how: Any) -> "ShuffleboardTab":
-        return ShuffleboardTab(make_path(self._path, title))
-
-    def getEntry(self) -> NetworkTableEntry:
-        return NetworkTableEntry(self._path)
-
-    def withWidget(self, *_how: Any) -> "ShuffleboardTab":  # how it looks
-        return self
-
-    withPosition = withSize = withProperties = withWidget
-
-    @staticmethod
-    def getTab(title: str) -> "ShuffleboardTab":
-        return ShuffleboardTab(make_path("Shuffleboard", title))
-
-
-def _add_entry(kind: str, of: type, nothing: Any) -> None:  # any value
-    """Make the class for values of a kind, and give every entry the methods for it."""
-
-    def get(self: Any, default: of = None) -> of:
-        start = nothing if self._default is None else self._default
-        return read_value(self._path, start if default is None else default)
-
-    get.__qualname__ = f"{kind}Entry.get"
-    reads = {"get": get, "getAsBoolean": get, "getAsDouble": get, "getAsLong": get}
-    made = type(f"{kind}Entry", (NetworkTableEntry,), reads)
-    for word in ("Topic", "Subscriber", "Publisher", "Entry"):
-        fake(TABLES, "ntcore", name=kind + word)(made)
-
-    def get_topic(self: Any, key: str) -> made:
-        return made(self._find(key))
-
-    setattr(NetworkTable, f"get{kind}Topic", get_topic)
-    setattr(NetworkTableEntry, f"get{kind}", get)
-    setattr(NetworkTableEntry, f"set{kind}", NetworkTableEntry.set)
-    setattr(NetworkTableEntry, f"setDefault{kind}", NetworkTableEntry.setDefault)
-
-
-for _kind, _of in KINDS.items():
-    _add_entry(_kind, *_of)
-for _name, _cls in {
-    **dict.fromkeys(("NetworkTableEntry", "GenericEntry"), NetworkTableEntry),
-    **dict.fromkeys(("NetworkTable", "NetworkTableInstance"), NetworkTable),
-    **dict.fromkeys(("Shuffleboard", "ShuffleboardTab", "SimpleWidget"), ShuffleboardTab),
-}.items():
-    fake(f"{TABLES} {SHUFFLEBOARD}", "ntcore wpilib.shuffleboard", name=_name)(_cls)
-for _word in ("Topic", "Subscriber", "Publisher", "Entry"):
-    for _name in (f"Struct{_word}", f"StructArray{_word}"):
-        fake(TABLES, "ntcore", name=_name)(type(Fake)(_name, (Fake,), {}))
-for _name in ("DataLogManager", "DataLog", *(f"{kind}LogEntry" for kind in KINDS)):
-    fake(LOGS, "wpilib wpiutil.log", name=_name)(type(_name, (Fake,), {}))
+UNKNOWN = {  # package -> classes whose values nobody knows here
+    f"{TABLES} {SHUFFLEBOARD}": "NetworkTableEntry GenericEntry NetworkTable NetworkTableInstance "
+    "Shuffleboard ShuffleboardTab SimpleWidget StructTopic StructPublisher StructSubscriber "
+    "StructEntry StructArrayTopic StructArrayPublisher StructArraySubscriber StructArrayEntry",
+    TABLES: " ".join(f"{kind}{word}" for kind in KINDS for word in TOPICS),
+    LOGS: " ".join(("DataLogManager", "DataLog", *(f"{kind}LogEntry" for kind in KINDS))),
+}
+for _packages, _names in UNKNOWN.items():
+    for _name in _names.split():
+        _class = type(Fake)(_name, (Fake,), {"__doc__": "What it holds is unknown."})
+        fake(_packages, "ntcore wpilib wpilib.shuffleboard wpiutil.log")(_class)

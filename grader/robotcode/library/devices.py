@@ -4,7 +4,7 @@ A motor turns a shaft that the bench moves. The shaft knows the truth; what a de
 is the device's own matter: inverted, geared, in its own unit, refreshed or not.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 from grader.robotcode.library.base import Fake, Unknown
@@ -126,4 +126,3 @@ class LogEntry:
     family: str = ""
     unit: str = ""
     line: int = 0
-    extra: dict[str, Any] = field(default_factory=dict)

@@ -5,13 +5,12 @@ Also what the motor controllers of all vendors share: ramps, followers, and numb
 
 from typing import Any
 
-from grader.robotcode.library.base import Fake, Unknown, fake
+from grader.robotcode.library.base import Fake, Unknown, WrongArgument, fake
 from grader.robotcode.library.devices import Device, Motor
 from grader.robotcode.library.units import CONSTANTS, Voltage
 from grader.robotcode.library.world import PERIOD, WORLD
 
 NOMINAL = 12.0  # [V] what a ramp's time is counted to
-DEADBAND = 0.02  # of a joystick, as the drive classes have it
 PULSES = 2048  # per rotation of an encoder, unless the bench says otherwise
 EDGES = 4  # of one pulse of an encoder with two channels
 MOTORS = "edu.wpi.first.wpilibj.motorcontrol org.wpilib.hardware.motor"
@@ -90,7 +89,7 @@ class MotorController(Fake):
         return self._inverted
 
 
-@fake(MOTORS, "wpilib", complete=True, others=f"{SAFETY} enableDeadbandElimination getPwmHandle")
+@fake(MOTORS, "wpilib", complete=True)
 class PWMMotorController(MotorController, VendorMotor):
     """A motor controller on a PWM port (allwpilib v2026, .../PWMMotorController.java)."""
 
@@ -138,7 +137,7 @@ for _name in PWM_MOTORS.split():
     fake(MOTORS, "wpilib", complete=True)(type(_name, (PWMMotorController,), {"__doc__": _text}))
 
 
-@fake(MOTORS, "wpilib", complete=True, others="initSendable close")
+@fake(MOTORS, "wpilib", complete=True)
 class MotorControllerGroup(MotorController):
     """Motors of one voltage (allwpilib v2026, .../motorcontrol/MotorControllerGroup.java)."""
 
@@ -171,67 +170,24 @@ class MotorControllerGroup(MotorController):
 
 @fake("edu.wpi.first.wpilibj.drive org.wpilib.drive", "wpilib.drive")
 class DifferentialDrive(Fake):
-    """A left and a right side, driven by share (allwpilib v2026, .../drive/DifferentialDrive.java).
-
-    ``_fed``: when it was last fed; ``_safety``: whether it stops both sides if nobody feeds it.
-    """
+    """A left and a right side, at unknown speeds (allwpilib, .../drive/DifferentialDrive.java)."""
 
     def __init__(self, leftMotor: Any, rightMotor: Any) -> None:  # motors or functions
         self._sides = (leftMotor, rightMotor)
-        self._deadband, self._most = DEADBAND, 1.0
-        self._safety, self._fed = True, WORLD.time
 
-    def _shape(self, speed: Any, *, square: bool) -> Any:
-        if isinstance(speed, Unknown):
-            return speed
-        size = max(0.0, min(1.0, abs(speed)) - self._deadband) / (1.0 - self._deadband)
-        return (size * size if square else size) * (1 if speed > 0 else -1)
-
-    def _drive(self, *speeds: Any) -> None:
-        self._fed = WORLD.time
-        for side, speed in zip(self._sides, speeds, strict=True):
+    def _drive(self, *_speeds: Any, **_settings: Any) -> None:
+        for side in self._sides:
             command = side if callable(side) else side.set
-            command(clamp(speed, -1.0, 1.0) * self._most)
-
-    def tankDrive(self, leftSpeed: float, rightSpeed: float, squareInputs: bool = True) -> None:
-        self._drive(*(self._shape(one, square=squareInputs) for one in (leftSpeed, rightSpeed)))
-
-    def arcadeDrive(self, xSpeed: float, zRotation: float, squareInputs: bool = True) -> None:
-        ahead, turn = (self._shape(one, square=squareInputs) for one in (xSpeed, zRotation))
-        if not isinstance(ahead, Unknown) and not isinstance(turn, Unknown):
-            full = 1 + min(abs(ahead), abs(turn)) / (max(abs(ahead), abs(turn)) or 1.0)
-            ahead, turn = ahead / full, turn / full
-        self._drive(ahead - turn, ahead + turn)
-
-    def curvatureDrive(self, xSpeed: float, zRotation: float, allowTurnInPlace: bool) -> None:
-        ahead, turn = (self._shape(one, square=False) for one in (xSpeed, zRotation))
-        turn = turn if allowTurnInPlace else abs(ahead) * turn
-        self._drive(ahead - turn, ahead + turn)
+            command(Unknown("the speed of the drive class"))
 
     def stopMotor(self) -> None:
-        self._drive(0.0, 0.0)
+        for side in self._sides:
+            (side if callable(side) else side.set)(0.0)
 
-    def feed(self) -> None:
-        self._fed = WORLD.time
-
-    def setSafetyEnabled(self, enabled: bool) -> None:
-        self._safety = enabled
-
-    def setDeadband(self, deadband: float) -> None:
-        self._deadband = deadband
-
-    def setMaxOutput(self, maxOutput: float) -> None:
-        self._most = maxOutput
+    tankDrive = arcadeDrive = curvatureDrive = _drive
 
 
-@fake(
-    ENCODERS,
-    "wpilib",
-    complete=True,
-    others="EncodingType IndexingType getPeriod getStopped getDirection setMaxPeriod setMinRate "
-    "setIndexSource setSamplesToAverage getSamplesToAverage getFPGAIndex getEncodingScale "
-    "setSimDevice getDecodingScaleFactor getDistancePerPulse initSendable close",
-)
+@fake(ENCODERS, "wpilib", complete=True)
 class Encoder(Device):
     """An encoder with two channels on DIO ports (allwpilib v2026, .../wpilibj/Encoder.java)."""
 
@@ -241,6 +197,8 @@ class Encoder(Device):
 
     def __init__(self, channelA: Any, channelB: Any, *settings: Any, **named: Any) -> None:
         self._register("DIO", name_port(channelA), name_port(channelB))
+        if channelA == channelB and isinstance(channelA, int):
+            raise WrongArgument(f"Encoder: both of its channels are on port {channelA}")
         self._reversed = any(one is True for one in (*settings, named.get("reverseDirection")))
 
     def _count(self, rotations: float) -> float:

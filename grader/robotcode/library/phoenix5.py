@@ -6,7 +6,7 @@ Names are those of https://api.ctr-electronics.com/phoenix/stable/java/.
 from enum import Enum
 from typing import Any
 
-from grader.robotcode.library.base import fake
+from grader.robotcode.library.base import TABLES, fake
 from grader.robotcode.library.hardware import (
     SAFETY,
     MotorController,
@@ -22,18 +22,7 @@ CTRE = "com.ctre.phoenix.motorcontrol"
 TICKS = {"TalonFX": 2048}  # per rotation; the others have an encoder of 4096
 NOMINAL = 12.0  # [V] what voltage compensation takes for full, unless told otherwise
 TENTHS = 10.0  # of a second: velocities count ticks per 100 ms
-ENUMS = {
-    "ControlMode": "PercentOutput Position Velocity Current Follower MotionProfile MotionMagic "
-    "MotionProfileArc MusicTone Disabled",
-    "InvertType": "None_ InvertMotorOutput FollowMaster OpposeMaster",
-    "NeutralMode": "EEPROMSetting Coast Brake",
-    "DemandType": "Neutral AuxPID ArbitraryFeedForward",
-    "FollowerType": "PercentOutput AuxOutput1",
-    "FeedbackDevice": "QuadEncoder IntegratedSensor Analog Tachometer PulseWidthEncodedPosition "
-    "SensorSum SensorDifference RemoteSensor0 RemoteSensor1 None_ CTRE_MagEncoder_Relative "
-    "CTRE_MagEncoder_Absolute",
-}
-MADE: dict[str, Any] = {name: Enum(name, members) for name, members in ENUMS.items()}
+MADE: dict[str, Any] = {name: Enum(name, members) for name, members in TABLES["enums"].items()}
 for _name, _enum in MADE.items():
     fake(CTRE, "phoenix5 ctre")(_enum)
     for _model in ("TalonSRX", "VictorSPX", "TalonFX"):

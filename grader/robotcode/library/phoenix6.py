@@ -34,16 +34,6 @@ from grader.robotcode.library.world import WORLD
 CTRE = "com.ctre.phoenix6"
 TABLES = tomllib.loads(Path(__file__).with_suffix(".toml").read_text("utf-8"))
 DEFAULTS: dict[str, Any] = {}  # an enum -> its first member, a group -> its defaults
-LOGGED = {
-    "writeString": str,
-    "writeDouble": float,
-    "writeFloat": float,
-    "writeInteger": int,
-    "writeBoolean": bool,
-    "setPath": None,
-    "start": None,
-    "stop": None,
-}
 
 
 class StatusCode(Enum):
@@ -196,14 +186,8 @@ class StatusSignal(Fake):
     def refresh(self, reportError: bool = True) -> "StatusSignal":
         return self._update()
 
-    def waitForUpdate(self, timeoutSec: float, reportError: bool = True) -> "StatusSignal":
-        return self._update()
-
     def asSupplier(self) -> Any:
         return lambda: self._update()._typed()
-
-    def getStatus(self) -> StatusCode:
-        return OK
 
     @staticmethod
     def refreshAll(*signals: Any) -> StatusCode:
@@ -212,33 +196,22 @@ class StatusSignal(Fake):
                 one._update() if isinstance(one, StatusSignal) else None
         return OK
 
-    @staticmethod
-    def waitForAll(timeoutSeconds: float, *signals: Any) -> StatusCode:
-        return StatusSignal.refreshAll(*signals)
-
-    @staticmethod
-    def isAllGood(*signals: Any) -> bool:
-        return True
-
-    @staticmethod
-    def getLatencyCompensatedValue(signal: Any, slope: Any, latest: Any = 0.3) -> Any:
-        return signal._typed()
-
-    @staticmethod
-    def getLatencyCompensatedValueAsDouble(signal: Any, slope: Any, latest: Any = 0.3) -> float:
-        return signal._value
+    waitForUpdate = lambda self, *_settings: self._update()
+    getLatencyCompensatedValue = staticmethod(lambda signal, *_more: signal._typed())
+    getLatencyCompensatedValueAsDouble = staticmethod(lambda signal, *_more: signal._value)
 
 
 for _name in ("StatusSignal", "BaseStatusSignal"):
     _others = (
         "getTimestamp getAllTimestamps getName getUnits getTypeClass getAppliedUpdateFrequency "
-        "hasUpdated getDataCopy isNear clone setUpdateFrequency setUpdateFrequencyForAll"
+        "hasUpdated getDataCopy getStatus waitForAll isAllGood isNear clone "
+        "setUpdateFrequency setUpdateFrequencyForAll"
     )
     _modules = f"phoenix6 phoenix6.{to_snake(_name)}"
     fake(CTRE, _modules, complete=True, others=_others, name=_name)(StatusSignal)
 
 
-@fake(CTRE, "phoenix6 phoenix6.canbus", complete=True, others="getStatus isNetworkFD")
+@fake(CTRE, "phoenix6 phoenix6.canbus", complete=True)
 class CANBus(Fake):
     """A CAN bus, by its name (.../phoenix6/CANBus.html)."""
 
@@ -530,26 +503,7 @@ for _class in (ParentDevice, TalonFX, TalonFXS, CANcoder, Pigeon2):
 
 @fake(CTRE, "phoenix6 phoenix6.signal_logger")
 class SignalLogger(Fake):
-    """CTRE's own log (.../phoenix6/SignalLogger.html); all calls and values are kept."""
-
-
-def _add_log(call: str, kind: type | None) -> None:
-    def log(*values: Any) -> StatusCode:
-        WORLD.singletons.setdefault("signal_logger", []).append((call, *values))
-        if kind:
-            name, value, *_ = values
-            if not isinstance(value, Unknown) and not accepts(kind, value):
-                raise WrongArgument(
-                    f"SignalLogger.{call} takes another value than {describe(value)}"
-                )
-            WORLD.singletons.setdefault("outputs", []).append((name, value, WORLD.time))
-        return OK
-
-    setattr(SignalLogger, call, staticmethod(log))
-
-
-for _name, _log_kind in LOGGED.items():
-    _add_log(_name, _log_kind)
+    """CTRE's own log (.../phoenix6/SignalLogger.html), which nobody reads here."""
 
 
 @fake(CTRE)
@@ -562,7 +516,7 @@ class Utils(Fake):
 
     @staticmethod
     def isSimulation() -> bool:
-        return not WORLD.real
+        return False
 
 
 SWERVE = f"{CTRE}.swerve {CTRE}.mechanisms.swerve"

@@ -143,7 +143,7 @@ class RelativeEncoder(Fake):
         return OK
 
 
-@fake(SPARK, "rev", complete=True, others="getZeroOffset setZeroOffset")
+@fake(SPARK, "rev", complete=True)
 class AbsoluteEncoder(RelativeEncoder):
     """An encoder that knows where it is within a rotation (.../revrobotics/AbsoluteEncoder.html).
 

@@ -75,7 +75,7 @@ def _ask(kind: type, answer: Callable[[], Any]) -> Any:  # a static method
     return staticmethod(ask)
 
 
-@fake(STATION, "wpilib", complete=True, others="getControlState refreshData")
+@fake(STATION, "wpilib", complete=True)
 class RobotState(Fake):
     """The mode that the robot is in (allwpilib v2026, wpilibj/.../RobotState.java)."""
 
@@ -90,15 +90,7 @@ class RobotState(Fake):
     isFMSAttached = _ask(bool, lambda: WORLD.fms)
 
 
-@fake(
-    STATION,
-    "wpilib",
-    complete=True,
-    others="getJoystickAxisType getJoystickName getJoystickType getRawAllianceStation startDataLog"
-    " getStickAxisCount getStickButtonCount getStickButtons getStickPOVCount kJoystickPorts"
-    " isJoystickConnectionWarningSilenced provideRefreshedDataEventHandle reportError reportWarning"
-    " removeRefreshedDataEventHandle silenceJoystickConnectionWarning waitForDsConnection",
-)
+@fake(STATION, "wpilib", complete=True)
 class DriverStation(RobotState):
     """The driver station (allwpilib v2026, wpilibj/.../DriverStation.java)."""
 
@@ -159,8 +151,8 @@ class RobotController(Fake):
 class RobotBase(RobotState):
     """The base of all robots (allwpilib v2026, wpilibj/.../RobotBase.java)."""
 
-    isReal = _ask(bool, lambda: WORLD.real)
-    isSimulation = _ask(bool, lambda: not WORLD.real)
+    isReal = _ask(bool, lambda: True)
+    isSimulation = _ask(bool, lambda: False)
 
 
 def _do_nothing(self: Any) -> None:

@@ -5,7 +5,7 @@ from enum import Enum
 from typing import Any
 
 from grader.robotcode.library.base import JAVA, PYTHON, Fake, Unknown, WrongArgument, describe, fake
-from grader.robotcode.library.commands import Command
+from grader.robotcode.library.commands import Command, FunctionalCommand, nothing
 from grader.robotcode.library.devices import LogEntry
 from grader.robotcode.library.timing import Timer
 from grader.robotcode.library.units import CONSTANTS, Measure
@@ -127,7 +127,7 @@ class SysIdRoutineLog2027(SysIdRoutineLog):
     State = State2027
 
 
-@fake(complete=True, others="m_rampRate m_stepVoltage m_timeout m_recordState")
+@fake(complete=True)
 class Config(Fake):
     """The settings of a routine.
 
@@ -193,7 +193,7 @@ class ConfigV3(Config):
         return ConfigV3(RAMP, STEP, TIMEOUT, None)
 
 
-@fake(complete=True, others="m_drive m_log m_subsystem m_name drive log subsystem mechanism name")
+@fake(complete=True)
 class Mechanism(Fake):
     """What a routine moves, and how."""
 
@@ -290,12 +290,7 @@ class Routine(SysIdRoutineLog):
         return test.withName(name).withTimeout(self._config._timeout)
 
 
-@fake(
-    "edu.wpi.first.wpilibj2.command.sysid",
-    "commands2.sysid",
-    complete=True,
-    others="config mechanism outputVolts logState",
-)
+@fake("edu.wpi.first.wpilibj2.command.sysid", "commands2.sysid", complete=True)
 class SysIdRoutine(Routine):
     """The tests: allwpilib v2026.2.2, .../command/sysid/SysIdRoutine.java; commands2/sysid."""
 
@@ -316,16 +311,9 @@ class SysIdRoutineV3(Routine, SysIdRoutineLog2027):
     Config, SysIdMechanism, Direction = ConfigV3, SysIdMechanism, Direction2027
 
     def _assemble(self, name: str, start: Any, run: Any, end: Any) -> Command:
-        def test(coroutine: Any) -> None:
-            timer = Timer()
-            timer.restart()
-            start()
-            while not timer.hasElapsed(self._config._timeout):
-                run()
-                coroutine.yield_()
-            end()
-
-        return self._mechanism._subsystem.run(test).whenCanceled(end).named(name)
+        subsystem = self._mechanism._subsystem
+        test = FunctionalCommand(start, run, lambda _interrupted: end(), nothing, subsystem)
+        return test.withName(name).withTimeout(self._config._timeout)
 
 
 for _one, _name in ((SysIdRoutineLog2027, "SysIdRoutineLog"), (ConfigV3, "Config")):

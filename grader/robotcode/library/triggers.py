@@ -10,9 +10,8 @@ from enum import Enum
 from itertools import product
 from typing import Any
 
-from grader.robotcode.library.base import Fake, WrongArgument, describe, fake
+from grader.robotcode.library.base import TABLES, Fake, WrongArgument, describe, fake
 from grader.robotcode.library.commands import CommandScheduler, EventLoop
-from grader.robotcode.library.dashboard import NetworkTable
 from grader.robotcode.library.station import (
     STATION,
     RobotState,
@@ -35,36 +34,7 @@ ACTIONS = {  # the method that binds a command -> what it does when the trigger 
     "toggleOnTrue": ("toggle", ""),
     "toggleOnFalse": ("", "toggle"),
 }
-PLAYSTATION = "Square Cross Circle Triangle L1 R1 L2 R2 Share Options L3 R3 PS Touchpad"
-STADIA = (
-    "A B X Y LeftBumper RightBumper LeftStick RightStick Ellipses Hamburger Stadia RightTrigger"
-    " LeftTrigger Google Frame"
-)
-GAMEPAD = (
-    "SouthFace EastFace WestFace NorthFace Back Guide Start LeftStick RightStick LeftBumper"
-    " RightBumper DpadUp DpadDown DpadLeft DpadRight"
-)
-CONTROLLERS = {  # class -> the number of the first button, the buttons, the axes from 0 on
-    "XboxController": (
-        *(1, "A B X Y LeftBumper RightBumper Back Start LeftStick RightStick"),
-        "LeftX LeftY LeftTrigger RightTrigger RightX RightY",
-    ),
-    "PS4Controller": (1, PLAYSTATION, "LeftX LeftY RightX L2 R2 RightY"),
-    "PS5Controller": (
-        *(1, PLAYSTATION.replace("Share", "Create")),
-        "LeftX LeftY RightX L2 R2 RightY",
-    ),
-    "StadiaController": (1, STADIA, "LeftX LeftY - RightX RightY"),
-    "Gamepad": (0, GAMEPAD, "LeftX LeftY RightX RightY LeftTrigger RightTrigger"),
-    "Joystick": (1, "Trigger Top", "X Y Z Throttle"),
-}
-UNUSED = (  # members of controllers that have no effect here
-    "HIDType RumbleType close getAxisCount getAxisType getButtonCount getName"
-    " getPOVCount getType initSendable setOutput setOutputs setRumble setXChannel setYChannel"
-    " setZChannel setThrottleChannel setTwistChannel getXChannel getYChannel getZChannel getTwist"
-    " getThrottleChannel getTwistChannel getDirectionDegrees getDirectionRadians getMagnitude"
-    " povCenter"
-)
+UNUSED = TABLES["others"]["controllers"]
 POVS = "Up UpRight Right DownRight Down DownLeft Left UpLeft"  # every 45°, clockwise
 
 
@@ -161,7 +131,7 @@ def _bind(how: str) -> Callable[..., Any]:
     return bind
 
 
-@fake(BUTTONS, "commands2.button", complete=True, others="multiPress rising falling castTo")
+@fake(BUTTONS, "commands2.button", complete=True)
 class Trigger(BooleanEvent):
     """What starts commands (allwpilib v2026, .../command/button/Trigger.java)."""
 
@@ -342,8 +312,8 @@ def _add_fakes(hid: type, command: type) -> None:
 for _degrees, _name in zip(range(0, 360, 45), POVS.split(), strict=True):
     _add(CommandGenericHID, f"pov{_name}", Trigger, lambda self, at=_degrees: self.pov(at))
 _add_fakes(GenericHID, CommandGenericHID)
-for _name, _parts in CONTROLLERS.items():
-    _make_controller(_name, *_parts)
+for _name, _parts in TABLES["controllers"].items():
+    _make_controller(_name, **_parts)
 
 
 class JoystickButton(Trigger):
@@ -362,28 +332,5 @@ class POVButton(Trigger):
         super().__init__(lambda: joystick.getPOV(povNumber) == angle)
 
 
-class NetworkButton(Trigger):
-    """A boolean on a dashboard (allwpilib v2026, .../command/button/NetworkButton.java)."""
-
-    def __init__(self, *place: Any) -> None:  # a topic, or a table and a name
-        *tables, key = place
-        table = tables[-1] if tables else None
-        if isinstance(table, str):
-            table = NetworkTable().getTable(table)
-        value = table.getEntry(key) if tables else key
-        super().__init__(lambda: value.getBoolean(False))
-
-
-class InternalButton(Trigger):
-    """A button that the program itself presses (allwpilib v2026, .../InternalButton.java)."""
-
-    def __init__(self, inverted: bool = False) -> None:
-        self._pressed = False
-        super().__init__(lambda: self._pressed != inverted)
-
-    def setPressed(self, pressed: bool) -> None:
-        self._pressed = pressed
-
-
-for _cls in (JoystickButton, POVButton, NetworkButton, InternalButton):
+for _cls in (JoystickButton, POVButton):
     fake(BUTTONS, "commands2.button", complete=True)(_cls)

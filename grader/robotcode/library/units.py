@@ -6,12 +6,16 @@ radian and kelvin in it. Also WPILib's conversion functions and the units of Rob
 """
 
 import math
+import operator
+import types
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partialmethod
 from typing import Any, ClassVar
 
 from grader.robotcode.library.base import (
     PYTHON,
+    TABLES,
     Fake,
     Unknown,
     WrongArgument,
@@ -43,11 +47,7 @@ def _divide(one: Any, other: Any) -> Any:
         return one * math.inf
 
 
-@fake(
-    PACKAGES,
-    complete=True,
-    others="getConverterToBase getConverterFromBase convertFrom getUnit isBaseUnit equivalent",
-)
+@fake(PACKAGES, complete=True)
 @dataclass(frozen=True)
 class Unit(Fake):
     """A unit: allwpilib v2026.2.2, wpiunits/.../Unit.java, and its subclasses.
@@ -116,12 +116,7 @@ class Unit(Fake):
         return self._symbol
 
 
-@fake(
-    PACKAGES,
-    complete=True,
-    others="max min inverse reciprocal asFrequency asPeriod toLongString timesInverse timesDivisor "
-    "timesConversionFactor ofRelativeUnits ofBaseUnits EQUIVALENCE_THRESHOLD",
-)
+@fake(PACKAGES, complete=True)
 class Measure(Fake):
     """A value with its unit: allwpilib v2026.2.2, wpiunits/.../Measure.java; v2024.3.2 as well."""
 
@@ -171,23 +166,11 @@ class Measure(Fake):
     def baseUnitMagnitude(self) -> float:
         return self._base
 
-    def unit(self) -> Unit:
-        return self._unit
-
-    def baseUnit(self) -> Unit:
-        return self._unit.getBaseUnit()
-
     def copy(self) -> "Measure":
         return self._unit.ofBaseUnits(self._base)
 
     def mutableCopy(self) -> "MutableMeasure":
         return self._unit._kind._mutable_class(self._unit, self._base)
-
-    def abs(self, unit: Unit) -> float:
-        return abs(self.in_(unit))
-
-    def copySign(self, other: "Measure", unit: Unit) -> float:
-        return math.copysign(self.in_(unit), other.in_(unit))
 
     def unaryMinus(self) -> "Measure":
         return self.times(-1)
@@ -220,29 +203,22 @@ class Measure(Fake):
             return self.div(other)
         return self._unit.per(other).ofBaseUnits(_divide(self._base, other._size))
 
-    def isNear(self, other: "Measure", tolerance: "float | Measure") -> bool:
-        base = self._base_of(other, "isNear")
-        allowed = tolerance._base if isinstance(tolerance, Measure) else base * tolerance
-        return abs(self._base - base) <= abs(allowed)
 
-    def isEquivalent(self, other: "Measure") -> bool:
-        return self.isNear(other, self._unit.getBaseUnit().of(EQUIVALENT))
+def _compare(name: str, test: Callable[[Any, Any], Any]) -> None:
+    """Give Measure a method that compares it with another one of its dimension."""
 
-    def compareTo(self, other: "Measure") -> int:
-        base = self._base_of(other, "compareTo")
-        return (self._base > base) - (self._base < base)
+    def compare(self: Measure, other: Measure) -> bool:
+        return test(self._base, self._base_of(other, name))
 
-    def gt(self, other: "Measure") -> bool:
-        return self._base > self._base_of(other, "gt")
+    compare.__qualname__ = f"Measure.{name}"
+    setattr(Measure, name, checked(compare))
 
-    def lt(self, other: "Measure") -> bool:
-        return self._base < self._base_of(other, "lt")
 
-    def gte(self, other: "Measure") -> bool:
-        return self._base >= self._base_of(other, "gte") - EQUIVALENT
-
-    def lte(self, other: "Measure") -> bool:
-        return self._base <= self._base_of(other, "lte") + EQUIVALENT
+for _name in ("gt", "lt"):
+    _compare(_name, getattr(operator, _name))
+_compare("gte", lambda a, b: a >= b - EQUIVALENT)
+_compare("lte", lambda a, b: a <= b + EQUIVALENT)
+_compare("isEquivalent", lambda a, b: abs(a - b) <= EQUIVALENT)
 
 
 def base_value(value: Any) -> Any:
@@ -312,100 +288,20 @@ class Kind(Measure):
             CONSTANTS.update(dict.fromkeys(names.split("/"), unit))
 
 
-class Dimensionless(Kind, units="Value <?> 1, Percent % 0.01"):
-    """A share or a ratio."""
-
-
-class Distance(
-    Kind,
-    m=1,
-    units="Meters/Meter m 1, Millimeters/Millimeter mm 1e-3, Centimeters/Centimeter cm 1e-2, "
-    "Inches/Inch in 0.0254, Feet/Foot ft 0.3048",
-):
-    """A length."""
-
-
-class Time(
-    Kind,
-    s=1,
-    units="Seconds/Second s 1, Milliseconds/Millisecond ms 1e-3, "
-    "Microseconds/Microsecond us 1e-6, Minutes/Minute min 60",
-):
+class Time(Kind, **TABLES["kinds"]["Time"]):
     """A time span."""
 
 
-class Angle(
-    Kind,
-    rad=1,
-    units=f"Radians/Radian rad 1, Revolutions/Revolution R {math.tau}, "
-    f"Rotations/Rotation R {math.tau}, Degrees/Degree ° {math.radians(1)}",
-):
+class Angle(Kind, **TABLES["kinds"]["Angle"]):
     """An angle."""
 
 
-class Mass(
-    Kind,
-    kg=1,
-    units="Kilograms/Kilogram Kg 1, Grams/Gram g 1e-3, Pounds/Pound lb. 0.453592, "
-    "Ounces/Ounce oz. 0.0283495",
-):
-    """A mass."""
-
-
-class Temperature(Kind, kelvin=1, units="Kelvin K 1"):
-    """A temperature."""
-
-
-class Frequency(Kind, s=-1, units="Hertz hz 1, Millihertz mhz 1e-3"):
-    """How often a second."""
-
-
-class LinearVelocity(Kind, m=1, s=-1):
-    """How fast something moves along a line."""
-
-
-class AngularVelocity(Kind, rad=1, s=-1):
+class AngularVelocity(Kind, **TABLES["kinds"]["AngularVelocity"]):
     """How fast something turns."""
 
 
-class LinearAcceleration(Kind, m=1, s=-2):
-    """How fast a linear velocity changes."""
-
-
-class AngularAcceleration(Kind, rad=1, s=-2):
-    """How fast an angular velocity changes."""
-
-
-class Force(Kind, kg=1, m=1, s=-2, units="Newtons/Newton N 1"):
-    """A force."""
-
-
-class Torque(Kind, kg=1, m=2, s=-2, rad=-1, units="NewtonMeters/NewtonMeter N*m 1"):
-    """A torque: energy per radian, which keeps it apart from an energy."""
-
-
-class MomentOfInertia(Kind, kg=1, m=2, units="KilogramSquareMeters Kg*m^2 1"):
-    """A moment of inertia."""
-
-
-class Energy(Kind, kg=1, m=2, s=-2, units="Joules/Joule J 1"):
-    """An energy."""
-
-
-class Power(Kind, kg=1, m=2, s=-3, units="Watts/Watt W 1, Horsepower HP 745.7"):
-    """A power."""
-
-
-class Voltage(Kind, kg=1, m=2, s=-3, amp=-1, units="Volts/Volt V 1, Millivolts/Millivolt mV 1e-3"):
+class Voltage(Kind, **TABLES["kinds"]["Voltage"]):
     """An electric potential."""
-
-
-class Current(Kind, amp=1, units="Amps/Amp A 1, Milliamps/Milliamp mA 1e-3"):
-    """An electric current."""
-
-
-class Resistance(Kind, kg=1, m=2, s=-3, amp=-2, units="Ohms/Ohm Ω 1"):
-    """An electric resistance."""
 
 
 class Velocity(Kind):
@@ -420,42 +316,12 @@ class Mult(Kind):
     """Any other product."""
 
 
-RATES = (  # each is one of the units above per one or more others: Meters, per Second, per Second
-    "MetersPerSecond FeetPerSecond InchesPerSecond RadiansPerSecond DegreesPerSecond "
-    "RotationsPerSecond RevolutionsPerSecond RotationsPerMinute MetersPerSecondPerSecond "
-    "FeetPerSecondPerSecond InchesPerSecondPerSecond RadiansPerSecondPerSecond "
-    "DegreesPerSecondPerSecond RotationsPerSecondPerSecond"
-)
-OTHER_UNITS = (
-    "Milli Micro Kilo derive anonymous PoundsForce PoundForce OuncesForce OunceForce PoundFeet "
-    "PoundFoot PoundInches PoundInch OunceInches OunceInch KilogramMetersPerSecond "
-    "PoundInchesPerSecond KilogramMetersSquaredPerSecond PoundInchesSquaredPerSecond "
-    "PoundSquareInches KiloOhms KiloOhm MilliOhms MilliOhm Millijoules Millijoule Kilojoules "
-    "Kilojoule Milliwatts Milliwatt Fahrenheit VoltsPerMeterPerSecond VoltsPerRadianPerSecond "
-    "VoltsPerMeterPerSecondSquared VoltsPerRadianPerSecondSquared"
-)
-CONVERSIONS = (  # 1 of the first is so many of the second
-    ("feet", "meters", 0.3048),
-    ("inches", "meters", 0.0254),
-    ("degrees", "radians", math.pi / 180),
-    ("rotations", "radians", math.tau),
-    ("rotations", "degrees", 360.0),
-    ("rotationsPerMinute", "radiansPerSecond", math.tau / 60),
-    ("milliseconds", "seconds", 1e-3),
-    ("lbs", "kilograms", 0.453592),
-)
-FLOATS = (  # units of RobotPy, which all are float by another name
-    "volts volts_per_second amperes ohms seconds milliseconds minutes hertz meters centimeters "
-    "millimeters inches feet meters_per_second feet_per_second meters_per_second_squared radians "
-    "degrees turns radians_per_second degrees_per_second turns_per_second revolutions_per_minute "
-    "radians_per_second_squared turns_per_second_squared units_per_second "
-    "units_per_second_squared volt_seconds volt_seconds_squared volt_seconds_per_meter "
-    "volt_seconds_squared_per_meter volt_seconds_per_radian volt_seconds_squared_per_radian "
-    "kilograms pounds newtons newton_meters kilogram_square_meters percent celsius watts joules"
-)
+for _name, _row in TABLES["kinds"].items():
+    if _name not in globals():
+        types.new_class(_name, (Kind,), _row, lambda body: body.update(__module__=__name__))
 
 
-@fake(PACKAGES, complete=True, others=OTHER_UNITS)
+@fake(PACKAGES, complete=True)
 class Units(Fake):
     """The units by their names: allwpilib v2026.2.2, wpiunits/.../Units.java."""
 
@@ -467,7 +333,7 @@ class Conversions(Fake):
 
 def _name_units() -> None:
     """Complete the table of units, and make each one a member of Units."""
-    for name in RATES.split():
+    for name in TABLES["units"]["rates"].split():
         unit, *times = (CONSTANTS[part] for part in name.split("Per"))
         for time in times:
             unit = unit.per(time)
@@ -493,7 +359,7 @@ def _add_conversion(source: str, target: str, size: float) -> None:
 
 
 _name_units()
-PYTHON["wpimath.units"] = dict.fromkeys(FLOATS.split(), float)
-for _source, _target, _size in CONVERSIONS:
+PYTHON["wpimath.units"] = dict.fromkeys(TABLES["units"]["floats"].split(), float)
+for _source, _target, _size in TABLES["units"]["conversions"]:
     _add_conversion(_source, _target, _size)
     _add_conversion(_target, _source, 1 / _size)

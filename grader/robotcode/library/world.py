@@ -53,7 +53,6 @@ class World:
     mode: str = "disabled"
     alliance: str = "Blue"
     fms: bool = False
-    real: bool = True
     joysticks: dict[int, Joystick] = field(default_factory=dict)
     network: dict[str, Any] = field(default_factory=dict)
     devices: list["Device"] = field(default_factory=list)

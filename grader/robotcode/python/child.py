@@ -7,15 +7,18 @@ the facts, as JSON, behind it: that shows that the program came to its end.
 import json
 import os
 import sys
+import threading
+import time
 from pathlib import Path
+from typing import Any
 
+from grader.robotcode.bench import BENCHES, find_bench
 from grader.robotcode.bench.facts import to_json
 from grader.robotcode.bench.simulation import Mount
+from grader.robotcode.library import timing
 from grader.robotcode.library.world import WORLD
-from grader.robotcode.python import BENCHES, find_bench
 from grader.robotcode.python.imports import FakeFinder, restore
 from grader.robotcode.python.subject import PythonSubject
-from grader.robotcode.python.wpilib_backend import stop_clock, use_wpilib
 
 WANTED = {
     "routine": "SysIdRoutine$",
@@ -25,6 +28,18 @@ WANTED = {
 for _one in BENCHES:  # and all that they need
     find_bench(_one)
 COURSE = {name: one for name, one in sys.modules.items() if name.partition(".")[0] == "grader"}
+
+
+def stop_clock() -> None:
+    """Let Python's own clock be the bench's."""
+    really_sleep = time.sleep
+
+    def sleep(seconds: Any) -> None:
+        own = threading.current_thread() is threading.main_thread()
+        (timing.wait if own else really_sleep)(float(seconds))
+
+    time.sleep = sleep
+    time.time = time.monotonic = time.perf_counter = timing.Timer.getTimestamp
 
 
 def main() -> None:
@@ -38,15 +53,11 @@ def main() -> None:
     WORLD.reset("python", assume=orders["assume"])
     mounts = {port: Mount(**mount) for port, mount in orders["mounts"]}
     WORLD.singletons["stored"] = {port: {"inverted": one.inverted} for port, one in mounts.items()}
-    if orders["robotpy"]:
-        use_wpilib()
-    else:
-        sys.meta_path.insert(0, FakeFinder(every=False))
+    sys.meta_path.insert(0, FakeFinder(every=False))
     stop_clock()
     kind = orders["kind"]
     subject = PythonSubject(Path(orders["path"]), Path(orders["root"]), WANTED[kind])
-    bench = find_bench(kind)
-    facts = (bench(subject, mounts) if kind == "routine" else bench(subject)).run()
+    facts = find_bench(kind)(subject, mounts).run()
     result = {"facts": to_json(facts), "undecided": bool(WORLD.undecided)}
     text = f"{nonce} {restore(json.dumps(result, ensure_ascii=False))}".encode(errors="replace")
     while text:

@@ -3,7 +3,7 @@
 import ast
 import contextlib
 import difflib
-import enum
+import functools
 import importlib
 import inspect
 import itertools
@@ -20,7 +20,7 @@ from typing import Any
 from grader.robotcode.bench.button_run import Factory
 from grader.robotcode.bench.facts import Outcome
 from grader.robotcode.bench.simulation import walk_fields
-from grader.robotcode.comments import find_comments_near, list_comments
+from grader.robotcode.bench.subject import Subject, list_choices, list_made, make_of_library
 from grader.robotcode.library.base import NEARLY, Fake, Unknown
 from grader.robotcode.library.world import WORLD
 from grader.robotcode.python.imports import (
@@ -42,7 +42,7 @@ class EndlessError(BaseException):
     """The program does not come back."""
 
 
-class PythonSubject:
+class PythonSubject(Subject):
     """A Python program, and the one of its classes that is looked at.
 
     Args:
@@ -68,7 +68,6 @@ class PythonSubject:
         }
         self.node = self._choose(wanted)
         self.name = self.node.name if self.node is not None else path.stem
-        self.instance: Any = None
         self.module = ModuleType("")
         if hasattr(signal, "setitimer"):
             signal.signal(signal.SIGVTALRM, _end_loop)
@@ -161,7 +160,7 @@ class PythonSubject:
         """An object of a class; its constructor gets what a robot's program would give it."""
         own = getattr(cls, "__module__", "") in {one.__name__ for one in self.modules}
         if not own:
-            return _make_of_library(cls)
+            return make_of_library(cls)
         children = [one for one in cls.__subclasses__() if not inspect.isabstract(one)]
         if inspect.isabstract(cls) and children:
             return self.make(children[0], depth)
@@ -178,18 +177,18 @@ class PythonSubject:
         return cls(**given)
 
     def _fill(self, name: str, kind: Any, depth: int) -> Any:  # any annotation
-        if isinstance(kind, type) and kind is not Any and depth < DEEP:
-            simple = {int: 1, float: 1.0, bool: False, str: "name"}
+        if isinstance(kind, type) and kind not in {Any, float} and depth < DEEP:
+            simple = {int: 1, bool: False, str: "name"}
             return simple[kind] if kind in simple else self.make(kind, depth + 1)
         return Unknown(name)
 
     def find_routines(self) -> list[Any]:
         """The routines that a method makes when somebody asks for one, or for a test."""
-        before = len(WORLD.singletons.get("routines", []))
+        return list_made("routines", self._ask_methods)
+
+    def _ask_methods(self) -> None:
         for one in self._list_makers(self.node):
             self._call(self.instance, one)
-        made: list[Any] = WORLD.singletons.get("routines", [])
-        return made[before:]
 
     def _list_makers(self, owner: ast.ClassDef | None) -> list[ast.FunctionDef]:
         """The methods of a class and its bases that give tests or a routine."""
@@ -214,6 +213,10 @@ class PythonSubject:
         ]
         for args in itertools.product(*choices):
             found(*args)
+
+    def _try_call(self, instance: object, node: ast.FunctionDef) -> None:
+        with contextlib.suppress(Exception):  # a method that wants something else
+            self._call(instance, node)
 
     @staticmethod
     def refill() -> None:
@@ -280,10 +283,8 @@ class PythonSubject:
         instances = {type(one).__name__: one for _, _, one in walk_fields(self.instance)}
         for node in self.classes.values():
             for one in self._list_makers(node) if rename(node.name) in instances else ():
-                before = len(WORLD.singletons.get("tests", []))
-                with contextlib.suppress(Exception):  # a method that wants something else
-                    self._call(instances[rename(node.name)], one)
-                tests = tuple(test for test, _, _ in WORLD.singletons.get("tests", [])[before:])
+                call = functools.partial(self._try_call, instances[rename(node.name)], one)
+                tests = tuple(test for test, _, _ in list_made("tests", call))
                 if tests:
                     public = not one.name.startswith("_")
                     found.append(Factory(node.name, one.name, public, one.lineno, tests))
@@ -303,19 +304,10 @@ class PythonSubject:
         """The class in which a line stands."""
         return getattr(self._node_at(line, ast.ClassDef), "name", "")
 
-    def text_at(self, line: int) -> str:
-        """The code on a line."""
-        lines = self.text.split("\n")
-        return lines[line - 1].strip() if 0 < line <= len(lines) else ""
-
-    def comment_at(self, line: int) -> str:
-        """The comments on a line and above it, or else on its whole statement."""
-        comments = list_comments(self.text, "python")
+    def find_statement(self, line: int) -> tuple[int, int] | None:
+        """The first and the last line of the statement that a line is in."""
         node = self._node_at(line, ast.Assign | ast.AnnAssign | ast.Expr | ast.Return)
-        near = find_comments_near(comments, line, line)
-        if near or node is None:
-            return near
-        return find_comments_near(comments, node.lineno, node.end_lineno or node.lineno)
+        return None if node is None else (node.lineno, node.end_lineno or node.lineno)
 
     def find_uncalled(self) -> list[tuple[str, int]]:
         """Methods with bindings that nothing calls."""
@@ -345,25 +337,14 @@ def list_names(tree: ast.AST) -> set[str]:
     }
 
 
-def _make_of_library(cls: Any) -> Any:  # a class
-    for args in ((), (1,), (len(WORLD.devices) + 1,)):
-        with contextlib.suppress(TypeError, ValueError):
-            return cls(*args)
-    return Unknown(getattr(cls, "__name__", "a value"))
-
-
 def _choose_values(parameter: inspect.Parameter) -> list[Any]:
     """What a parameter of a factory may be given: the constants of an enum, or true and false."""
     kind = parameter.annotation
-    if isinstance(kind, type) and issubclass(kind, enum.Enum):
-        return list(kind)
-    if kind is bool:
-        return [True, False]
     if kind is parameter.empty or "Direction" in str(kind):
         from commands2.sysid import SysIdRoutine  # noqa: PLC0415 - whichever is there
 
         return list(SysIdRoutine.Direction)
-    return []
+    return list_choices(kind)
 
 
 def _end_loop(*_signal: object) -> None:

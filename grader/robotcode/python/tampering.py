@@ -78,18 +78,6 @@ def refuse_tampering(path: Path) -> None:
             raise _refusal(what, path if file == path else Path(file.name), line)
 
 
-def list_foreign_imports(path: Path) -> set[str]:
-    """The libraries that a program imports, Python's own among them."""
-    local, found = _local(path), set()
-    for _, tree in _parsed(path):
-        for node in ast.walk(tree):
-            if isinstance(node, ast.ImportFrom) and not node.level:
-                found.add((node.module or "").partition(".")[0])
-            elif isinstance(node, ast.Import):
-                found |= {alias.name.partition(".")[0] for alias in node.names}
-    return found - local
-
-
 def _refusal(what: str, file: Path, line: int) -> UnreadableFile:
     return UnreadableFile(
         f"{what}, so the grader cannot see what this code does",

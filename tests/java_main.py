@@ -1,24 +1,40 @@
 """Runs a Java program without WPILib: its main method, and what that prints."""
 
-import sys
 from pathlib import Path
 
-from grader.robotcode.java.lang import Exited
+from grader.robotcode.java import text
+from grader.robotcode.java.lang import Exited, PrintStream
 from grader.robotcode.java.program import Program
 from grader.robotcode.java.runtime import STATE, EndlessError, find_attribute
+from grader.robotcode.java.steps import allow_deep_calls
 from grader.robotcode.java.syntax import Source
-from grader.robotcode.java.values import Array, Throwable, to_string
+from grader.robotcode.java.values import Array, Throwable, to_string, write_items
+from grader.robotcode.library.base import JAVA
 from grader.robotcode.library.world import WORLD
 
-PYTHON_CALLS = 15_000  # Python calls within calls that DEEPEST calls of Java may need
+PRINTED: list[str] = []  # by the program that runs
 
 
-def allow_deep_calls() -> None:
-    """Let Java's own limit of calls within calls come before Python's."""
-    sys.setrecursionlimit(max(sys.getrecursionlimit(), PYTHON_CALLS))
+def print_value(stream, value=""):
+    """System.out.print: the interpreter itself lets a program's output go."""
+    if stream is JAVA["java.lang.System"].out:
+        letters = type(value) is Array and value.kind == "char"
+        PRINTED.append("".join(value) if letters else write_items([value], "", ""))
 
 
-def run_main(source: str, *, steps: int = 1_000_000) -> str:
+def print_line(stream, value=""):
+    """System.out.println."""
+    print_value(stream, value)
+    print_value(stream, "\n")
+
+
+PrintStream.print, PrintStream.println = print_value, print_line
+PrintStream.printf = PrintStream.format = lambda self, pattern, *args: print_value(
+    self, text.format(pattern, args)
+)
+
+
+def run_main(source, *, steps=1_000_000):
     """What a program's ``Main.main`` prints.
 
     Args:
@@ -37,6 +53,7 @@ def run_main(source: str, *, steps: int = 1_000_000) -> str:
         program.compile_all()
     for one in (*program.problems, *program.errors.values()):
         return f"!! line {one.line}: {one.message}\n"
+    PRINTED.clear()
     main, end = program.unit.classes["Main"], ""
     try:
         main.initialize()
@@ -49,4 +66,4 @@ def run_main(source: str, *, steps: int = 1_000_000) -> str:
         end = "!! java.lang.StackOverflowError\n"
     except Throwable as problem:
         end = f"!! {to_string(problem)}\n"
-    return "".join(WORLD.singletons.get("output", [])) + end
+    return "".join(PRINTED) + end

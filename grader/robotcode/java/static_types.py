@@ -1,0 +1,180 @@
+"""Types that are known before a program runs: those of names, constants and operations.
+
+A type that cannot be told is empty, and fits everywhere. What does not fit is found when the
+program runs; only a number that would lose its fraction is refused before.
+"""
+
+import functools
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from tree_sitter import Node
+
+from grader.robotcode.java import type_names, values
+from grader.robotcode.java.classes import NUMBERS, WIDENS, JavaClass
+from grader.robotcode.java.scope import MISSING, Code, Frame, kind_of
+from grader.robotcode.java.syntax import At
+from grader.robotcode.java.values import BOXES, PRIMITIVES
+from grader.robotcode.library.base import Fake
+
+SMALL = frozenset({"byte", "short", "char"})  # a constant of int fits into them if it is small
+KINDS = {float: "double", int: "int", bool: "boolean", str: "String"}
+
+
+class StaticTypes:
+    """The types in one method.
+
+    Args:
+        owner: the class that the method belongs to.
+        frame: its local variables.
+    """
+
+    def __init__(self, owner: JavaClass, frame: Frame) -> None:
+        self.owner, self.frame = owner, frame
+        self.program = owner.unit.program
+
+    def at(self, node: Node) -> At:
+        """Where a node stands."""
+        return self.owner.unit.source.at(node)
+
+    def resolve(self, name: str) -> Any:
+        """The class of a name, or None."""
+        return self.program.resolve(name, self.owner, self.frame)
+
+    def find_type(self, node: Node | None) -> Any:
+        """The class that a type stands for; an unknown one is written down."""
+        if node is None:
+            return None
+        name = kind_of(node)
+        if not self.erased(name) or name.rstrip("[]") in PRIMITIVES | {"var", "void"}:
+            return None
+        return self.program.resolve_or_report(name, self.owner, self.at(node), self.frame)
+
+    def erased(self, kind: str) -> str:
+        """A type's name, empty if it is a type parameter."""
+        name = kind.rstrip("[]")
+        frame: Frame | None = self.frame
+        while frame is not None:
+            if name in frame.variables:
+                return ""
+            frame = frame.outer
+        return erased_in(self.owner, kind)
+
+    def seen_from_here(self, owner: JavaClass, kind: str) -> str:
+        """A type as the text of another class has it, if it means the same here; else empty."""
+        kind = erased_in(owner, kind)
+        name = kind.rstrip("[]")
+        if owner is self.owner or name in PRIMITIVES or name in {"String", "void", ""}:
+            return kind
+        return kind if self.resolve(name) is self.program.resolve(name, owner) else ""
+
+    def result_of(self, found: Any) -> str:
+        """The type of what a method of the program gives back; empty if it cannot be told."""
+        overloads = getattr(found, "overloads", None)
+        if overloads is None or overloads.inherited is not None:
+            return ""
+        results = {self.seen_from_here(one.owner, one.returns) for one in overloads.methods}
+        return results.pop() if len(results) == 1 else ""
+
+    def unknown_field(self, cls: JavaClass, name: str) -> str:
+        """What to say where a class has no field of a name."""
+        return unknown_name("field", name, member_names(cls), cls.name)
+
+    def why_not(self, kind: str, code: Code) -> str:
+        """What javac says of a number where another type is wanted; empty if it may be."""
+        source, target = BOXES.get(code.kind, code.kind), BOXES.get(kind, kind)
+        if code.kind == "void" and kind:
+            return "a method that returns nothing gives no value"
+        if {source, target} in ({"String", one} for one in PRIMITIVES):
+            return f"incompatible types: {code.kind} cannot be converted to {kind}"
+        if not (source in PRIMITIVES and target in PRIMITIVES) or source == target:
+            return ""
+        if "boolean" in {source, target}:
+            return f"incompatible types: {code.kind} cannot be converted to {kind}"
+        if kind in WIDENS[source] or _fits(target, code.kind, code.constant):
+            return ""
+        return f"incompatible types: possible lossy conversion from {code.kind} to {kind}"
+
+
+def is_sure(cls: Any) -> bool:
+    """Whether all members of a class, and all classes above it, are known."""
+    if isinstance(cls, JavaClass):
+        above = [one for up in cls.ancestors() for one in (up.parent, *up.interfaces)]
+        if any(up.lombok for up in cls.ancestors()):
+            return False
+        return all(isinstance(one, JavaClass) or one is None or is_sure(one) for one in above)
+    return isinstance(cls, type) and issubclass(cls, Fake) and cls.fake_complete
+
+
+def unknown_name(what: str, name: str, known: Sequence[str], label: str) -> str:
+    """What to say of a name that nothing has, with the one that was meant."""
+    lacks = f": {label} has none" if label else ": nothing here has it"
+    return f"unknown {what} {name}{type_names.did_you_mean(name, known) or lacks}"
+
+
+def member_names(cls: Any) -> list[str]:
+    """The names of all members of a class."""
+    if isinstance(cls, JavaClass):
+        names = [name for one in cls.ancestors() for name in (*one.fields, *one.nested)]
+        names += [one.name for up in cls.ancestors() for one in up.methods]
+        base = cls.library_base
+        return names + (member_names(base) if isinstance(base, type) else [])
+    listed = (*dir(cls), *getattr(cls, "fake_others", ()))
+    return [one.rstrip("_") for one in listed if not one.startswith(("_", "fake_"))]
+
+
+def erased_in(owner: JavaClass, kind: str) -> str:
+    """A type as a class's text has it, empty where it is a type parameter."""
+    one: JavaClass | None = owner
+    while one is not None:
+        if kind.rstrip("[]") in one.variables:
+            return ""
+        one = one.outer
+    return kind
+
+
+def _fits(kind: str, given: str, constant: Any) -> bool:
+    """Whether a constant may be assigned to a narrower type, because its value fits."""
+    if constant is MISSING or kind not in SMALL or given not in SMALL | {"int"}:
+        return False
+    number = ord(constant) if given == "char" else int(constant)
+    narrow = values.cast(kind, number)
+    return (ord(narrow) if kind == "char" else int(narrow)) == number
+
+
+def promoted(sign: str, left: str, right: str) -> str:
+    """The type of an operation on two types; empty if it cannot be told."""
+    if sign == "+" and "String" in (left, right):
+        return "String"
+    if sign in {"<<", ">>", ">>>"}:
+        return ("long" if left == "long" else "int") if left in PRIMITIVES else ""
+    if left == right == "boolean":
+        return "boolean"
+    pair = ["int" if one in SMALL else one for one in (left, right)]
+    if any(one not in NUMBERS for one in pair):
+        return "double" if "double" in pair and "" not in pair else ""
+    return max(pair, key=NUMBERS.index)
+
+
+def join_codes(codes: Sequence[Code]) -> str:
+    """The type of a value that is one of several, all of which are converted to it."""
+    kinds = {BOXES.get(one.kind, one.kind) for one in codes}
+    if len({one.kind for one in codes}) == 1:
+        return codes[0].kind
+    if "null" in kinds and len(kinds) == 2:  # noqa: PLR2004 - null and one type
+        kind = max(kinds - {"null"})
+        return next((box for box, one in BOXES.items() if one == kind), kind)
+    if not (kinds <= {*NUMBERS, "char"} or kinds == {"boolean"}):
+        return ""
+    kind = functools.reduce(lambda a, b: promoted("+", a, b), sorted(kinds))
+    small = kinds - {"int"}
+    whole = [one for one in codes if BOXES.get(one.kind, one.kind) == "int"]
+    if len(small) == 1 and small <= SMALL and all(one.constant is not MISSING for one in whole):
+        kind = small.pop()
+    for one in codes:
+        one.run = _cast_to(kind, one.run)
+    return kind
+
+
+def _cast_to(kind: str, run: Callable[[Any], Any]) -> Callable[[Any], Any]:
+    return lambda env: values.cast(kind, run(env))
