@@ -205,7 +205,7 @@ def test_a_scheduler_that_is_not_there_is_one_line(monkeypatch, given, said):
 def test_without_dask_the_extra_is_named(monkeypatch):
     monkeypatch.setitem(sys.modules, "distributed", None)  # as if it were not installed
 
-    with pytest.raises(BadRequest, match='Install the extra "cluster": pip install'):
+    with pytest.raises(BadRequest, match='Install it: python -m pip install "distributed'):
         list(run_jobs(square, [1], processes=1, worth=1, cluster="tcp://127.0.0.1:8786"))
 
 

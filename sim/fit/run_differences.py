@@ -11,12 +11,15 @@ In a ramp the two are nearly the same: friction that is larger by ΔkS delays th
 the ramp rate. Only the dynamic tests tell them apart, and the priors. So they compete: no
 difference, lags d_i ~ N(0, λ²), frictions δ_i ~ N(0, τ²), or both. λ is the standard deviation of a
 uniform distribution over one period. The most likely wins, with d and δ integrated out (Laplace's
-approximation); where lags and frictions are about as likely, both stay:
+approximation):
 
-    -2 log L + Σ (d_i/λ)² + Σ (δ_i/τ)² + Σ log det(1 + D J_iᵀ J_i D)      D = diag(λ, τ)
+    -2 log L + Σ (d_i/λ)² + Σ (δ_i/τ)² - log det Φ
 
-J_i has the derivatives of the whitened innovations by d_i and δ_i. The gains' errors come from the
-information with d and δ marginalized, so that what a ramp cannot tell apart widens them.
+Φ is the posterior covariance of all d and δ, divided by the variances of their priors. Where lags
+and frictions are about as likely, both stay. The small effects that every mechanism has
+(``everyday_effects.py``) compete, too: if they explain the log as well, no run differs. The gains'
+errors come from the information with d and δ marginalized, so that what a ramp cannot tell apart
+widens them.
 
 Source: N. Laird and J. Ware, "Random-effects models for longitudinal data", Biometrics 38, 1982.
 """
@@ -29,8 +32,14 @@ import numpy as np
 
 from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
-from sim.estimation.optimize import levenberg_marquardt, make_joint_jacobian
+from sim.estimation.optimize import (
+    compute_gradient_and_information,
+    invert_symmetric,
+    levenberg_marquardt,
+    make_joint_jacobian,
+)
 from sim.estimation.random_friction import get_friction_sd
+from sim.fit.everyday_effects import FIRST, add_everyday_effects
 from sim.fit.search import ROUGHLY, STEPS, drop_outliers, fit_open_loop, fit_tracking, refine
 
 WORTH = 8.0  # [of -2 log L] improvement from which on they are included
@@ -78,9 +87,10 @@ def fit_run_differences(
         _fit_rival(replace(every, lag_sd=sd, varying_friction=friction), common, period)
         for sd, friction in ((lag_sd, False), (0.0, True), (lag_sd, True))
     )
+    small = _fit_small_effects(every, common)
     unclear = abs(lags.evidence - frictions.evidence) < WORTH
     best = both if unclear else min(lags, frictions, both, key=lambda one: one.evidence)
-    if not best.evidence < common.cost - WORTH:
+    if not best.evidence < min(common.cost, small) - WORTH:
         return problem, point
     extended, tracked = best.problem, best.estimate
     extended = drop_outliers(extended, tracked)
@@ -125,21 +135,24 @@ def _fit_rival(problem: PredictionErrorProblem, common: Estimate, period: float)
     return _Rival(found.cost + _compute_occam_factor(problem, found), problem, found)
 
 
+def _fit_small_effects(problem: PredictionErrorProblem, common: Estimate) -> float:
+    """-2 log L of runs that do not differ, with the small effects that every mechanism has."""
+    extended, begin = add_everyday_effects(problem, common, first=FIRST)
+    found = levenberg_marquardt(extended, begin, steps=2 * STEPS, enough=ROUGHLY)
+    return found.cost + _compute_occam_factor(extended, found)
+
+
 def _compute_occam_factor(problem: PredictionErrorProblem, point: Estimate) -> float:
-    """Σ log det(1 + D JᵀJ D), the correction of -2 log L for integrating over the differences."""
-    table = problem.compute_jacobian(point)
-    runs = len(problem.records)
-    sds = [sd for sd, _ in problem.list_nuisance_priors(point)]
-    first = len(point.structure.searched_names) + runs  # after the parameters and the starts
-    own = [
-        sd * table[:, first + place * runs : first + (place + 1) * runs]
-        for place, sd in enumerate(sds[1:])
-    ]
-    return sum(
-        float(np.linalg.slogdet(np.eye(len(own)) + columns.T @ columns)[1])
-        for number in range(runs)
-        for columns in (np.stack([one[:, number] for one in own], axis=1),)
-    )
+    """-log det Φ, the correction of -2 log L for integrating over what has a prior."""
+    _, information = compute_gradient_and_information(problem, point)
+    names, runs = point.structure.searched_names, len(problem.records)
+    known = problem.select_priors(point.structure)
+    own = problem.list_nuisance_priors(point)[1:]  # the runs' starts are the same in all rivals
+    first = len(names) + runs
+    chosen = [names.index(name) for name in known] + [*range(first, first + runs * len(own))]
+    sds = np.array([*known.values(), *np.repeat([sd for sd, _ in own], runs)])
+    posterior = invert_symmetric(information)[np.ix_(chosen, chosen)] / np.outer(sds, sds)
+    return -float(np.linalg.slogdet(posterior)[1])
 
 
 def _with_shared_lag(problem: PredictionErrorProblem, point: Estimate, *, least: float) -> Estimate:
