@@ -1,12 +1,16 @@
 """Which of a student's files are graded: one rule, and nothing that was handed in is forgotten."""
 
+import base64
+import csv
 import hashlib
 import io
+import json
 import os
 import shutil
 import tarfile
 import zipfile
 from itertools import product
+from xml.etree import ElementTree as ET
 
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -283,6 +287,55 @@ def test_a_mark_that_means_nothing_is_refused(classroom, capsys, reads, line):
 
     assert run_command([*command, "--overrides", str(classroom / "marks.csv")]) == 2
     reads(capsys.readouterr().err)
+
+
+def read_exports(top):
+    """What each export says of each student: a mark, or nothing, and whether it is listed."""
+    out = top / "in-graded"
+    names = ("ann", "ben", "cat", "dan", "eve", "fay")
+    canvas = {row[3]: row[-1] for row in csv.reader((out / "canvas.csv").open(encoding="utf-8"))}
+    book = {row[0]: row for row in csv.reader((out / "gradebook.csv").open(encoding="utf-8-sig"))}
+    suites = ET.parse(out / "junit.xml").getroot()  # noqa: S314 - written by us a moment ago
+    errors = {suite.get("name"): int(suite.get("errors")) for suite in suites}
+    page = (out / "index.html").read_text(encoding="utf-8")
+    scope = {name: (out / "gradescope" / name / "results.json").read_text("utf-8") for name in names}
+    github = {
+        name: json.loads(base64.b64decode(
+            (out / "github" / f"{name}.txt").read_text("utf-8").removeprefix("result=")))
+        for name in names
+    }  # fmt: skip
+    return {
+        name: {
+            "canvas": canvas[name], "gradebook": book[name][2], "not graded": bool(book[name][-1]),
+            "page": f"<b>{name}" in page, "junit": errors[name] > 0,
+            "gradescope": "not graded" in scope[name],
+            "github": github[name]["status"] == "error" or bool(github[name]["message"]),
+        }
+        for name in names
+    }  # fmt: skip
+
+
+def test_every_export_lists_what_was_not_graded_and_gives_no_mark_for_it(classroom):
+    put(classroom / "in", {
+        "cat/exercise1/a.toml": HALF, "cat/exercise1/b.toml": RIGHT,  # two answers
+        "dan/exercise1/answers.toml": RIGHT, "dan/exercise1.toml": HALF,  # one beside the folder
+        "eve/exercise1/answers.toml": STARTER,  # nothing
+    })  # fmt: skip
+    (classroom / "in" / "fay.rar").write_bytes(b"Rar!")
+    people = ("ann", "ben", "cat", "dan", "eve", "fay")
+    put(classroom, {"roster.csv": "Student,SIS Login ID\n"
+                    + "".join(f"{name},{name}\n" for name in people)})  # fmt: skip
+    exports = [word for name in ("canvas", "junit", "github", "gradescope")
+               for word in ("--export", name)]  # fmt: skip
+    assert grade(classroom, *exports)[0] == 1
+    told = read_exports(classroom)
+
+    for name, mark in {"ann": "2.5", "ben": "3"}.items():
+        assert (told[name]["canvas"], told[name]["gradebook"]) == (mark, mark)
+    for name in ("cat", "dan", "eve", "fay"):
+        assert (told[name]["canvas"], told[name]["gradebook"]) == ("", "")
+    for place in ("not graded", "page", "junit", "gradescope", "github"):
+        assert {name for name in told if told[name][place]} == {"cat", "dan", "fay"}, place
 
 
 def test_a_folder_that_may_be_a_students_leaves_that_student_without_a_mark(classroom):
