@@ -128,7 +128,7 @@ def _check_container() -> MachineFinding:
 def _check_robot() -> MachineFinding:
     there = [f"{name} {_find_version(name)}" for name in ROBOT if _find_version(name)]
     right = len(there) == len(ROBOT)
-    advice = f"To run RobotPy answers in simulation, too: {format_install_command('robot')}"
+    advice = f"For the simulated robot program of lesson 5: {format_install_command('robot')}"
     return MachineFinding(
         "RobotPy", ", ".join(there) or "not installed", right, needed=False, advice=advice
     )

@@ -80,7 +80,14 @@ def test_torque_inertia_and_current_have_units(text, same, times):
 
 
 @pytest.mark.parametrize(
-    ("text", "part"), [("V·x/m", "x"), ("V/(m/s", "("), ("", "nothing"), ("V %", "%")]
+    ("text", "part"),
+    [
+        ("V·x/m", "x"),
+        ("V/(m/s", "("),
+        ("", "nothing"),
+        ("V %", "%"),
+        ("((min^9)^9)^9", "a power of 81"),
+    ],
 )
 def test_what_is_no_unit_is_named(text, part):
     with pytest.raises(NotAUnitError) as caught:

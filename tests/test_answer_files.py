@@ -17,6 +17,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from small_course import HALF, RIGHT, lay_out
 
+from grader.classroom.grading import GradedStudent
 from grader.classroom.submissions import find_submissions, read_submission
 from grader.cli import run_command
 from grader.exercise import list_exercises
@@ -355,8 +356,26 @@ def test_answers_that_hardly_anybody_could_share_are_told(course, tmp_path):
     own["eve"] = own["ann"].replace("value3", "value3 ")
     put(tmp_path, {f"{name}/exercise1/answers.toml": common + text for name, text in own.items()})
     exercises = list_exercises(course)
-    found = find_likenesses(find_submissions(tmp_path, exercises), exercises)
+    found = find_likenesses(find_submissions(tmp_path, exercises), exercises, ())
 
     assert found == (
         "ann and eve: their answers to exercise1 share lines that hardly anybody else wrote",
     )
+
+
+def test_answers_that_are_right_for_both_may_be_alike(course, tmp_path):
+    from grader.classroom.likeness import find_likenesses  # noqa: PLC0415 - only here
+
+    same = "".join(f"q{number} = {number}\n" for number in range(40))
+    put(tmp_path, {f"{name}/exercise1/answers.toml": same for name in ("ann", "ben")})
+    put(tmp_path, {"cat/exercise1/answers.toml": "q0 = 7\n"})
+    exercises = list_exercises(course)
+    there = find_submissions(tmp_path, exercises)
+
+    def graded(*right):
+        checks = [{"id": f"q{number}", "status": "passed"} for number in range(40)]
+        record = {"exercise": "exercise1", "checks": checks}
+        return [GradedStudent(name, "", (record,)) for name in right]
+
+    assert find_likenesses(there, exercises, graded("ann", "ben")) == ()
+    assert len(find_likenesses(there, exercises, graded("ann"))) == 1  # copied, and wrong for ben

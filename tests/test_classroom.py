@@ -358,7 +358,8 @@ def test_an_untouched_starter_is_not_handed_in(course, tmp_path, capsys):
 def test_canvas_own_export_is_a_roster(tmp_path):
     path = tmp_path / "canvas.csv"
     path.write_text(
-        "Student,ID,SIS User ID,SIS Login ID,Section\n    Points Possible,,,,\n"
+        "Student,ID,SIS User ID,SIS Login ID,Section,Quiz\n,,,,,Manual Posting\n"
+        "    Points Possible,,,,,9\n"
         '"Lee, Ann",17,s17,ann,A\n"Student, Test",99,,0f1e2d,A\n',
         encoding="utf-8",
     )

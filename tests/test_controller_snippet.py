@@ -13,6 +13,7 @@ from sim.bench.simulate import simulate
 from sim.cli import sysid
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
+from sim.feedback import PRESETS
 from sim.report.controller_snippet import TARGETS, write_controller_code
 from sim.report.robot_code_snippet import round_to_error
 from sim.support.command_line import run_command
@@ -106,6 +107,35 @@ def test_yagsl_gets_volts_per_meter_of_the_wheel(units, per):
     assert ks == pytest.approx(rounded("kS"), rel=1e-9)
     assert (kv / per, ka / per) == pytest.approx((rounded("kV"), rounded("kA")), rel=1e-9)
     assert "replaceSwerveModuleFeedforward(FEEDFORWARD)" in text
+
+
+def test_kp_is_that_of_sysid_per_unit_and_second_of_the_target():
+    fit = fit_in("simple", "meters")
+    phoenix = values(write_controller_code(fit, target="phoenix6", radius=RADIUS))
+    spark = values(write_controller_code(fit, target="revlib"))
+    per_minute = fit.feedback(PRESETS["rev-brushless"])["velocity"].kp
+
+    assert phoenix["kP"] == pytest.approx(
+        WHEEL * fit.feedback(PRESETS["ctre-phoenix6"])["velocity"].kp, rel=0.005
+    )
+    assert spark["kP"] == pytest.approx(60.0 * per_minute, rel=0.005)
+
+
+def test_a_flywheel_gets_no_position_loop_and_an_arm_no_velocity_loop():
+    flywheel = write_controller_code(fit_in("simple", "rotations"), target="phoenix6")
+    arm = write_controller_code(fit_in("arm", "radians"), target="phoenix6")
+
+    assert "of the velocity loop" in flywheel
+    assert "withKD" not in flywheel
+    assert "[V/rot] of the position loop" in arm
+    assert calls(arm)["withKD"] == ["kD"]
+
+
+def test_a_suggestion_that_does_not_settle_is_not_written():
+    text = write_controller_code(fit_in("elevator", "meters"), target="revlib")
+
+    assert "// No kP: the suggestion for the position loop is no good start." in text
+    assert "kP" not in values(text)
 
 
 def test_an_arm_of_phoenix_6_is_told_what_its_sensor_reads_when_level():

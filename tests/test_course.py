@@ -71,6 +71,29 @@ def test_damaged_progress_is_said_set_aside_and_begun_anew(course, capsys, text)
     assert capsys.readouterr().err == ""
 
 
+def test_a_name_is_read_out_of_damaged_progress(course, capsys):
+    (course / ".course").mkdir()
+    (course / PLACE).write_text('student = "zoë"\n[progress.zoë]\nexercise1 = {', "utf-8")
+
+    run_command([])
+    capsys.readouterr()
+    assert load_progress(course)[0].student == "zoë"
+
+
+def test_a_lost_name_is_asked_for_and_nobody_is_graded_on_the_numbers_of_nobody(
+    course, capsys, reads
+):
+    (course / ".course").mkdir()
+    (course / PLACE).write_text("\0", "utf-8")
+    (course / "exercises" / "exercise1" / "data" / "zoe").mkdir(parents=True)
+
+    assert run_command(["exercise1"]) == 2
+    reads(capsys.readouterr().err)
+    assert run_command(["exercise1"]) == 2  # until somebody says it
+    assert run_command(["start", "--no-lab", "--student", "zoe"]) == 0
+    assert load_progress(course)[0].student == "zoe"
+
+
 def test_progress_that_cannot_be_kept_does_not_stop_grading(course, capsys):
     (course / ".course").write_text("a file where a folder should be", "utf-8")
     answer(course, RIGHT)

@@ -3,7 +3,6 @@
 from collections.abc import Callable
 from contextlib import closing
 from dataclasses import dataclass
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from grader.classroom.bundle import pack_course
@@ -24,7 +23,7 @@ class GradedClass:
         exercises: those to grade.
         course: the course folder.
         secret: of the class; None where everybody's numbers are those of self-study.
-        run: whether robot code is run, too, where an exercise can; else it is only read.
+        run: whether Python of students is run. Java is graded in any case.
     """
 
     handed_in: tuple[Submission, ...]
@@ -61,15 +60,7 @@ class GradedClass:
     def _made_by(self) -> str:
         """What decides the results besides what was handed in."""
         course = fingerprint_folders(self.course / "exercises")
-        return f"{course} run by {_find_robotpy_version()}" if self.run else course
-
-
-def _find_robotpy_version() -> str:
-    """What robot code is run with here: without it, code is only read, and earns other results."""
-    try:
-        return f"RobotPy {version('wpilib')}"
-    except PackageNotFoundError:
-        return "nothing"
+        return f"{course}, code was run" if self.run else course
 
 
 @dataclass(frozen=True)

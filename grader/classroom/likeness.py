@@ -2,7 +2,8 @@
 
 A line that two answers share says the more, the fewer others wrote it: it counts for -log2 of the
 share of the class that has it, in bits (the self-information of Shannon, 1948). Lines of the
-starter, and right answers that most students give, therefore count for next to nothing.
+starter do not count, nor do answers that are right for both. A copied answer in an exercise with
+numbers of one's own is right for the one and wrong for the other, and counts.
 """
 
 import hashlib
@@ -10,39 +11,62 @@ import math
 import zipfile
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import combinations
 from pathlib import Path
+from typing import Any
 
+from grader.classroom.grading import GradedStudent
 from grader.classroom.submissions import Submission
 from grader.exercise import Exercise
 from grader.variant import make_folder_name
 from sim.core.errors import BadRequest
 
-MIN_BITS = 24.0  # of what two answers share: one pair of 4,000 in ten classes would have 2^-12
+MIN_BITS = 24.0  # of what two answers share: far beyond chance in the pairs of any class
 MIN_SHARE = 0.8  # of the bits of the longer one
+MIN_LENGTH = 2  # [characters] of a line that says something
 COMMENTS = ("#", "//", "/*", "*")
 
 
+@dataclass(frozen=True)
+class _Answer:
+    """What one student wrote for one exercise.
+
+    Args:
+        lines: lines of code and answers, without their spaces; a log counts as one line.
+        right: those of them that answer a check which was passed.
+    """
+
+    lines: frozenset[str]
+    right: frozenset[str]
+
+
 def find_likenesses(
-    handed_in: Sequence[Submission], exercises: Sequence[Exercise]
+    handed_in: Sequence[Submission], exercises: Sequence[Exercise], graded: Sequence[GradedStudent]
 ) -> tuple[str, ...]:
     """Pairs of students whose answers to an exercise share what hardly anybody else wrote.
 
     Args:
         handed_in: by everybody.
         exercises: those that are graded.
+        graded: their results: what is right for both may be alike.
 
     Returns:
         A line for each pair, with the exercises.
     """
+    records = {
+        (one.student, record["exercise"]): record for one in graded for record in one.records
+    }
     found: dict[tuple[str, str], list[str]] = {}
     for exercise in exercises:
-        lines = {
-            one.student: _list_lines(one.files[exercise.name])
+        answers = {
+            one.student: _read_answer(
+                one.files[exercise.name], records.get((one.student, exercise.name), {})
+            )
             for one in handed_in
             if exercise.name in one.files and not one.problem
         }
-        for pair in _find_pairs(lines, starter=_list_starter_lines(exercise)):
+        for pair in _find_pairs(answers, starter=_list_starter_lines(exercise)):
             found.setdefault(pair, []).append(exercise.name)
     return tuple(
         f"{one} and {other}: their answers to {', '.join(names)} share lines that hardly anybody "
@@ -52,10 +76,10 @@ def find_likenesses(
 
 
 def _find_pairs(
-    lines: Mapping[str, frozenset[str]], *, starter: frozenset[str]
+    answers: Mapping[str, _Answer], *, starter: frozenset[str]
 ) -> Iterator[tuple[str, str]]:
-    count = Counter(line for those in lines.values() for line in those)
-    others = max(len(lines) - 2, 1)
+    count = Counter(line for one in answers.values() for line in one.lines)
+    others = max(len(answers) - 2, 1)
 
     def bits(those: frozenset[str], *, writers: int) -> float:
         """The self-information of lines, by how many others wrote them; two if nobody did."""
@@ -63,32 +87,43 @@ def _find_pairs(
             -math.log2((count[line] - writers + 1) / (others + 2)) for line in those - starter
         )
 
-    for one, other in combinations(sorted(lines), 2):
-        shared = lines[one] & lines[other]
+    for name, other_name in combinations(sorted(answers), 2):
+        one, other = answers[name], answers[other_name]
+        both_right = one.right & other.right
+        shared = (one.lines & other.lines) - both_right
         told = bits(shared, writers=2)
-        alone = max(bits(lines[one] - shared, writers=1), bits(lines[other] - shared, writers=1))
+        alone = max(bits(each.lines - shared - both_right, writers=1) for each in (one, other))
         if told >= MIN_BITS and told >= MIN_SHARE * (told + alone):
-            yield one, other
+            yield name, other_name
 
 
-def _list_lines(files: Mapping[str, bytes]) -> frozenset[str]:
-    """The lines of code and answers, without their spaces; a log counts as one line."""
-    found = set()
-    for content in files.values():
+def _read_answer(files: Mapping[str, bytes], record: Mapping[str, Any]) -> _Answer:
+    passed = {one["id"] for one in record.get("checks", ()) if one["status"] == "passed"}
+    lines: set[str] = set()
+    right: set[str] = set()
+    for name, content in files.items():
         if b"\0" in content:
-            found.add(hashlib.sha256(content).hexdigest())
+            lines.add(hashlib.sha256(content).hexdigest())
             continue
+        table = ""
         for line in content.decode("utf-8", "replace").splitlines():
             plain = "".join(line.split())
-            if len(plain) > 1 and not plain.startswith(COMMENTS):
-                found.add(plain)
-    return frozenset(found)
+            if len(plain) < MIN_LENGTH or plain.startswith(COMMENTS):
+                continue
+            table = plain.strip("[]") if plain.startswith("[") else table
+            key = (table or plain.partition("=")[0]).casefold().replace("_", "-")
+            lines.add(plain)
+            if name.endswith(".toml") and any(f"{key}-".startswith(f"{one}-") for one in passed):
+                right.add(plain)
+    return _Answer(frozenset(lines), frozenset(right))
 
 
 def _list_starter_lines(exercise: Exercise) -> frozenset[str]:
     names = (*exercise.files, *exercise.companion_files)
     paths = [exercise.folder / name for name in names]
-    return _list_lines({path.name: path.read_bytes() for path in paths if path.is_file()})
+    return _read_answer(
+        {path.name: path.read_bytes() for path in paths if path.is_file()}, {}
+    ).lines
 
 
 def find_foreign_logs(handed_in: Sequence[Submission], packages: Path) -> tuple[str, ...]:

@@ -112,7 +112,7 @@ def class_(  # noqa: PLR0917 - click passes options by name
         return INTERRUPTED
     title = name or folder.resolve().stem
     results = collect_results(title, graded, known, asked=asked, handed_in=there)
-    alike = _find_alike(there, asked, packages)
+    alike = _find_alike(there, asked, packages, graded)
     changed = apply_overrides(results.students, read_overrides(overrides) if overrides else ())
     results = replace(results, students=changed, numbers=describe_numbers(value), likenesses=alike)
     return _write_results(results, out, formats)
@@ -122,13 +122,16 @@ COMMAND = class_
 
 
 def _find_alike(
-    there: "Sequence[Submission]", asked: "Sequence[Exercise]", packages: Path | None
+    there: "Sequence[Submission]",
+    asked: "Sequence[Exercise]",
+    packages: Path | None,
+    graded: "Sequence[GradedStudent]",
 ) -> tuple[str, ...]:
     """What is alike in the work of two students, one line each."""
     from grader.classroom.likeness import find_foreign_logs, find_likenesses  # noqa: PLC0415 - the same
 
     foreign = find_foreign_logs(there, packages) if packages else ()
-    return (*foreign, *find_likenesses(there, asked))
+    return (*foreign, *find_likenesses(there, asked, graded))
 
 
 def _find_asked_exercises(only: tuple[str, ...], course: Path) -> "tuple[Exercise, ...]":

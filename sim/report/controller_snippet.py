@@ -10,12 +10,15 @@ the documentation of ``Slot0Configs`` in Phoenix 6 26.3 and of ``FeedForwardConf
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from sim.core.errors import BadRequest
 from sim.core.units import find_unit
+from sim.feedback import PRESETS, Feedback, Preset
 from sim.fit import Fit
+from sim.fit.feedback_trial import try_feedback_gains
 from sim.report.robot_code_snippet import (
+    FEWEST,
     ORDER,
     SPELLINGS,
     format_code_error,
@@ -52,14 +55,18 @@ class Target:
         unit: its unit of position, ``rotations`` or ``meters``; empty takes the unit of the log.
         imports: the Java classes that the code needs, from fit and season.
         notes: comment lines about other settings that are needed.
-        build: the lines that set the gains.
+        build: the lines that set the gains, kP (and kD) among them if there are any.
+        preset: loop times and units of its own feedback; None where it has no loop.
+        output: what one unit of its output is: ``V``, or ``1`` for a duty cycle.
     """
 
     name: str
     unit: str
     imports: Callable[[Fit, int], tuple[str, ...]]
     notes: Callable[[Fit], tuple[str, ...]]
-    build: Callable[[Fit], tuple[str, ...]]
+    build: Callable[[Fit, Feedback | None], tuple[str, ...]]
+    preset: Preset | None = None
+    output: str = "V"
 
 
 def write_controller_code(
@@ -97,6 +104,7 @@ def write_controller_code(
         )
     converted = convert_units(found, chosen.unit, radius=radius)
     class_ = make_class_name(name or found.type)
+    feedback = _suggest_feedback(found, chosen)
     return "\n".join(
         (
             *(f"import {one};" for one in chosen.imports(found, season)),
@@ -106,8 +114,9 @@ def write_controller_code(
             f"  private {class_}() {{}}",
             "",
             *(f"  {line}" for line in _constants(found, converted)),
+            *(f"  {line}" for line in _feedback_lines(found, chosen, converted, feedback)),
             "",
-            *(f"  {line}".rstrip() for line in chosen.build(found)),
+            *(f"  {line}".rstrip() for line in chosen.build(found, feedback)),
             "}",
             "",
         )
@@ -172,6 +181,40 @@ def _constants(found: Fit, converted: Conversion) -> Iterator[str]:
         )
 
 
+def _choose_loop(found: Fit) -> str:
+    """The loop that a mechanism is held by: a position where it can stay, else a velocity."""
+    return "velocity" if found.type == "simple" else "position"
+
+
+def _suggest_feedback(found: Fit, chosen: Target) -> Feedback | None:
+    """Suggested gains of the loop, per unit of the fit; None if they are no good start."""
+    if chosen.preset is None:
+        return None
+    trials = try_feedback_gains(found, chosen.preset)
+    good = (one.gains for one in trials if one.loop == _choose_loop(found) and one.is_good)
+    return next(good, None)
+
+
+def _feedback_lines(
+    found: Fit, chosen: Target, converted: Conversion, feedback: Feedback | None
+) -> Iterator[str]:
+    """The lines of kP, and of kD where it is not zero, each with its unit."""
+    if chosen.preset is None:
+        return
+    loop = _choose_loop(found)
+    if feedback is None:
+        yield f"// No kP: the suggestion for the {loop} loop is no good start. sysid fit says why."
+        return
+    times = f" * {converted.name}" if converted.factor != 1.0 else ""
+    held = converted.per if loop == "position" else f"({converted.per}/s)"
+    rate = f"({converted.per}/s)" if chosen.preset.normalized else f"({converted.per}/ms)"
+    for name, value, per in (("kP", feedback.kp, held), ("kD", feedback.kd, rate)):
+        if value:
+            text = f"{float(f'{value:.{FEWEST}g}')!r}{times}"
+            unit = f"[{chosen.output}/{per}] of the {loop} loop, to start from"
+            yield f"public static final double {name} = {text};  // {unit}"
+
+
 def _phoenix6_imports(found: Fit, season: int) -> tuple[str, ...]:  # noqa: ARG001 - as the others
     gravity = ("com.ctre.phoenix6.signals.GravityTypeValue",) * (found.type != "simple")
     return (
@@ -188,11 +231,10 @@ def _phoenix6_notes(found: Fit) -> tuple[str, ...]:
         "For requests in volts: VelocityVoltage, PositionVoltage, MotionMagicVoltage.",
         "Set EnableFOC as in the tests; it changes kA, and kV a little.",
         *((level,) if found.type == "arm" else ()),
-        "kP: sysid fit --preset ctre-phoenix6, converted as kV is.",
     )
 
 
-def _phoenix6_lines(found: Fit) -> tuple[str, ...]:
+def _phoenix6_lines(found: Fit, feedback: Feedback | None) -> tuple[str, ...]:
     gravity = {"elevator": "Elevator_Static", "arm": "Arm_Cosine"}.get(found.type)
     weight = (
         "        .withKG(kG)",
@@ -205,6 +247,8 @@ def _phoenix6_lines(found: Fit) -> tuple[str, ...]:
         "        .withKV(kV)",
         "        .withKA(kA)",
         *(weight if gravity else ()),
+        *(("        .withKP(kP)",) if feedback else ()),
+        *(("        .withKD(kD)",) if feedback and feedback.kd else ()),
         "        .withStaticFeedforwardSign(StaticFeedforwardSignValue.UseVelocitySign);",
     )
 
@@ -222,11 +266,11 @@ def _revlib_notes(found: Fit) -> tuple[str, ...]:
         "kV serves velocity and MAXMotion, kA MAXMotion only; gravity serves position control.",
         *((level,) if found.type == "arm" else ()),
         "Use it with: config.closedLoop.feedForward.apply(FEED_FORWARD);",
-        "kP is a duty cycle there: sysid fit --preset rev-brushless.",
+        "and config.closedLoop.p(kP), with .d(kD) where there is one: a duty cycle, not volts.",
     )
 
 
-def _revlib_lines(found: Fit) -> tuple[str, ...]:
+def _revlib_lines(found: Fit, feedback: Feedback | None) -> tuple[str, ...]:  # noqa: ARG001 - as the others
     gravity = {"elevator": ".kG(kG)", "arm": ".kCos(kG).kCosRatio(kCosRatio)"}.get(found.type, "")
     line = "public static final FeedForwardConfig FEED_FORWARD ="
     made = f"    new FeedForwardConfig().kS(kS).kV(kV).kA(kA){gravity};"
@@ -253,7 +297,7 @@ def _yagsl_notes(found: Fit) -> tuple[str, ...]:  # noqa: ARG001 - as the others
     )
 
 
-def _yagsl_lines(found: Fit) -> tuple[str, ...]:
+def _yagsl_lines(found: Fit, feedback: Feedback | None) -> tuple[str, ...]:  # noqa: ARG001 - as the others
     gains = ", ".join(ORDER[found.type])
     return (
         "public static final SimpleMotorFeedforward FEEDFORWARD =",
@@ -261,10 +305,17 @@ def _yagsl_lines(found: Fit) -> tuple[str, ...]:
     )
 
 
+# SysId's preset counts velocity per minute, as a Spark without conversion factors does. The code
+# asks for factors that make it count per second.
+_SPARK = replace(PRESETS["rev-brushless"], velocity_time=1.0)
 TARGETS = {
     "phoenix6": Target(
-        "Phoenix 6 (26.3)", ROTATION.name, _phoenix6_imports, _phoenix6_notes, _phoenix6_lines
+        "Phoenix 6 (26.3)", ROTATION.name, _phoenix6_imports, _phoenix6_notes, _phoenix6_lines,
+        preset=PRESETS["ctre-phoenix6"],
     ),
-    "revlib": Target("REVLib (2026)", "", _revlib_imports, _revlib_notes, _revlib_lines),
+    "revlib": Target(
+        "REVLib (2026)", "", _revlib_imports, _revlib_notes, _revlib_lines,
+        preset=_SPARK, output="1",
+    ),
     "yagsl": Target("YAGSL", METER.name, _yagsl_imports, _yagsl_notes, _yagsl_lines),
-}
+}  # fmt: skip
