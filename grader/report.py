@@ -106,9 +106,9 @@ def judge_grade(grade: Grade) -> tuple[tuple[str, str], str]:
         return MARKS[Status.PASSED], "all right"
     unanswered = sum(result.is_unanswered for result in grade.checks)
     marks = {find_mark(result) for result in grade.checks}
-    rest = f", {unanswered} not answered yet" if unanswered else ""
+    rest = f", {unanswered} not answered" if unanswered else " yet"
     if not unanswered or marks & {MARKS[Status.FAILED], MARKS[Status.ERROR]}:
-        return MARKS[Status.FAILED], f"not all right yet{rest}"
+        return MARKS[Status.FAILED], f"not all right{rest}"
     if MARKS[Status.PASSED] in marks:
         return MARKS[Status.PASSED], f"all right so far{rest}"
     return UNANSWERED, "nothing answered yet"

@@ -290,16 +290,22 @@ def test_a_mark_that_means_nothing_is_refused(classroom, capsys, reads, line):
     reads(capsys.readouterr().err)
 
 
+def read_rows(path):
+    return [*csv.reader(path.read_text(encoding="utf-8-sig").splitlines())]
+
+
 def read_exports(top):
     """What each export says of each student: a mark, or nothing, and whether it is listed."""
     out = top / "in-graded"
     names = ("ann", "ben", "cat", "dan", "eve", "fay")
-    canvas = {row[3]: row[-1] for row in csv.reader((out / "canvas.csv").open(encoding="utf-8"))}
-    book = {row[0]: row for row in csv.reader((out / "gradebook.csv").open(encoding="utf-8-sig"))}
+    canvas = {row[3]: row[-1] for row in read_rows(out / "canvas.csv")}
+    book = {row[0]: row for row in read_rows(out / "gradebook.csv")}
     suites = ET.parse(out / "junit.xml").getroot()  # noqa: S314 - written by us a moment ago
     errors = {suite.get("name"): int(suite.get("errors")) for suite in suites}
     page = (out / "index.html").read_text(encoding="utf-8")
-    scope = {name: (out / "gradescope" / name / "results.json").read_text("utf-8") for name in names}
+    scope = {
+        name: (out / "gradescope" / name / "results.json").read_text("utf-8") for name in names
+    }
     github = {
         name: json.loads(base64.b64decode(
             (out / "github" / f"{name}.txt").read_text("utf-8").removeprefix("result=")))

@@ -58,8 +58,8 @@ def test_a_wrong_answer_is_told_what_was_seen_why_and_what_to_try(course, capsys
 @pytest.mark.parametrize(
     ("right", "wrong", "verdict"),
     [
-        (1, 0, "✓ exercise11: 1 of 39 points, all right so far, {} not answered yet"),
-        (1, 1, "✗ exercise11: 1 of 39 points, not all right yet, {} not answered yet"),
+        (1, 0, "✓ exercise11: 1 of 39 points, all right so far, {} not answered"),
+        (1, 1, "✗ exercise11: 1 of 39 points, not all right, {} not answered"),
         (0, 0, "○ exercise11: 0 of 39 points, nothing answered yet"),
     ],
     ids=["right", "one wrong", "none"],

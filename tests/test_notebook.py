@@ -127,7 +127,7 @@ def test_a_cell_counts_what_is_not_answered_yet(root, tmp_path, monkeypatch):
     shown = submit(11, Q0_guess="With which gain does")
     count = len(shown.grade.checks)
 
-    assert f"all right so far, {count - 1} not answered yet" in shown.html
+    assert f"all right so far, {count - 1} not answered" in shown.html
     assert f"{count - 2} more not answered yet" in shown.html
     assert STYLE[Status.FAILED] not in shown.html
 
