@@ -46,6 +46,7 @@ SOURCES = (
     "probability.json",
     "phoenix6.toml",
     "revlib.toml",
+    "wpilib.toml",
     "setup.sh",
     "run_autograder",
 )

@@ -3,12 +3,14 @@
 import re
 import tomllib
 from collections.abc import Sequence
+from itertools import accumulate
 from pathlib import Path
 
 from sim.core.errors import UnreadableFile
 
 LARGEST = 1_000_000  # [bytes] robot code and answers are far smaller; a log or a picture is not
 LARGEST_ANSWERS = 64_000  # [bytes] of a file of answers; the longest solved one has 3,000
+DEEPEST = 50  # [lists in lists] of it; the parser needs a call of Python for each
 LONGEST_LINE = 2_000  # [characters] of it: reading a key takes the square of its length
 SHOWN = 3  # names of files in a message
 _BARE_WORDS = re.compile(r"[\w.]+\s*=\s*\[?\s*[A-Za-z][\w\s,-]*\]?\s*(#.*)?")  # no quotes
@@ -150,12 +152,6 @@ def read_answers(path: Path) -> dict[str, object]:
     _check_size(text, path)
     try:
         return tomllib.loads(text)
-    except RecursionError:
-        raise UnreadableFile(
-            "lists in lists in lists: they go too deep",
-            where=str(path),
-            advice="An answer is a number, a text, or one list of them.",
-        ) from None
     except tomllib.TOMLDecodeError as error:
         found = re.search(r"line (\d+)", str(error))
         number = int(found[1]) if found else text.count("\n") + 1
@@ -196,13 +192,19 @@ def _check_size(text: str, path: Path) -> None:
     """Refuse what nobody writes as an answer, and what takes long to read.
 
     Raises:
-        UnreadableFile: the file or one of its lines is too long.
+        UnreadableFile: the file or one of its lines is too long, or its lists go too deep.
     """
     if len(text) > LARGEST_ANSWERS:
         raise UnreadableFile(
             f"{len(text):,} characters are too many for answers",
             where=str(path),
             advice="Write your answers only: is this another file?",
+        )
+    if max(accumulate((sign in "[{") - (sign in "]}") for sign in text), default=0) > DEEPEST:
+        raise UnreadableFile(
+            "lists in lists in lists: they go too deep",
+            where=str(path),
+            advice="An answer is a number, a text, or one list of them.",
         )
     for number, line in enumerate(text.splitlines(), start=1):
         if len(line) > LONGEST_LINE:

@@ -150,6 +150,16 @@ def test_python_beside_a_graded_java_file_is_listed(course, tmp_path):
     assert one.unused[0].startswith("exercise2/robot.py was not graded")
 
 
+def test_the_program_of_a_flat_folder_is_graded_whole(course, tmp_path):
+    mine, other = JAVA.format(name="ExampleSubsystem"), JAVA.format(name="Constants")
+    put(tmp_path / "ann", {"ExampleSubsystem.java": mine, "Constants.java": other})
+    _, second = exercises = list_exercises(course)
+    one = read_submission(tmp_path / "ann", exercises, asked=[second], student="ann")
+
+    assert set(one.files["exercise2"]) == {"ExampleSubsystem.java", "Constants.java"}
+    assert (one.problems, one.unused) == ({}, ())
+
+
 def test_a_whole_course_folder_with_its_environment_is_read(course, tmp_path):
     with zipfile.ZipFile(tmp_path / "ann.zip", "w") as archive:
         for number in range(21_000):

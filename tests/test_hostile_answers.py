@@ -16,7 +16,7 @@ ROOT = Path(__file__).resolve().parents[1]
 STUDENT = "ann"
 ANSWERED_IN_TOML = [one for one in list_exercises(ROOT) if "answers.toml" in one.files]
 SLOW = {"practice": 6}  # of the values one in so many for each key; all of them for all keys
-PATIENCE = 2.0  # [s] of the processor for one answer, the first one of a process left out
+PATIENCE = 5.0  # [s] of the processor for one answer, the first one of a process left out
 # Values that say what an answer may be, in whatever way they are written: they may earn points.
 MEANT = {
     ("exercise6", "step", '"1 V per V per V"'): "a volt, as V per (V per V)",

@@ -45,7 +45,8 @@ def test_there_are_several_hundred_mutants_of_every_kind():
 @pytest.mark.parametrize("name", EXERCISES)
 def test_every_mutant_loses_points_with_advice_or_is_listed(name, tmp_path):
     made = changes_of(answer(name)["answers.toml"])
-    some = [Mutant(name, "answers.toml", *change) for change in made]
+    each = 8 if name == "practice" else 1  # its robot programs run with each of them
+    some = [Mutant(name, "answers.toml", *change) for change in list(made)[::each]]
 
     assert list(survivors(some, tmp_path)) == []
 

@@ -17,7 +17,7 @@ import os
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from enum import IntEnum
+from enum import Enum
 from functools import cache
 from pathlib import Path, PurePosixPath
 
@@ -50,8 +50,8 @@ PROGRESS = ".course/progress.toml"
 Files = Mapping[str, bytes]
 
 
-class _Place(IntEnum):
-    """Why a file may belong to an exercise; the first counts more than the next."""
+class _Place(Enum):
+    """Why a file may belong to an exercise; the first counts more than the others."""
 
     FOLDER = 0  # it lies in the exercise's folder
     NAME = 1  # its own name means the exercise
@@ -281,8 +281,7 @@ def _select_answer(
     touched = [one for one in mine if one.problem or not _is_starter(one, exercise)]
     if not touched:
         return [], "", []
-    first = min(one.place for one in touched)
-    pool = [one for one in touched if one.place == first]
+    pool = [one for one in touched if one.place is _Place.FOLDER] or touched
     graded = _find_read_files(pool, exercise)
     problem = next((one.problem for one in pool if one.problem), "") or _find_rivals(pool, exercise)
     if not graded:
