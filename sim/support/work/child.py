@@ -96,7 +96,8 @@ class _Child:
         self.process = CONTEXT.Process(
             target=_serve, args=(work, other_end, memory), name=NAME, daemon=True
         )
-        self.process.start()
+        with _blocked_interrupt():
+            self.process.start()
         other_end.close()
         self.receive()  # it has started: the time of the start is not that of the first job
 
@@ -129,9 +130,27 @@ class _Child:
         return answer
 
 
+@contextmanager
+def _blocked_interrupt() -> Iterator[None]:
+    """A context in which a new process begins with Ctrl+C blocked, until it ignores it itself.
+
+    The mask is that of this thread alone, and a new process inherits it. Windows has none.
+    """
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
 def _serve(work: Callable[[Any], Any], connection: Connection, memory: int | None) -> None:
     """Do jobs until the connection is closed."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    if hasattr(signal, "pthread_sigmask"):
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
     parent = multiprocessing.parent_process()
     if parent is not None:
         threading.Thread(target=_exit_with, args=(parent.sentinel,), daemon=True).start()
