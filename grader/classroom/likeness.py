@@ -44,7 +44,7 @@ class _Answer:
 def find_likenesses(
     handed_in: Sequence[Submission], exercises: Sequence[Exercise], graded: Sequence[GradedStudent]
 ) -> tuple[str, ...]:
-    """Pairs of students whose answers to an exercise share what hardly anybody else wrote.
+    """Find pairs of students whose answers share lines that hardly anybody else wrote.
 
     Args:
         handed_in: by everybody.

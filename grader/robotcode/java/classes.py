@@ -457,7 +457,7 @@ class JavaClass:
         return made
 
     def prepare(self, made: Any, env: Env | None) -> None:
-        """Give a new instance its fields, all with the values that Java begins with."""
+        """Give a new instance its fields, each with its default value: 0, false or null."""
         for one in reversed([a for a in self.ancestors() if a.form != "interface"]):
             for declared in one.fields.values():
                 if not declared.static:

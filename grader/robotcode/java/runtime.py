@@ -97,7 +97,7 @@ def find_caller(cls: type, name: str, kinds: Sequence[str]) -> Call:
     table = _table(cls)
     if table is not None and (name in table or not issubclass(cls, enum.Enum)):
         if name not in table:
-            raise no_member(cls, f"{name}()", table)
+            raise make_no_member_error(cls, f"{name}()", table)
         method = (
             checked(table[name]) if isinstance(table[name], types.FunctionType) else table[name]
         )
@@ -129,10 +129,10 @@ def find_caller(cls: type, name: str, kinds: Sequence[str]) -> Call:
             return lambda value, args: find_caller(java, name, kinds)(java(value), args)
     if any("__call__" in vars(base) for base in cls.__mro__) and name in streams.FUNCTIONAL:
         return lambda value, args: value(*args)
-    raise no_member(cls, f"{name}()", dir(cls))
+    raise make_no_member_error(cls, f"{name}()", dir(cls))
 
 
-def no_member(cls: type, name: str, known: Iterable[str]) -> NoSuchMember:
+def make_no_member_error(cls: type, name: str, known: Iterable[str]) -> NoSuchMember:
     """The error of a member that a class does not have, with the one that was meant."""
     names = [one for one in known if not one.startswith(("_", "fake_", "java"))]
     near = type_names.did_you_mean(name.removesuffix("()"), names)
@@ -258,7 +258,7 @@ def _static_member(cls: Any, name: str) -> Any:
             return getattr(cls, attribute)
         if isinstance(cls, FakeType):
             return FakeType.__getattr__(cls, attribute)
-    raise no_member(cls, f"{name}()", dir(cls))
+    raise make_no_member_error(cls, f"{name}()", dir(cls))
 
 
 def _no_method(found: Any, name: str) -> Any:

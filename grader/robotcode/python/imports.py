@@ -182,15 +182,15 @@ def spell_phoenix6() -> None:
         if not cls.__module__.endswith(".phoenix6"):
             continue
         for name, value in list(vars(cls).items()):
-            spelled, make = _spell(name)
+            spelled, make = _spell_for_python(name)
             if spelled != name and (callable(value) or isinstance(value, staticmethod)):
                 type.__delattr__(cls, name)
                 type.__setattr__(cls, spelled, make(value))
-        cls.fake_others = frozenset(_spell(one)[0] for one in cls.fake_others)
+        cls.fake_others = frozenset(_spell_for_python(one)[0] for one in cls.fake_others)
 
 
-def _spell(name: str) -> tuple[str, Callable[[Any], Any]]:
-    """A member's name in Python, and what makes it of Java's."""
+def _spell_for_python(name: str) -> tuple[str, Callable[[Any], Any]]:
+    """RobotPy's name of a Java member, and the function that turns Java's member into it."""
     if name in SAME or name.startswith("_"):
         return name, lambda one: one
     if name.removeprefix("get") in PROPERTIES:
