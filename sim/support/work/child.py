@@ -15,6 +15,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from multiprocessing.connection import Connection
 from multiprocessing.connection import wait as wait_for_end
+from multiprocessing.resource_tracker import ensure_running as start_tracker
 from typing import Any, TypeVar
 
 Job = TypeVar("Job")
@@ -139,6 +140,7 @@ def _blocked_interrupt() -> Iterator[None]:
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
+    start_tracker()  # else the first new process starts it, and that unblocks Ctrl+C again
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield

@@ -1,7 +1,6 @@
 """Run jobs by an executor: threads with child processes on this machine, or a Dask cluster."""
 
 import os
-import signal
 from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, ThreadPoolExecutor, wait
 from contextlib import contextmanager
@@ -106,16 +105,10 @@ def collect_results(
 @contextmanager
 def _open_threads(count: int) -> Iterator[tuple[Executor, int]]:
     """An executor of threads, and their number; at the end, their children are killed."""
-    executor = ThreadPoolExecutor(count, initializer=_block_interrupts)
+    executor = ThreadPoolExecutor(count)
     try:
         yield executor, count
     finally:
         executor.shutdown(wait=False, cancel_futures=True)
         with stop_children():
             executor.shutdown()
-
-
-def _block_interrupts() -> None:
-    """Let the children of this thread, which inherit it, not get Ctrl+C: only the parent does."""
-    if hasattr(signal, "pthread_sigmask"):  # Windows has none; there, a child ignores it itself
-        signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
