@@ -178,11 +178,11 @@ def test_whatever_is_asked_for_is_done_or_refused(drive, *, name, severity, test
 
 
 def test_it_strikes_where_it_is_told(drive):
-    spoilt = contaminate(drive, "brownout", test="quasistatic-reverse", at=4.0, rng=rng())
+    spoilt = contaminate(drive, "brownout", test="quasistatic-reverse", at=6.0, rng=rng())
 
     (where,) = spoilt.where
     assert (where.run, where.test) == (1, "quasistatic-reverse")
-    assert where.start == pytest.approx(drive.runs[1].time[0] + 4.0)
+    assert where.start == pytest.approx(drive.runs[1].time[0] + 6.0)
     for index in (0, 2, 3):
         assert np.array_equal(spoilt.log.runs[index].velocity, drive.runs[index].velocity)
 

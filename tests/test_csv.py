@@ -228,7 +228,7 @@ def test_positions_are_written_in_the_unit_of_the_log(tmp_path: Path) -> None:
 
     sim.write(Log((run,), units="feet"), tmp_path / "log.csv")
 
-    assert (tmp_path / "log.csv").read_text("utf-8").endswith(",0.0,1.0,10.0,1.0\n")
+    assert (tmp_path / "log.csv").read_text("utf-8").endswith(",0.0,1.0,10.0,1.0,simple,feet\n")
 
 
 @pytest.mark.parametrize(

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.cli.options import PartReader
+from sim.cli.options import LogReader
 from sim.cli.watch.live_fit import LiveFit
 from sim.cli.watch.recordings import FileSource
 from sim.core.errors import UnreadableFile
@@ -28,7 +28,7 @@ from sim.io.entries.state import NO_END
 from sim.io.formats.wpilog.growing import GrowingLog
 from sim.report.next_test import ENOUGH, advise_next, find_settled_step, find_voltage_limit
 
-READ = PartReader().read_file
+READ = LogReader().read_file
 SYSID = [sys.executable, "-c", "from sim.cli import main; main()"]
 
 

@@ -13,7 +13,7 @@ import pytest
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.cli.options import PartReader
+from sim.cli.options import LogReader
 from sim.cli.watch.live_fit import LiveFit
 from sim.cli.watch.network_tables import INTERRUPTED, NetworkTablesSource
 from sim.core.errors import BadRequest
@@ -25,7 +25,7 @@ from sim.report.next_test import ENOUGH
 pytestmark = pytest.mark.robot
 pytest.importorskip("ntcore", reason="pyntcore is not installed")
 
-READ = PartReader().read_file
+READ = LogReader().read_file
 PATIENCE = 60.0  # [s] for what takes a moment
 SEVERAL = 3  # values of a topic, of which the first may have been there before
 

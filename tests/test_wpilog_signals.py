@@ -74,8 +74,12 @@ def test_what_lies_beyond_a_signal_is_not_made_up(tmp_path: Path) -> None:
     ("leave_out", "expected", "missing"),
     [
         pytest.param(("voltage",), "voltage-main-Arm", "", id="voltage"),
-        pytest.param(("position",), "position-main-Arm", "", id="position"),
-        pytest.param(("velocity",), "velocity-main-Arm", "", id="velocity"),
+        pytest.param(
+            ("position", "velocity"),
+            "position-main-Arm",
+            "velocity missing too",
+            id="position and velocity",
+        ),
         pytest.param(
             ("voltage", "position", "velocity"),
             "voltage-<motor>-Arm",

@@ -4,13 +4,7 @@ from pathlib import Path
 
 import click
 
-from sim.cli.options import (
-    FAULT_NAMES,
-    FILE,
-    read_logs_together,
-    reading_options,
-    refuse_overwriting,
-)
+from sim.cli.options import FAULT_NAMES, FILE, LogReader, reading_options, refuse_overwriting
 from sim.support.command_line import quote_path
 
 
@@ -34,10 +28,7 @@ def contaminate(
     faults: tuple[str, ...],
     output: Path,
     seed: int | None,
-    type_: str | None,
-    units: str | None,
-    motor: str | None,
-    **entries: str | None,
+    reader: LogReader,
 ) -> None:
     """Write a copy of the log FILE with a fault added to it.
 
@@ -50,8 +41,7 @@ def contaminate(
 
     refuse_overwriting(output, inputs=[file])
     asked = [parse_fault_request(text) for text in faults]
-    log = read_logs_together([file], units=units, type=type_, motor=motor, entries=entries)
-    log, where = contaminate_all(log, asked, rng=np.random.default_rng(seed))
+    log, where = contaminate_all(reader.read_recorded(file), asked, rng=np.random.default_rng(seed))
     write(log, output)
     for name, _, stretch in where:
         place = stretch.test or "the whole log"

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from sim.cli.options import FILE, as_json, read_each_log, reading_options
+from sim.cli.options import FILE, LogReader, as_json, reading_options, refuse_duplicates
 from sim.core.doubt import SHOWN_FIRST
 from sim.support.command_line import DONE, NOT_RIGHT
 
@@ -33,11 +33,8 @@ ALL_IN_JSON = "Add --json to list everything."
 def inspect(
     files: tuple[Path, ...],
     *,
-    type_: str | None,
-    units: str | None,
-    motor: str | None,
+    reader: LogReader,
     as_json: bool,
-    **entries: str | None,
 ) -> int:
     """Look for faults in the logs of one mechanism.
 
@@ -50,7 +47,8 @@ def inspect(
     """
     from sim.inspect.detect_faults import inspect_together  # noqa: PLC0415 - --help must not wait for it
 
-    logs = read_each_log(files, units=units, type=type_, motor=motor, entries=entries)
+    refuse_duplicates(files)
+    logs = [reader.read_recorded(file) for file in files]
     found = inspect_together(logs)
     if as_json:
         click.echo(json.dumps(found.to_json(), allow_nan=False))

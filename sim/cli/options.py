@@ -4,7 +4,7 @@ import json
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import reduce
+from functools import reduce, wraps
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -18,6 +18,7 @@ from sim.support.completion import complete_members
 if TYPE_CHECKING:
     from sim.core.log import Log
 
+READING = ("units", "motor", "pick", "velocity_scale", "ignore_velocity")  # options of LogReader
 Option: TypeAlias = Callable[[Callable[..., Any]], Callable[..., Any]]
 
 FILE = click.Path(path_type=Path)
@@ -46,26 +47,22 @@ def combine_options(*options: Option) -> Option:
     return lambda command: reduce(lambda made, option: option(made), reversed(options), command)
 
 
-# Options for reading a log.
-reading_options = combine_options(
+_add_reading_options = combine_options(
     click.option("--type", "type_", type=click.Choice(TYPES), help="What kind of mechanism."),
     click.option(
         "--units", type=click.Choice(tuple(UNITS)), help="Units of the positions in the file."
     ),
     click.option("--motor", help="Which motor, if the log has several: left, right, …"),
-    click.option("--voltage", metavar="ENTRY", help="Log entry with the applied voltage."),
-    click.option("--position", metavar="ENTRY", help="Log entry with the position."),
-    click.option("--velocity", metavar="ENTRY", help="Log entry with the velocity."),
-    click.option("--state", metavar="ENTRY", help="Log entry with the running test's name."),
-)
-# Which mechanism, and how to correct a velocity that was logged wrongly.
-velocity_options = combine_options(
     click.option(
         "--pick",
         type=click.IntRange(min=1),
         metavar="N",
         help="Which mechanism, if the log has several: its number in the message.",
     ),
+    click.option("--voltage", metavar="ENTRY", help="Log entry with the applied voltage."),
+    click.option("--position", metavar="ENTRY", help="Log entry with the position."),
+    click.option("--velocity", metavar="ENTRY", help="Log entry with the velocity."),
+    click.option("--state", metavar="ENTRY", help="Log entry with the running test's name."),
     click.option(
         "--velocity-scale",
         metavar="X",
@@ -80,6 +77,19 @@ velocity_options = combine_options(
         help="Use the slope of the position as the velocity.",
     ),
 )
+
+
+def reading_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Decorator that adds the options for reading a log; the command gets a ``LogReader``."""
+
+    @wraps(command)
+    def call_with_reader(*args: Any, **options: Any) -> Any:  # noqa: ANN401 - passed on
+        entries = {name: options.pop(name) for name in ("voltage", "position", "velocity", "state")}
+        how = {name: options.pop(name) for name in READING}
+        reader = LogReader(**how, type=options.pop("type_"), entries=entries)
+        return command(*args, reader=reader, **options)
+
+    return _add_reading_options(call_with_reader)
 
 
 def list_catalogue(rows: Iterable[Mapping[str, Any]], *, as_json: bool) -> None:
@@ -143,61 +153,17 @@ def _is_same_file(one: Path, other: Path) -> bool:
         return one.resolve() == other.resolve()
 
 
-def read_logs_together(files: Iterable[Path], **how: Any) -> "Log":  # noqa: ANN401 - passed on
-    """Read the files of one mechanism as one log.
-
-    Args:
-        files: paths of logs in any format.
-        how: the keyword arguments of ``read_each_log``.
-
-    Raises:
-        Refusal: as ``read_each_log``, or one file measures a length and another an angle.
-    """
-    first, *more = read_each_log(files, **how)
-    for log in more:
-        first = first.join(log)
-    return first
-
-
-def read_each_log(
-    files: Iterable[Path],
-    *,
-    units: str | None,
-    type: str | None,  # noqa: A002 - the field's own word
-    motor: str | None,
-    entries: Mapping[str, str | None],
-) -> "list[Log]":
-    """Read the files of one mechanism, each as a log.
-
-    Args:
-        files: paths of logs in any format.
-        units: unit of the positions in them; None takes the one in each file.
-        type: type of the mechanism; None takes the one in each file.
-        motor: name of the motor to read, if a file has several.
-        entries: signal -> name of its entry; None finds it by name.
-
-    Raises:
-        Refusal: a file cannot be read, or is given twice.
-    """
-    from sim.io import read  # noqa: PLC0415 - --help must not wait for it
-    from sim.io.voltage import check_voltage  # noqa: PLC0415 - the same
-
-    named = {signal: entry for signal, entry in entries.items() if entry}
-    refuse_duplicates(files := tuple(files))
-    logs = [read(file, units=units, type=type, motor=motor, entries=named) for file in files]
-    return [check_voltage(log) for log in logs]
-
-
 @dataclass(frozen=True)
-class PartReader:
-    """Reads the files of a robot, one log for each mechanism, side or motor.
+class LogReader:
+    """Reads the logs of a mechanism, as the options of the command line say.
 
     Args:
         units: unit of the positions in them; None takes the one in each file.
         type: type of the mechanism; None takes the one in each file.
         motor: name of the only motor to read; None reads all.
         entries: signal -> name of its entry; None finds it by name.
-        velocity: factor of the velocity; None uses the slope of the position as the velocity.
+        velocity_scale: factor of the velocity.
+        ignore_velocity: use the slope of the position as the velocity.
         pick: number of the mechanism to read, counted from 1; None if the log has only one.
     """
 
@@ -205,15 +171,38 @@ class PartReader:
     type: str | None = None
     motor: str | None = None
     entries: Mapping[str, str | None] = field(default_factory=dict)
-    velocity: float | None = 1.0
+    velocity_scale: float = 1.0
+    ignore_velocity: bool = False
     pick: int | None = None
 
-    def read(self, files: Sequence[Path]) -> "Mapping[str, Log]":
-        """The logs in all files, by the name of the mechanism, side or motor.
+    def read_recorded(self, file: Path) -> "Log":
+        """The log in one file as it was recorded; several motors count as their mean.
+
+        Raises:
+            Refusal: the file cannot be read.
+        """
+        from sim.io import read  # noqa: PLC0415 - --help must not wait for it
+
+        return self._scale(read(file, **self._choices))
+
+    def read_joined(self, files: Sequence[Path]) -> "Log":
+        """The logs in all files as one, with what can be mended in it mended.
 
         Raises:
             Refusal: a file cannot be read or is given twice, or one measures a length and another
                 an angle.
+        """
+        refuse_duplicates(files)
+        return reduce(
+            lambda log, other: log.join(other),
+            (_check_signals(self.read_recorded(file)) for file in files),
+        )
+
+    def read_parts(self, files: Sequence[Path]) -> "Mapping[str, Log]":
+        """The logs in all files, by the name of the mechanism, side or motor.
+
+        Raises:
+            Refusal: as ``read_joined``.
         """
         from sim.cli.fit.parts import list_parts  # noqa: PLC0415 - only for a fit
 
@@ -227,19 +216,32 @@ class PartReader:
             Refusal: the file cannot be read.
         """
         from sim.io import read_motors  # noqa: PLC0415 - --help must not wait for it
-        from sim.io.velocity import check_velocity, scale_velocity  # noqa: PLC0415 - the same
-        from sim.io.voltage import check_voltage  # noqa: PLC0415 - the same
 
-        named = {signal: entry for signal, entry in self.entries.items() if entry}
-        logs = read_motors(
-            file, units=self.units, type=self.type, motor=self.motor, entries=named,
-            ignore_velocity=self.velocity is None, pick=self.pick,
-        )  # fmt: skip
-        logs = {name: check_voltage(log) for name, log in logs.items()}
-        factor = self.velocity
-        if factor is None:
-            return logs
+        logs = read_motors(file, **self._choices)
+        return {name: _check_signals(self._scale(log)) for name, log in logs.items()}
+
+    @property
+    def _choices(self) -> dict[str, Any]:
+        """The keyword arguments of ``sim.io.read``."""
+        entries = {signal: entry for signal, entry in self.entries.items() if entry}
         return {
-            name: check_velocity(log if factor == 1.0 else scale_velocity(log, factor))
-            for name, log in logs.items()
-        }
+            "units": self.units, "type": self.type, "motor": self.motor, "entries": entries,
+            "ignore_velocity": self.ignore_velocity, "pick": self.pick,
+        }  # fmt: skip
+
+    def _scale(self, log: "Log") -> "Log":
+        """The log with the velocity times the factor that the user gave."""
+        if self.velocity_scale == 1.0:
+            return log
+        from sim.io.motion import scale_velocity  # noqa: PLC0415 - --help must not wait for it
+
+        return scale_velocity(log, self.velocity_scale)
+
+
+def _check_signals(log: "Log") -> "Log":
+    """The log with its motion mended where that is possible, and doubts about wrong units."""
+    from sim.inspect.log_units import doubt_units  # noqa: PLC0415 - --help must not wait for it
+    from sim.io.motion import leave_out_falls, mend_motion  # noqa: PLC0415 - the same
+
+    mended = leave_out_falls(mend_motion(log))
+    return mended.add_doubts(*doubt_units(mended))

@@ -12,9 +12,9 @@ import click
 from sim.cli.fit.paste import make_paste_text, paste_options
 from sim.cli.options import (
     FILE,
+    LogReader,
     as_json,
     combine_options,
-    read_logs_together,
     reading_options,
     refuse_overwriting,
 )
@@ -71,11 +71,8 @@ def reconcile(  # noqa: PLR0917 - click passes options by name
     paste: str | None,
     season: str,
     radius: float | None,  # noqa: ARG001 - the code of --paste reads it
-    type_: str | None,
-    units: str | None,
-    motor: str | None,
+    reader: LogReader,
     as_json: bool,  # noqa: FBT001 - click passes it by name
-    **entries: str | None,
 ) -> int:
     """Find effects that the model of a mechanism does not contain.
 
@@ -95,18 +92,15 @@ def reconcile(  # noqa: PLR0917 - click passes options by name
 
         choose_page_path(html)  # refuse a wrong name before the search, not after it
 
-    def read(*some: Path) -> "Log":
-        return read_logs_together(some, units=units, type=type_, motor=motor, entries=entries)
-
-    logs = {"log": read(*files)}
+    logs = {"log": reader.read_joined(files)}
     logs |= {
-        name: read(file)
+        name: reader.read_joined([file])
         for name, file in (("validation", validation), ("held_out", held_out))
         if file is not None
     }
     _warn_uncompiled()
     with _progress_display(visible=not (as_json or paste)) as progress:
-        story = _solve(logs, type_=type_, travel=travel, effort=effort, progress=progress)
+        story = _solve(logs, type_=reader.type, travel=travel, effort=effort, progress=progress)
     if html is not None:
         from sim.report.story import write_story  # noqa: PLC0415 - draws
 

@@ -2,7 +2,8 @@
 
 from dataclasses import dataclass
 
-SHOWN_FIRST = frozenset({"contradicting-units", "not-volts"})  # all others depend on these
+SHOWN_FIRST = frozenset({"contradicting-units", "unit-error"})  # all others depend on these
+GAINS = ("kS", "kV", "kA", "kG", "offset_rad")
 
 
 @dataclass(frozen=True)
@@ -13,8 +14,10 @@ class Doubt:
         code: a short fixed name for programs, like ``negative-gain``.
         message: cause and advice, in one or two sentences for the user.
         grave: whether the result cannot be right; if not, it only has to be checked.
+        gains: gains that may be wrong by more than their errors because of it.
     """
 
     code: str
     message: str
     grave: bool = False
+    gains: tuple[str, ...] = ()

@@ -147,6 +147,18 @@ class Run:
                 advice="Remove that sample, or record the run again.",
             )
 
+    def select(self, part: slice) -> "Run":
+        """The run with a part of its samples."""
+        return Run(
+            self.test,
+            self.time[part],
+            self.voltage[part],
+            self.position[part],
+            self.velocity[part],
+            None if self.current is None else self.current[part],
+            None if self.bus_voltage is None else self.bus_voltage[part],
+        )
+
     def __len__(self) -> int:
         return int(self.time.size)
 
@@ -172,6 +184,8 @@ class Log:
         type: ``simple``, ``elevator`` or ``arm``; empty if unknown.
         source: the file it was read from, for messages; empty if none.
         doubts: warnings about the source.
+        computed: ``position`` or ``velocity`` if it was not measured but computed from the other;
+            empty if both were measured.
 
     Raises:
         BadRequest: an unknown unit or type.
@@ -189,6 +203,7 @@ class Log:
     type: str = ""
     source: str = ""
     doubts: tuple[Doubt, ...] = field(default=())
+    computed: str = ""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "runs", tuple(self.runs))

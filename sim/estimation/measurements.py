@@ -35,6 +35,7 @@ MOVING = 0.01  # [share of the top speed] a slower sample is at rest, if the pos
 NOISY = 0.3  # [of that speed] a velocity with more noise at rest does not show what moves
 FINE = 3.0  # [sensor steps] of a position between two samples at speed, which then must differ
 JUMP = 0.1  # [V] a larger change of voltage is a step, which a mean would smear
+UNKNOWN = 1e3  # [m or rad] standard deviation of a position that is not measured
 OUTLIER = 4.0  # [standard deviations] that noise hardly ever exceeds
 SPEED_CLASSES = 8  # classes of speed in which the noise of a velocity is estimated
 UNEVEN = 3.0  # [1] ratio of the noise at high and low speed from which noise depends on the speed
@@ -104,6 +105,9 @@ def measure_runs(
     runs = [run for run in log.runs if len(run) > 3]  # noqa: PLR2004 - fewer have no third difference
     step = find_sensor_step([run.position for run in runs])
     fresh = [_select_fresh_readings(run, step=step) for run in runs]
+    if log.computed == "position":  # it would count the velocity's readings twice
+        for readings in fresh:
+            readings[:, 0] = np.nan
 
     def measure(noise: SensorNoise | None = None) -> tuple[RunMeasurements, ...]:
         return tuple(
@@ -168,11 +172,19 @@ def estimate_noise(measurements: tuple[RunMeasurements, ...]) -> SensorNoise:
         spread = ROBUST * float(np.median(np.abs(every))) / math.sqrt(THIRD)
         least = find_sensor_step(values) / math.sqrt(12.0)  # the standard deviation of rounding
         sizes.append(max(spread, least, 1e-12))
-    columns = [
-        np.concatenate([run.measured[:, column] for run in measurements]) for column in (0, 1)
+    ranges = [
+        _compute_range([run.measured[:, column] for run in measurements]) for column in (0, 1)
     ]
-    grain = tuple(DIGITS * float(np.nanmax(one) - np.nanmin(one)) + 1e-12 for one in columns)
-    return SensorNoise(sizes[0], sizes[1], (grain[0], grain[1]))
+    grain = tuple(DIGITS * span + 1e-12 for span in ranges)
+    position = sizes[0] if ranges[0] else UNKNOWN  # without positions nothing is known of them
+    return SensorNoise(position, sizes[1], (grain[0], grain[1]))
+
+
+def _compute_range(readings: Sequence[Array]) -> float:
+    """[unit] difference of the largest and the smallest reading; 0 if there is none."""
+    there = np.concatenate(readings)
+    there = there[~np.isnan(there)]
+    return float(np.ptp(there)) if there.size else 0.0
 
 
 def compute_noise_at_speed(measurements: Sequence[RunMeasurements], noise: SensorNoise) -> float:

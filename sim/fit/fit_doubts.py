@@ -3,7 +3,7 @@
 import math
 from collections.abc import Mapping, Sequence
 
-from sim.core.doubt import Doubt
+from sim.core.doubt import GAINS, Doubt
 from sim.core.units import Unit
 from sim.fit.open_loop_fallback import OpenLoopReplay
 from sim.physics.effects import EFFECTS
@@ -12,7 +12,7 @@ from sim.physics.model import Part
 FAR = 0.1  # [share of the top speed] error from which the gains cannot be right
 NOTICED = 0.06  # [share of the top speed] error beyond noise that a controller has to correct
 STRONG = 2.5  # [standard deviations of the prior] from which an effect is no longer small
-LEAST_LAG = 0.004  # [s] a longer delay is mentioned
+LEAST_LAG = 0.004  # [s] a longer delay or average is mentioned
 
 
 def warn_of_opposed_signs(sign: float) -> tuple[Doubt, ...]:
@@ -41,7 +41,7 @@ def warn_of_lags(window: float, lag: float) -> tuple[Doubt, ...]:
         lag: [s] delay from voltage to motion.
     """
     said = []
-    if window > 0.0:
+    if window > LEAST_LAG:
         said.append(
             Doubt(
                 "velocity-lag",
@@ -84,6 +84,7 @@ def warn_of_misfit(
                 f"describe this log well. {hint}{' Otherwise r' if hint else 'R'}un `sysid "
                 "inspect`, then `sysid reconcile` to find the missing effect.",
                 grave=share > FAR,
+                gains=GAINS,
             ),
         )
     if not replay.has_misfit:

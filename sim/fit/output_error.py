@@ -136,6 +136,7 @@ def _fit_problem(log: Log, *, type: str) -> Fit:  # noqa: A002 - as above
     begin = clamp_to_physical(guess, period=_sample_period(log.runs))
     measured = measure_runs(log, friction=None if type == "simple" else begin["kS"])
     problem = make_fit_problem(log, measured)
+    begin = clamp_to_physical(begin, period=problem.period)  # of fresh readings
     plain = fit_tracking(problem, ModelStructure(type), begin)
     if not math.isfinite(plain.cost):
         raise _refuse_motion(log)

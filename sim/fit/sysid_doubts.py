@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from sim.core.doubt import Doubt
+from sim.core.doubt import GAINS, Doubt
 from sim.core.log import DIRECTIONS, FOUR_TESTS, Array, Log, Run
 from sim.core.units import Unit, convert_gains, find_unit
 from sim.fit.metrics import SimulationScore
@@ -90,6 +90,7 @@ def _doubt_stale_velocities(log: Log) -> list[Doubt]:
             "computes the acceleration from these velocities, so kA becomes about "
             f"{2 * (1 - share):.0%} of its true value. Log at the controller's own rate, or raise "
             "that rate.",
+            gains=("kA",),
         )
     ]
 
@@ -166,6 +167,7 @@ def _doubt_low_r2(r2: float, simulated: tuple[SimulationScore, ...]) -> list[Dou
             f"The simulated velocity R² of the {way} tests is {part.r2:.2f}; a fit that reproduces "
             f"its log has {GOOD_R2} or more. Plot the velocity: did the mechanism slip, stop or "
             "sag?",
+            gains=GAINS,
         )
         for way, part in zip(DIRECTIONS, simulated, strict=True)
         if part.r2 < GOOD_R2
@@ -176,6 +178,7 @@ def _doubt_low_r2(r2: float, simulated: tuple[SimulationScore, ...]) -> list[Dou
                 "low-acceleration-r2",
                 f"The acceleration R² is {r2:.2f}. WPILib's documentation calls kA dubious if "
                 f"it is below {DUBIOUS_R2}. Look for noise in the velocity, and try --median 5.",
+                gains=("kA",),
             )
         )
     return doubts
@@ -192,5 +195,6 @@ def _doubt_slow_steps(delay: float, gains: Mapping[str, float]) -> list[Doubt]:
             f"The velocity reacts {delay * 1000:.0f} ms after the voltage, more slowly than the "
             f"mechanism itself (kA/kV = {timescale * 1000:.0f} ms): do not trust kA. Shorten the"
             " velocity filter of the motor controller, or log faster.",
+            gains=("kA",),
         )
     ]

@@ -200,12 +200,25 @@ def _choose_start(run: Run, fault: Fault, *, at: float | None, rng: np.random.Ge
                 f"{at:g} s is not within {run.test}, which lasts {span:.2f} s",
                 advice=f"Choose a time from 0 to {span:.2f} s.",
             )
+        if abs(run.voltage[np.searchsorted(run.time, run.time[0] + at)]) < fault.least_voltage:
+            raise _refuse_low_voltage(run, fault)
         return at
     speed = np.abs(run.velocity)
-    moving = np.flatnonzero(speed > MOVING * run.top_speed)
+    possible = np.abs(run.voltage) >= fault.least_voltage
+    if not possible.any():
+        raise _refuse_low_voltage(run, fault)
+    moving = np.flatnonzero((speed > MOVING * run.top_speed) & possible)
     first, last = (moving[0], moving[-1]) if moving.size else (0, -1)
     begin, end = (float(run.time[i] - run.time[0]) for i in (first, last))
     return begin + float(rng.uniform(*fault.when)) * (end - begin)
+
+
+def _refuse_low_voltage(run: Run, fault: Fault) -> BadRequest:
+    """The error that a fault needs more voltage than a test has."""
+    return BadRequest(
+        f"{fault.name} needs at least {fault.least_voltage:g} V, and {run.test} has less then",
+        advice="Choose a later time of a ramp, or a test with a higher voltage.",
+    )
 
 
 def _describe_place(log: Log, test: str) -> str:

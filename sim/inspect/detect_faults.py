@@ -19,6 +19,7 @@ from sim.inspect.diagnostics import diagnose_log
 from sim.inspect.fault import Damage, Fault
 from sim.inspect.faults import FAULTS
 from sim.inspect.log_features import LogFeatures
+from sim.io.motion import COPIED, leave_out_falls, mend_motion
 
 FASTEST, SLOWEST = 1e-4, 1.0  # [s] sample periods; outside of them the times are not in seconds
 CERTAIN = 1e-3  # [1] least doubt of a detection when two are compared
@@ -99,6 +100,10 @@ def inspect(log: Log) -> Inspection:
         >>> inspect(log).is_clean
         True
     """
+    log = leave_out_falls(log)
+    mended = mend_motion(log)
+    if not any(doubt.code == COPIED for doubt in mended.doubts):  # that one is a fault
+        log = mended
     features = LogFeatures(log)
     if features.period < FASTEST or features.period > SLOWEST:
         return Inspection((), (*log.doubts, _doubt_clock(features.period)))

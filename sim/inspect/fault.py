@@ -118,6 +118,7 @@ class Fault:
             two faults about the same, only one is reported for an interval.
         whole: whether it damages whole runs, so that the start of a ``FaultStrike`` is not used.
         when: (earliest, latest) share of the time in motion, between which a random start lies.
+        least_voltage: [V] voltage of a run below which it does not happen.
     """
 
     name: str
@@ -130,6 +131,7 @@ class Fault:
     about: str = "motion"
     whole: bool = False
     when: tuple[float, float] = (0.3, 0.6)
+    least_voltage: float = 0.0
 
 
 def rescale_motion(run: Run, pace: Array) -> Run:

@@ -26,7 +26,7 @@ from sim.io.entries.entry import Entry
 from sim.io.foreign import FOREIGN
 from sim.io.format import HEAD, LARGEST_FILE, Format, ReadOptions
 from sim.io.hoot import SUFFIX, convert_hoot
-from sim.io.velocity import differentiate_position
+from sim.io.motion import differentiate_position
 from sim.support.atomic_file import atomic_path
 
 FORMATS = tuple(sorted(found.name for found in iter_modules(formats.__path__)))
@@ -60,6 +60,8 @@ def read(
     type: str | None = None,  # noqa: A002 - the word of the command line and of Log
     motor: str | None = None,
     entries: Mapping[str, str] | None = None,
+    ignore_velocity: bool = False,
+    pick: int | None = None,
 ) -> Log:
     """Read a log of any format in this folder.
 
@@ -69,21 +71,27 @@ def read(
         type: ``simple``, ``elevator`` or ``arm``; None takes what the file says.
         motor: name of the motor to read, if the file has several; None combines them.
         entries: signal -> the entry or column that holds it, if the names are not SysId's.
+        ignore_velocity: use the slope of the position as the velocity.
+        pick: number of the mechanism to read, counted from 1; None if the file has only one.
 
     Returns:
         The log; its ``source`` is the path as given, its ``doubts`` are warnings about the file.
+        Where the file holds only a position or only a velocity, the other is computed from it.
 
     Raises:
         UnreadableFile: the file is missing, empty, too large, damaged, or of an unknown format.
         MissingSignal: the file lacks an entry that every fit needs.
         BadSample: the file holds a number that cannot be a measurement.
-        BadRequest: an unknown unit, type or motor.
+        BadRequest: an unknown unit, type, motor or mechanism.
     """
-    options = _make_options(units=units, type=type, motor=motor, entries=entries)
+    options = _make_options(
+        units=units, type=type, motor=motor, entries=entries,
+        ignore_velocity=ignore_velocity, pick=pick,
+    )  # fmt: skip
     given = os.fspath(path)
     with _readable(given) as (module, file):
         log = _name_source(module.read(file, options), file, given)
-    return _set_type(log, type)
+    return _finish(log, options)
 
 
 def read_motors(
@@ -100,13 +108,12 @@ def read_motors(
 
     Args:
         path: the file.
-        units: the unit of its positions; None takes what the file says, else the default.
-        type: ``simple``, ``elevator`` or ``arm``; None takes what the file says.
-        motor: name of the only motor to read, if the file has several.
-        entries: signal -> the entry or column that holds it, if the names are not SysId's.
-        ignore_velocity: use the slope of the position as the velocity; the file then needs no
-            velocity.
-        pick: number of the mechanism to read, counted from 1; None if the file has only one.
+        units: as of ``read``, like all that follow.
+        type: the same.
+        motor: name of the only motor to read.
+        entries: the same.
+        ignore_velocity: the same.
+        pick: the same.
 
     Returns:
         The name of each motor -> its log; a log with one motor that has no name is under ``""``.
@@ -115,13 +122,9 @@ def read_motors(
         Refusal: as ``read``.
     """
     options = _make_options(
-        units=units,
-        type=type,
-        motor=motor,
-        entries=entries,
-        ignore_velocity=ignore_velocity,
-        pick=pick,
-    )
+        units=units, type=type, motor=motor, entries=entries,
+        ignore_velocity=ignore_velocity, pick=pick,
+    )  # fmt: skip
     given = os.fspath(path)
     with _readable(given) as (module, file):
         if hasattr(module, "read_motors"):
@@ -129,10 +132,7 @@ def read_motors(
         else:
             logs = {"": module.read(file, options)}
         logs = {name: _name_source(log, file, given) for name, log in logs.items()}
-    found = {name: _set_type(log, type) for name, log in logs.items()}
-    if not ignore_velocity:
-        return found
-    return {name: differentiate_position(log) for name, log in found.items()}
+    return {name: _finish(log, options) for name, log in logs.items()}
 
 
 def _make_options(
@@ -141,8 +141,8 @@ def _make_options(
     type: str | None,  # noqa: A002 - as above
     motor: str | None,
     entries: Mapping[str, str] | None,
-    ignore_velocity: bool = False,
-    pick: int | None = None,
+    ignore_velocity: bool,
+    pick: int | None,
 ) -> ReadOptions:
     """The user's options as one object.
 
@@ -271,8 +271,13 @@ def write(log: Log, path: str | os.PathLike[str]) -> None:
         ) from None
 
 
-def _set_type(log: Log, wanted: str | None) -> Log:
-    """The log with the type that the user chose, and a doubt if the file names another type."""
+def _finish(log: Log, options: ReadOptions) -> Log:
+    """The log with the type that the user chose, and its velocity replaced if that was asked for.
+
+    There is a doubt if the file names another type.
+    """
+    log = differentiate_position(log) if options.ignore_velocity else log
+    wanted = options.type
     if wanted is None or wanted == log.type:
         return log
     if not log.type:

@@ -20,8 +20,9 @@ from typing import Protocol
 import numpy as np
 
 from sim.core.doubt import Doubt
-from sim.core.errors import BadRequest, BadSample
+from sim.core.errors import BadRequest, BadSample, MissingSignal
 from sim.core.log import LARGEST, Array, Log, Run
+from sim.io.motion import MADE_FROM, compute_position_slope, integrate_velocity
 
 HEAD = 4096  # [bytes] length of the beginning of a file that `recognizes` gets
 LARGEST_FILE = 2**30  # [bytes] hours of logging
@@ -37,7 +38,7 @@ class ReadOptions:
         motor: name of the motor to read (``left``), if the file has several; None combines them.
         entries: signal (``voltage``, ``position``, ``velocity``) -> the entry that holds it,
             for logs that do not use SysId's names.
-        ignore_velocity: the file needs no velocity; the position is read in its place.
+        ignore_velocity: the velocity is the slope of the position, and the file needs none.
         pick: number of the mechanism to read, counted from 1 as in the message that lists them.
     """
 
@@ -93,6 +94,31 @@ def warn_of_motor_choice(motor: str | None, *, where: str) -> tuple[Doubt, ...]:
     )
 
 
+def warn_of_missing_signal(
+    missing: str | None, options: ReadOptions, *, where: str
+) -> tuple[Doubt, ...]:
+    """A warning if a file lacks the position or the velocity (``missing``), unless it was ignored.
+
+    Raises:
+        MissingSignal: the file lacks the position of an arm.
+    """
+    if missing is None or (missing == "velocity" and options.ignore_velocity):
+        return ()
+    if missing == "position" and options.type == "arm":
+        raise MissingSignal(
+            "it holds no position, and the angle of an arm decides what gravity does",
+            where=where,
+            advice="Log the position of the arm, or name its entry with --position.",
+        )
+    return (
+        Doubt(
+            f"no-{missing}",
+            f"{where}: it holds no {missing}, so {MADE_FROM[missing]} was taken for it. Log both: "
+            "each is checked against the other.",
+        ),
+    )
+
+
 def make_run(
     test: str, signals: Mapping[str, Array], *, si: float, where: str
 ) -> tuple[Run, tuple[Doubt, ...]]:
@@ -100,8 +126,9 @@ def make_run(
 
     Args:
         test: one of ``sim.core.log.TESTS``.
-        signals: ``time``, ``voltage``, ``position``, ``velocity``, and optionally ``current`` and
-            ``bus_voltage``; each (n,), position and velocity in the file's unit.
+        signals: ``time``, ``voltage``, ``position`` and ``velocity`` or one of them, and optionally
+            ``current`` and ``bus_voltage``; each (n,), position and velocity in the file's unit. A
+            missing position or velocity is computed from the other one.
         si: the file's unit of position in meters or radians.
         where: the file and the run, for messages.
 
@@ -123,6 +150,10 @@ def make_run(
             )
     keep = np.concatenate(([True], np.diff(time) > 0)) if time.size else np.ones(0, dtype=bool)
     kept = {name: values[keep] for name, values in signals.items()}
+    if "velocity" not in kept:
+        kept["velocity"] = compute_position_slope(kept["time"], kept["position"])
+    elif "position" not in kept:
+        kept["position"] = integrate_velocity(kept["time"], kept["velocity"])
     for name in ("position", "velocity"):
         kept[name] = kept[name] * si
     dropped = int(time.size - np.count_nonzero(keep))

@@ -79,7 +79,7 @@ def format_gains(found: Fit) -> list[tuple[str, str, str, str]]:
     return [
         (
             "angle" if name == "offset_rad" else name,
-            _round_to_error(value, found.errors.get(name, math.nan)),
+            format_value(value, found.errors.get(name, math.nan)),
             format_error(value, found.errors.get(name, math.nan)),
             format_gain_unit(name, per),
         )
@@ -103,17 +103,26 @@ def _show_trials(tried: Sequence[FeedbackTrial], per: Unit, console: Console) ->
 
 
 def format_error(value: float, error: float) -> str:
-    """A standard error as text: a number, ``not known``, or that it is negligible."""
+    """A standard error as text: two digits, ``not known``, or that it is negligible."""
     if not math.isfinite(error):
         return "not known"
-    return f"< {FINEST:.2%} of it" if error < FINEST * abs(value) else f"{error:.2g}"
+    if error < FINEST * abs(value):
+        return f"< {FINEST:.2%} of it"
+    return _round(error, _count_places(value, error))
 
 
-def _round_to_error(value: float, error: float) -> str:
-    """The value, rounded to the second digit of its error, with three to six digits."""
-    if not (math.isfinite(error) and error > 0.0 and value):
+def format_value(value: float, error: float) -> str:
+    """A value as text, with as many decimals as its error has: 0.250 for an error of 0.013."""
+    if not math.isfinite(error):
         return f"{value:.4g}"
+    return _round(value, _count_places(value, error))
+
+
+def _count_places(value: float, error: float) -> int:
+    """Decimals up to the second digit of an error; negative to the left of the point."""
     error = max(error, FINEST * abs(value))
-    size = max(abs(value), error)
-    digits = 1 + math.floor(math.log10(size)) - math.floor(math.log10(error))
-    return f"{value:.{min(max(digits + 1, 3), 6)}g}"
+    return 1 - math.floor(math.log10(error)) if error > 0.0 else 0
+
+
+def _round(number: float, places: int) -> str:
+    return f"{round(number, places):.{max(places, 0)}f}"

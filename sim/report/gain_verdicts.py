@@ -20,8 +20,7 @@ only while the speed changes.
 """
 VOLTS = 0.05  # [V] largest standard error of a usable kS or kG; carpet and heat change them more
 ANGLE = 0.05  # [rad] largest standard error of a usable angle of an arm
-POOR_FIT = {"model-strays", "low-simulated-r2"}  # codes of doubts about all gains
-UNSURE_KA = {"fast-mechanism", "low-acceleration-r2", "slow-measurement", "stale-velocity"}
+READ = "see the warnings"  # advice for a gain that a warning is about
 SMALL_STEP = 3.0  # [V] in smaller dynamic tests, friction is large compared with the voltage
 
 
@@ -39,26 +38,17 @@ def write_gain_verdict(found: Fit, log: Log | None = None) -> str:
     for name in sorted(found.gains, key=lambda name: name != "kV"):  # kV first
         error = _format_error(name, found.gains[name], found.errors.get(name, math.nan))
         label = "angle" if name == "offset_rad" else name
-        if _is_usable(name, found.gains[name], found.errors.get(name, math.nan)):
-            usable.append(f"{label} usable ({error})")
-        else:
+        if not _is_usable(name, found.gains[name], found.errors.get(name, math.nan)):
             advice = _advice(name, log) if log is not None else ""
             others.setdefault(advice, []).append(f"{label} not usable ({error})")
+        elif any(name in doubt.gains for doubt in found.doubts):
+            others.setdefault(READ, []).append(f"{label} not usable ({error})")
+        else:
+            usable.append(f"{label} usable ({error})")
     groups = [
         ", ".join(several) + (f": {what}" if what else "") for what, several in others.items()
     ]
-    text = "; ".join([", ".join(usable), *groups] if usable else groups) + "."
-    return f"{text}{_write_caution(found, usable)}"
-
-
-def _write_caution(found: Fit, usable: Sequence[str]) -> str:
-    """A sentence if a warning says that usable gains may be wrong by more than their errors."""
-    codes = {doubt.code for doubt in found.doubts}
-    if usable and codes & POOR_FIT:
-        return " But a simulation with these gains does not follow the log well; read the warnings."
-    if codes & UNSURE_KA and any(one.startswith("kA") for one in usable):
-        return " But kA may be wrong by more than that; read the warnings."
-    return ""
+    return "; ".join([", ".join(usable), *groups] if usable else groups) + "."
 
 
 def list_gain_advice(found: Fit, log: Log) -> tuple[str, ...]:

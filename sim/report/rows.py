@@ -15,8 +15,8 @@ from sim.fit.feedback_trial import (
     try_feedback_gains,
 )
 from sim.plot.table import to_text
-from sim.report.fit_terminal import format_error
-from sim.report.robot_code_snippet import LANGUAGES, SEASONS, round_to_error, write_robot_code
+from sim.report.fit_terminal import format_error, format_value
+from sim.report.robot_code_snippet import LANGUAGES, SEASONS, write_robot_code
 
 SURE = 1.96  # [standard errors] half width of a 95 % confidence interval
 MEANS = {
@@ -67,12 +67,12 @@ def make_gain_rows(found: Fit) -> list[Gain]:
     rows = []
     for name, value in found.gains.items():
         error = found.errors.get(name, math.nan)
-        ends = (round_to_error(value + SURE * way * error, error) for way in (-1.0, 1.0))
+        ends = (format_value(value + SURE * way * error, error) for way in (-1.0, 1.0))
         between = " to ".join(ends) if math.isfinite(error) else "not known"
         rows.append(
             Gain(
                 "angle" if name == "offset_rad" else name,
-                _use_minus_signs(round_to_error(value, error)),
+                _use_minus_signs(format_value(value, error)),
                 format_error(value, error),
                 _use_minus_signs(between),
                 found.format_gain_unit(name),

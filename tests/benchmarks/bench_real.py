@@ -33,6 +33,7 @@ from pathlib import Path
 import numpy as np
 
 import sim
+from sim.cli.options import LogReader
 from sim.cli.reconcile import inspect_damage
 from sim.core.errors import Refusal
 from sim.core.log import Array, Log, Run
@@ -177,7 +178,7 @@ def fit_log(path: Path) -> FittedLog:
     started = time.process_time()
     log, found, refusal = None, None, ""
     try:
-        log = sim.read(path)
+        log = LogReader().read_joined([path])
         found = fit(log, type=log.type or "simple").in_units(log.units)
     except Refusal as refused:
         refusal = str(refused).splitlines()[0]

@@ -20,12 +20,11 @@ from sim.cli.fit.plausibility import (
 )
 from sim.cli.options import (
     FILE,
-    PartReader,
+    LogReader,
     as_json,
     combine_options,
     reading_options,
     refuse_overwriting,
-    velocity_options,
 )
 from sim.core.vocabulary import METHODS
 from sim.feedback import PRESETS, Feedback
@@ -61,7 +60,6 @@ feedback_options = combine_options(
 @click.command()
 @click.argument("files", nargs=-1, required=True, type=FILE)
 @reading_options
-@velocity_options
 @click.option(
     "--method",
     type=click.Choice(METHODS),
@@ -105,14 +103,9 @@ def fit(  # noqa: PLR0917 - click passes options by name
     ctx: click.Context,
     /,
     files: tuple[Path, ...],
-    type_: str | None,
-    units: str | None,
+    reader: LogReader,
     method: str,
     median: int,
-    motor: str | None,
-    pick: int | None,
-    velocity_scale: float,
-    ignore_velocity: bool,  # noqa: FBT001 - click passes it by name
     preset: str,
     driven_by: str | None,
     count: int,
@@ -129,7 +122,6 @@ def fit(  # noqa: PLR0917 - click passes options by name
     plot: Path | None,
     wpilog: Path | None,
     as_json: bool,  # noqa: FBT001 - click passes it by name
-    **entries: str | None,
 ) -> int:
     """Find kS, kV, kA (and kG) in the logs of one mechanism.
 
@@ -140,22 +132,22 @@ def fit(  # noqa: PLR0917 - click passes options by name
     For example: sysid fit drive.wpilog --html drive.html
     """
     from sim.fit import fit as find_gains  # noqa: PLC0415 - as all here: --help must not wait
+    from sim.fit.between_recordings import describe_next_recording  # noqa: PLC0415
     from sim.fit.feedback_trial import try_feedback_gains, warn_of_bad_suggestions  # noqa: PLC0415
 
     own = _read_own_gains(ctx, loop, kp=own_kp, kd=own_kd)
     built = read_motor_parts(driven_by, count=count, ratio=ratio, radius=radius, load=load)
-    reader = PartReader(
-        units, type_, motor, entries, None if ignore_velocity else velocity_scale, pick
-    )
-    parts = reader.read(files)
+    parts = reader.read_parts(files)
     log = join_parts(parts)
-    find = partial(find_gains, type=type_ or "", method=method, median=median)
+    find = partial(find_gains, type=reader.type or "", method=method, median=median)
     pooled = fit_parts(parts, find, files=len(files))
     found, notes = check_against_physics(pooled.found, log, parts=built, notes=pooled.notes)
     if not (as_json or paste):
         found, more = compare_directions_alone(found, log, include_long=html is not None)
         notes = (*more, *notes)
     found, notes, turned = add_inertia(found, notes, log, turning, method=method)
+    if len(files) == 1 and (said := describe_next_recording(found)):
+        notes = (*notes, said)
     tried = try_feedback_gains(found := found.in_log_units(), PRESETS[preset], own=own)
     found = replace(found, doubts=(*found.doubts, *warn_of_bad_suggestions(found, tried)))
     output = _FitOutput(files, found, log, preset, tried, notes, pooled.to_json(), turned)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from sim.cli.fit.parts import fit_parts
-from sim.cli.options import FILE, PartReader, combine_options
+from sim.cli.options import FILE, LogReader, combine_options
 from sim.core.errors import BadRequest
 
 if TYPE_CHECKING:
@@ -109,7 +109,7 @@ def find_inertia(
             where=log.source,
             advice="Name the MotorVoltage of a drive motor with --voltage.",
         )
-    parts = PartReader(type="simple").read((turning.straight,))
+    parts = LogReader(type="simple").read_parts((turning.straight,))
     find = partial(find_gains, type="simple", method=method)
     straight = fit_parts(parts, find).found
     wheels = any(doubt.code == "turning-drivetrain" for doubt in log.doubts)

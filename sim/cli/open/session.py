@@ -40,12 +40,6 @@ class Reading:
     type: str | None = None
     entries: tuple[tuple[str, str], ...] = ()
 
-    @property
-    def differentiates_position(self) -> bool:
-        """Whether a position was chosen and no velocity: its slope is the velocity."""
-        chosen = dict(self.entries)
-        return "position" in chosen and "velocity" not in chosen
-
 
 @dataclass(frozen=True)
 class LiveView:
@@ -94,15 +88,10 @@ class OpenLog:
         def read() -> "dict[str, Log]":
             if self.finished is not None and reading == Reading():
                 return dict(self.finished)
-            from sim.cli.options import PartReader  # noqa: PLC0415 - reads formats
+            from sim.cli.options import LogReader  # noqa: PLC0415 - reads formats
 
-            reader = PartReader(
-                reading.units,
-                reading.type,
-                entries=dict(reading.entries),
-                velocity=None if reading.differentiates_position else 1.0,
-            )
-            return dict(reader.read([self.path]))
+            reader = LogReader(reading.units, reading.type, entries=dict(reading.entries))
+            return dict(reader.read_parts([self.path]))
 
         return self._compute_once(("parts", reading), read)
 
@@ -156,10 +145,10 @@ class OpenLog:
         from sim.cli.open.reconcile_job import ReconcileJob  # noqa: PLC0415 - once it is needed
 
         def read_file() -> "Log":
-            from sim.io import read  # noqa: PLC0415 - reads formats
+            from sim.cli.options import LogReader  # noqa: PLC0415 - reads formats
 
-            entries = dict(reading.entries)
-            return read(self.path, units=reading.units, type=reading.type, entries=entries)
+            reader = LogReader(reading.units, reading.type, entries=dict(reading.entries))
+            return reader.read_joined([self.path])
 
         return self._compute_once(
             ("reconcile", reading),

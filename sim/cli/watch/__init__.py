@@ -14,7 +14,7 @@ import click
 
 from sim.cli.fit.plausibility import check_against_physics, compare_directions_alone
 from sim.cli.open import open_browser, page_options
-from sim.cli.options import FILE, PartReader, as_json, reading_options, velocity_options
+from sim.cli.options import FILE, LogReader, as_json, reading_options
 from sim.core.vocabulary import FOUR_TESTS
 from sim.feedback import PRESETS
 from sim.support.command_line import DONE
@@ -41,7 +41,6 @@ PAUSE = 0.2  # [s] between polls; a WPILib program writes its log to disk four t
 @click.option("--page", is_flag=True, help="Also show the runs live, on the page of `sysid open`.")
 @page_options
 @reading_options
-@velocity_options
 @as_json
 def watch(
     place: Path | None,
@@ -51,14 +50,8 @@ def watch(
     page: bool,
     port: int,
     no_browser: bool,
-    type_: str | None,
-    units: str | None,
-    motor: str | None,
-    pick: int | None,
-    velocity_scale: float,
-    ignore_velocity: bool,
+    reader: LogReader,
     as_json: bool,
-    **entries: str | None,
 ) -> int:
     """Fit a robot's log after each test, and say what to do next.
 
@@ -73,12 +66,9 @@ def watch(
         raise click.UsageError("--save keeps what NetworkTables sends, so it needs --nt.")
     from sim.cli.watch.live_fit import LiveFit  # noqa: PLC0415 - --help must not wait for it
 
-    reader = PartReader(
-        units, type_, motor, entries, None if ignore_velocity else velocity_scale, pick
-    )
     with ExitStack() as stack:
-        source = _open_source(place, nt=nt, save=save, state=entries["state"], stack=stack)
-        live = LiveFit(source, reader.read_file, type=type_ or "")
+        source = _open_source(place, nt=nt, save=save, state=reader.entries["state"], stack=stack)
+        live = LiveFit(source, reader.read_file, type=reader.type or "")
         session = _open_page(port, stack=stack, no_browser=no_browser) if page else None
         if not as_json:
             click.echo(f"Run {', '.join(FOUR_TESTS)}, in any order.\nCtrl-C here ends it.")

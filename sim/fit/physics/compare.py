@@ -89,6 +89,7 @@ def _differing_gains(
 ) -> tuple[Doubt, ...]:
     """Doubts about gains that differ significantly, and by more than ``APART`` and ``NOTICED``."""
     per = find_unit(one.log_units)
+    springs = one.type != "simple" and what == "direction"  # a spring pulls one way
     mirror = -1.0 if one.gains["kV"] * other.gains["kV"] < 0.0 else 1.0
     doubts = []
     for gain, why in SUSPECTS.items():
@@ -103,13 +104,15 @@ def _differing_gains(
         if abs(a - b) <= least:
             continue
         size = per.si if gain in {"kV", "kA"} else 1.0
+        suspects = f"a spring, a counterweight or tubing, then {why}" if springs else why
         share = abs(a - b) / max(0.5 * abs(a + b), 1e-300)
         doubts.append(
             Doubt(
                 f"{what}s-differ",
                 f"{gain} is {a * size:.3g} {names[0]} and {b * size:.3g} "
                 f"{format_gain_unit(gain, per)} {names[1]}, {share:.0%} apart; one gain for both "
-                f"is wrong for each: check {why}.",
+                f"is wrong for each: check {suspects}.",
+                gains=(gain,),
             )
         )
     return tuple(doubts)

@@ -110,5 +110,6 @@ def check_timescale(found: Fit, period: float) -> list[Doubt]:
             f"{period * 1000:.3g} ms between two samples, so kA is uncertain. Log every "
             f"{max(scale / 4.0, 0.001) * 1000:.2g} ms (a faster status frame and a Notifier), "
             "or compute kA from the load, and use only kV for the feedback gains.",
+            gains=("kA",),
         )
     ]

@@ -6,6 +6,7 @@ from sim.core.doubt import Doubt
 from sim.core.units import find_unit
 from sim.fit.sysid_rows import estimate_noise_floor
 from sim.inspect.log_features import LogFeatures
+from sim.inspect.log_units import FAR, doubt_scale
 
 LAG = 0.02, 1.5  # [s, periods] largest delay without a filter
 SIGMAS = 3.0  # [standard errors] of a significant delay
@@ -17,10 +18,8 @@ FILTERS = {  # [s] WPILib's figures for the delay of a velocity
 ALIKE = 0.15  # [share] largest difference of a delay from one of them
 FEWEST = 10  # [samples] of a ramp that is evaluated
 PASSES = 0.1  # [share of a ramp's rows] that may be at rest and count as motion
-SCALE = 0.03  # [share] by which velocity and position may differ
 FASTEST = 60.0  # [m/s] nothing on a robot is faster
 FULL = 12.0  # [V]
-FAR = 2.5  # [1] a larger factor is a fault of the catalogue
 
 
 def check_velocity_lag(features: LogFeatures) -> list[Doubt]:
@@ -51,17 +50,7 @@ def check_velocity_lag(features: LogFeatures) -> list[Doubt]:
 
 def check_velocity_scale(features: LogFeatures) -> list[Doubt]:
     """Doubts about a velocity that is a little too large or small for its position."""
-    usual = features.usual_distance_ratio
-    if abs(usual - 1.0) < SCALE or not 1.0 / FAR < usual < FAR:
-        return []
-    return [
-        Doubt(
-            "scales-differ",
-            f"The velocity is {usual:.3f} times the slope of the position in all runs: one of "
-            "the two has a wrong conversion factor. kV and kA depend on the velocity. Move the "
-            "mechanism by a known distance, and check whether the position agrees.",
-        )
-    ]
+    return list(doubt_scale(features))
 
 
 def check_plausible_speed(features: LogFeatures) -> list[Doubt]:

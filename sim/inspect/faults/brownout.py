@@ -44,7 +44,7 @@ TOGETHER = 2.0  # [s] cuts closer than this are one brownout
 BUS_CONFIDENCE = 0.98  # if the bus voltage shows it
 CUT_CONFIDENCE = 0.9  # if only the applied voltage shows it
 SLACK = 0.06  # [s] uncertainty of an anomaly's begin and end
-LOWEST = 0.6  # [V] a lower command does not load a battery; a deadband looks the same
+LOWEST = 2.3  # [V] a lower command does not load a battery so much; a deadband looks the same
 MOVED = 5  # [samples] before a cut in which the mechanism moves
 ENDS = 12  # ends of the cut that are tried at first
 SHORTEST = 0.14  # [s] of a cut that only the motion shows: controllers cut for longer
@@ -62,9 +62,10 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
     run = log.runs[strike.run]
     start = float(run.time[0]) + strike.start
     lasts = CUT * strike.severity * rng.uniform(0.9, 1.1)
-    end = start + min(lasts, (float(run.time[-1]) - start) / 2.0)
+    room = (float(run.time[-1]) - start) / 2.0
+    end = start + min(lasts, room)
     cut = (run.time >= start) & (run.time < end)
-    if features.baseline is None or not cut.any():
+    if features.baseline is None or room < OFF[0] or not cut.any():
         return DamagedLog(log, ())
     first = int(np.argmax(cut))
     velocity = features.predicted_velocities[strike.run][first]
@@ -258,4 +259,5 @@ FAULT = Fault(
     spoil=spoil,
     detect=detect,
     when=(0.3, 0.6),
+    least_voltage=2.5,
 )

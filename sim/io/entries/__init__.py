@@ -15,7 +15,7 @@ from sim.core.errors import BadRequest, MissingSignal, Refusal
 from sim.core.log import Log
 from sim.core.units import UNITS
 from sim.io.entries.discovery import find_devices, find_driven_interval
-from sim.io.entries.entry import Entry
+from sim.io.entries.entry import Entry, find_missing_motion
 from sim.io.entries.mirrored import turn_mirrored_motors
 from sim.io.entries.motors import EXPORT, MotorEntries, find_motors, make_no_motor_error
 from sim.io.entries.names import (
@@ -145,6 +145,7 @@ def _make_log(found: _Mechanism, motors: tuple[MotorEntries, ...], *, where: str
         type=type_,
         source=where,
         doubts=(*found.doubts, *result.doubts),
+        computed=find_missing_motion(motors[0].signals) or "",
     )
 
 

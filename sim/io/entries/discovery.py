@@ -16,7 +16,7 @@ from typing import TypeAlias
 import numpy as np
 
 from sim.core.log import Array
-from sim.io.entries.entry import NEEDED, NUMBERS, OPTIONAL, Entry, ValuesEntry
+from sim.io.entries.entry import NEEDED, NUMBERS, OPTIONAL, Entry, ValuesEntry, can_be_fitted
 from sim.io.entries.names import split_unit, split_words
 from sim.io.entries.state import RunInterval
 from sim.io.entries.units import find_unit_in_metadata, parse_signal_unit
@@ -75,15 +75,8 @@ class Device:
 
     @property
     def is_complete(self) -> bool:
-        """Whether it has all signals that a fit needs."""
+        """Whether it has voltage, position and velocity."""
         return all(signal in self.signals for signal in NEEDED)
-
-    def use_position_as_velocity(self) -> "Device":
-        """A copy of the device whose velocity entry is replaced by its position entry."""
-        position = self.signals.get("position")
-        if position is None:
-            return self
-        return Device(self.name, {**self.signals, "velocity": position})
 
 
 DeviceGroup: TypeAlias = tuple[list[Device], list[RunInterval]]  # motors of a mechanism, its tests
@@ -164,13 +157,18 @@ def may_be_signal(name: str, metadata: str) -> bool:
 
 
 def select_driven_devices(devices: Sequence[Device], tests: Sequence[RunInterval]) -> list[Device]:
-    """The devices with a voltage during the tests whose velocity matches their position."""
-    levels = [(device, _rms_voltage(device, tests)) for device in devices if device.is_complete]
+    """The devices with a voltage during the tests whose velocity matches their position.
+
+    Devices without a position or without a velocity count only if no device has both.
+    """
+    usable = [device for device in devices if can_be_fitted(device.signals)]
+    usable = [device for device in usable if device.is_complete] or usable
+    levels = [(device, _rms_voltage(device, tests)) for device in usable]
     most = max((level for _, level in levels), default=0.0)
     return [
         device
         for device, level in levels
-        if most > ZERO and level >= DRIVEN * most and _velocity_matches_position(device, tests)
+        if most > ZERO and level >= DRIVEN * most and _moves(device, tests)
     ]
 
 
@@ -261,12 +259,15 @@ def _rms_voltage(device: Device, tests: Sequence[RunInterval]) -> float:
     return float(np.sqrt(np.mean(np.square(every)))) if every.size else 0.0
 
 
-def _velocity_matches_position(device: Device, tests: Sequence[RunInterval]) -> bool:
+def _moves(device: Device, tests: Sequence[RunInterval]) -> bool:
     """Whether the velocity of a device correlates with the slope of its position during tests.
 
-    A position that was logged as the velocity passes, too: a fit uses its slope.
+    A position that was logged as the velocity passes, too: a fit uses its slope. Of a device with
+    only one of them, it has to change.
     """
-    position, velocity = device.signals["position"], device.signals["velocity"]
+    position, velocity = (device.signals.get(name) for name in ("position", "velocity"))
+    if position is None or velocity is None:
+        return _changes(next(one for one in (position, velocity) if one is not None), tests)
     x, v = position.numbers(), velocity.numbers()
     parts = _samples_between(velocity, tests)
     if any(
@@ -284,6 +285,12 @@ def _velocity_matches_position(device: Device, tests: Sequence[RunInterval]) -> 
     slope, speed = np.concatenate(slopes), np.concatenate(speeds)
     size = float(np.linalg.norm(slope) * np.linalg.norm(speed))
     return size > 0.0 and float(slope @ speed) > MOVES * size
+
+
+def _changes(entry: Entry, tests: Sequence[RunInterval]) -> bool:
+    """Whether the values of an entry change during tests."""
+    values = entry.numbers()
+    return any(np.any(np.diff(values[part])) for part in _samples_between(entry, tests))
 
 
 def _same_motion(one: Array, other: Array) -> bool:

@@ -1,5 +1,6 @@
 """An entry of a log: a named series of values of one type, each with its time."""
 
+from collections.abc import Container
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -12,8 +13,18 @@ Numbers: TypeAlias = NDArray[np.int64]
 
 NUMBERS = ("double", "float", "int64")  # types that a signal may have, preferred ones first
 STRING = "string"
-NEEDED = ("voltage", "position", "velocity")  # signals of a motor that a fit needs
+NEEDED = ("voltage", "position", "velocity")  # signals of a motor for a fit
 OPTIONAL = ("current", "bus_voltage")
+
+
+def find_missing_motion(signals: Container[str]) -> str | None:
+    """``position`` or ``velocity`` if a motor's signals lack it; None if they have both."""
+    return next((name for name in ("position", "velocity") if name not in signals), None)
+
+
+def can_be_fitted(signals: Container[str]) -> bool:
+    """Whether a motor has a voltage, and a position or a velocity."""
+    return "voltage" in signals and ("position" in signals or "velocity" in signals)
 
 
 @dataclass(frozen=True, eq=False)

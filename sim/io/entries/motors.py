@@ -19,7 +19,14 @@ from sim.io.entries.discovery import (
     identify_signal,
     select_driven_devices,
 )
-from sim.io.entries.entry import NEEDED, NUMBERS, OPTIONAL, Entry
+from sim.io.entries.entry import (
+    NEEDED,
+    NUMBERS,
+    OPTIONAL,
+    Entry,
+    can_be_fitted,
+    find_missing_motion,
+)
 from sim.io.entries.names import (
     explain_unfit_entry,
     find_requested_entry,
@@ -29,7 +36,7 @@ from sim.io.entries.names import (
     split_words,
 )
 from sim.io.entries.state import WORD, RunInterval, StateEntry
-from sim.io.format import ReadOptions
+from sim.io.format import ReadOptions, warn_of_missing_signal
 
 FLAGS = "--voltage ENTRY --position ENTRY --velocity ENTRY"
 EXPORT = (
@@ -57,7 +64,7 @@ class MotorEntries:
 
     @property
     def is_complete(self) -> bool:
-        """Whether it has all signals that a fit needs."""
+        """Whether it has voltage, position and velocity."""
         return all(signal in self.signals for signal in NEEDED)
 
 
@@ -79,16 +86,13 @@ class _Search:
     @cached_property
     def given(self) -> dict[str, Entry]:
         """The signals whose entries the user named."""
-        given = {
+        return {
             signal: find_requested_entry(
                 name, role=signal, kinds=NUMBERS, entries=self.entries, where=self.where
             )
             for signal, name in self.options.entries.items()
             if signal in NEEDED + OPTIONAL
         }
-        if self.options.ignore_velocity and "position" in given:
-            given["velocity"] = given["position"]  # its slope is computed later
-        return given
 
 
 def find_motors(
@@ -99,7 +103,7 @@ def find_motors(
     options: ReadOptions,
     where: str,
 ) -> tuple[tuple[MotorEntries, ...], tuple[Doubt, ...], tuple[RunInterval, ...]]:
-    """The motors of a mechanism that have all signals.
+    """The motors of a mechanism that can be fitted; those with all signals, if there are any.
 
     Args:
         state: the entry that names its tests.
@@ -109,27 +113,32 @@ def find_motors(
         where: the file, for messages.
 
     Returns:
-        At least one motor, doubts about motors left out, and the tests in which they are driven.
+        At least one motor, doubts about missing signals, and the tests in which they are driven.
 
     Raises:
-        MissingSignal: no motor has all signals; the message names what is missing.
+        MissingSignal: no motor can be fitted; the message names what is missing.
         BadRequest: the chosen motor is not there, or a name is ambiguous.
     """
     search = _Search(entries, state, options, where)
     by_hand = MotorEntries(options.motor or "", search.given)
     if by_hand.is_complete:
-        return (by_hand,), (), tuple(tests)
+        return _drop_velocity([by_hand], search), (), tuple(tests)
     found = _find_named_motors(search)
     noted: tuple[Doubt, ...] = ()
-    if not search.given and not any(motor.is_complete for motor in found):
+    if not search.given and not any(can_be_fitted(motor.signals) for motor in found):
         other, tests = _discover_motors(search, tests)
         found, noted = other or found, (_doubt_found_signals(other, where),) if other else ()
     if options.motor is not None:
         found = [_choose_motor(found, search)]
-    whole = tuple(motor for motor in found if motor.is_complete)
-    if not whole:
+    usable = [motor for motor in (*found, by_hand) if can_be_fitted(motor.signals)]
+    if not usable:
         raise _make_missing_error(found, search)
-    return whole, (*noted, *_doubt_incomplete_motors(found, where)), tuple(tests)
+    missing = min(find_missing_motion(motor.signals) or "" for motor in usable)
+    chosen = [one for one in usable if (find_missing_motion(one.signals) or "") == missing]
+    others = [one for one in found if one not in chosen]
+    noted += warn_of_missing_signal(missing or None, options, where=where)
+    noted += tuple(_doubt_incomplete_motors(others, where))
+    return _drop_velocity(chosen, search), noted, tuple(tests)
 
 
 def _discover_motors(
@@ -140,10 +149,7 @@ def _discover_motors(
     Raises:
         BadRequest: several mechanisms are driven one after another, and none was chosen.
     """
-    devices = find_devices(search.entries)
-    if search.options.ignore_velocity:
-        devices = [one.use_position_as_velocity() for one in devices]
-    driven = select_driven_devices(devices, tests)
+    driven = select_driven_devices(find_devices(search.entries), tests)
     words = set(split_words(search.state.mechanism))
     some = [one for one in driven if words & set(split_words(one.name))] or driven
     if search.options.motor is None and some:
@@ -169,17 +175,29 @@ def _choose_group(groups: Sequence[DeviceGroup], search: _Search) -> DeviceGroup
     )
 
 
-def _without_velocity(motor: MotorEntries) -> MotorEntries:
-    """A motor whose velocity entry is replaced by its position entry."""
-    if "position" not in motor.signals:
-        return motor
-    return MotorEntries(motor.name, {**motor.signals, "velocity": motor.signals["position"]})
+def _drop_velocity(motors: Sequence[MotorEntries], search: _Search) -> tuple[MotorEntries, ...]:
+    """The motors; without their velocity, if the user wants it ignored and there is a position."""
+    if not search.options.ignore_velocity:
+        return tuple(motors)
+    return tuple(
+        MotorEntries(
+            one.name,
+            {
+                signal: entry
+                for signal, entry in one.signals.items()
+                if signal != "velocity" or "position" not in one.signals
+            },
+        )
+        for one in motors
+    )
 
 
 def _doubt_found_signals(motors: Sequence[MotorEntries], where: str) -> Doubt:
     """The doubt that names the entries found without SysId's names."""
     first = motors[0].signals
-    names = ", ".join(f"{signal} from {first[signal].name!r}" for signal in NEEDED)
+    names = ", ".join(
+        f"{signal} from {first[signal].name!r}" for signal in NEEDED if signal in first
+    )
     more = f", and the like of {len(motors) - 1} more" if len(motors) > 1 else ""
     return Doubt(
         "signals-found",
@@ -216,8 +234,7 @@ def _find_named_motors(search: _Search) -> list[MotorEntries]:
             )
         usable = sorted(paths[path], key=lambda entry: NUMBERS.index(entry.type))
         motors.setdefault(motor, {})[signal] = usable[0]
-    found = [MotorEntries(name, signals | search.given) for name, signals in motors.items()]
-    return [_without_velocity(one) if search.options.ignore_velocity else one for one in found]
+    return [MotorEntries(name, signals | search.given) for name, signals in motors.items()]
 
 
 def _split_signal_name(name: str, signal: str, search: _Search) -> tuple[str, str] | None:
@@ -253,15 +270,14 @@ def _choose_motor(found: Sequence[MotorEntries], search: _Search) -> MotorEntrie
     )
 
 
-def _doubt_incomplete_motors(found: Sequence[MotorEntries], where: str) -> Iterator[Doubt]:
-    for motor in found:
+def _doubt_incomplete_motors(others: Sequence[MotorEntries], where: str) -> Iterator[Doubt]:
+    for motor in others:
         lacking = [signal for signal in NEEDED if signal not in motor.signals]
-        if lacking:
-            yield Doubt(
-                "incomplete-motor",
-                f"{where}: motor {motor.name!r} has no {' and no '.join(lacking)} and was "
-                "left out. Log all three signals of every motor that should count.",
-            )
+        yield Doubt(
+            "incomplete-motor",
+            f"{where}: motor {motor.name!r} has no {' and no '.join(lacking)} and was "
+            "left out. Log all three signals of every motor that should count.",
+        )
 
 
 def _make_missing_error(found: Sequence[MotorEntries], search: _Search) -> MissingSignal:

@@ -1,6 +1,6 @@
 """Cut the signals of a mechanism's motors into runs, by the intervals of its tests."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
 from typing import TypeAlias
@@ -81,9 +81,9 @@ def cut_runs(
     """
     scales = _choose_scales(motors, options=options, where=where)
     signals = _scale_signals(motors, scales)
-    needed = [series for signal in NEEDED for series in signals[signal]]
+    needed = [series for name in _list_needed(signals) for series in signals[name]]
     spans = [(interval.begin, interval.end) for interval in intervals]
-    entries = [motor.signals[signal] for motor in motors for signal in NEEDED]
+    entries = [motor.signals[name] for motor in motors for name in _list_needed(signals)]
     held = logs_only_changes(needed, spans, suspected=all(map(is_from_network_tables, entries)))
     doubts = [doubt for scale in scales for doubt in scale.doubts]
     doubts += _doubt_sparse_signals(signals, spans, held=held, where=where)
@@ -145,9 +145,14 @@ def _scale_signals(
     return signals
 
 
+def _list_needed(signals: Iterable[str]) -> list[str]:
+    """Those of the signals without which a sample is left out."""
+    return [name for name in NEEDED if name in signals]
+
+
 def _sample_held(signals: Signals, interval: RunInterval) -> _Sampled:
     """One run of a log in which only changes were logged: each value holds until the next."""
-    needed = [series for name in NEEDED for series in signals[name]]
+    needed = [series for name in _list_needed(signals) for series in signals[name]]
     time = find_loop_times(needed, interval.begin, interval.end)
     known = {
         name: np.array([hold_last_value(one, time) for one in several])
@@ -169,9 +174,10 @@ def _sample_interpolated(signals: Signals, interval: RunInterval) -> _Sampled:
         if all(part.time_count >= ENOUGH for part in several)
     }
     every = parts["voltage"][0].time
-    if not usable.keys() >= set(NEEDED):
+    if not usable.keys() >= set(_list_needed(signals)):
         return _Sampled(interval.test, every[:0], {})
-    time = select_covered_times([part for name in NEEDED for part in usable[name]], every)
+    needed = [part for name in _list_needed(signals) for part in usable[name]]
+    time = select_covered_times(needed, every)
     columns = {
         name: np.array([interpolate_linear(part, time) for part in several])
         for name, several in usable.items()
@@ -207,7 +213,7 @@ def _doubt_sparse_signals(
     signals: Signals, spans: Sequence[tuple[int, int]], *, held: bool, where: str
 ) -> Iterator[Doubt]:
     """Doubts about signals that were not logged in every loop."""
-    needed = [(name, series) for name in NEEDED for series in signals[name]]
+    needed = [(name, series) for name in _list_needed(signals) for series in signals[name]]
     parts = [[series.between(*span) for span in spans] for _, series in needed]
     counts = {name: sum(map(len, row)) for (name, _), row in zip(needed, parts, strict=True)}
     many = ", ".join(f"{count} samples of {name}" for name, count in counts.items())
@@ -239,7 +245,8 @@ def _doubt_combined_motors(
     if len(motors) == 1:
         return
     names = [motor.name for motor in motors]
-    for signal in ("voltage", "velocity") if runs else ():
+    directed = [name for name in ("voltage", "velocity") if runs and name in runs[0].signals]
+    for signal in directed:
         rows = np.concatenate([run.signals[signal] for run in runs], axis=1)
         length = np.linalg.norm(rows, axis=1)
         for i, j in combinations(range(len(names)), 2):

@@ -52,7 +52,11 @@ PIGEON = {"position": "degrees", "velocity": "degrees per second"}
 """Units of CTRE's gyro, which differ from those of other Phoenix 6 devices."""
 _PIGEON = re.compile(r"pigeon", re.IGNORECASE)
 _RATE = re.compile(r"rotational[ _]?rate", re.IGNORECASE)
-SHORT = {"rpm": "rotation per minute", "rps": "rotation per second"}
+SHORT = {
+    "rpm": "rotation per minute",
+    "rps": "rotation per second",
+    "mps": "meter per second",
+}
 
 
 @dataclass(frozen=True)
@@ -165,9 +169,7 @@ def choose_scale(signals: Mapping[str, Entry], *, options: ReadOptions, where: s
     Raises:
         BadRequest: the position is an angle and the velocity a length, or the reverse.
     """
-    stands_in = signals["velocity"] is signals["position"]  # only its slope is used
-    needed = [signal for signal in NEEDED if not (stands_in and signal == "velocity")]
-    texts = {signal: find_unit_text(signals[signal], signal) for signal in needed}
+    texts = {name: find_unit_text(signals[name], name) for name in NEEDED if name in signals}
     parsed = {signal: parse_signal_unit(text, signal) for signal, text in texts.items()}
     stated = [found.units for name in ("position", "velocity") if (found := parsed.get(name))]
     if options.units is None and len({UNITS[units].angular for units in stated}) > 1:
@@ -204,8 +206,6 @@ def choose_scale(signals: Mapping[str, Entry], *, options: ReadOptions, where: s
         )
     if _RATE.search(signals["voltage"].name):
         doubts.append(_rate_doubt(signals["voltage"].name, where))
-    if stands_in:
-        factors["velocity"] = factors["position"]
     return EntryScale(units, factors, tuple(doubts))
 
 

@@ -1,12 +1,14 @@
 """CSV: one row per sample, with the header ``test,time_s,voltage,position,velocity``.
 
-The columns may be in any order; ``run``, ``current`` and ``bus_voltage`` are optional. Without
-``run``, a new run begins where the test changes or time goes back. The file does not state the unit
-of its positions and velocities. Files from European spreadsheets (``;`` between the cells, decimal
-commas) are read, too, and so are exports of DataLogTool and AdvantageScope (``entries``).
+The columns may be in any order. ``run``, ``current``, ``bus_voltage``, ``type`` and ``units`` (of
+the positions and velocities) are optional, and of ``position`` and ``velocity`` one suffices.
+Without ``run``, a new run begins where the test changes or time goes back. Files from European
+spreadsheets (``;`` between the cells, decimal commas) are read, too, and so are those of other
+programs (``entries``).
 """
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -15,11 +17,19 @@ from numpy.typing import NDArray
 from sim.core.errors import BadRequest, BadSample, UnreadableFile
 from sim.core.log import Array, Log, Run
 from sim.core.units import find_unit
+from sim.core.vocabulary import TYPES
 from sim.io.entries import assemble_log, assemble_motor_logs
-from sim.io.entries.entry import Entry
-from sim.io.format import HEAD, ReadOptions, make_run, refuse_pick, warn_of_motor_choice
+from sim.io.entries.entry import Entry, find_missing_motion
+from sim.io.format import (
+    HEAD,
+    ReadOptions,
+    make_run,
+    refuse_pick,
+    warn_of_missing_signal,
+    warn_of_motor_choice,
+)
 from sim.io.formats.csv.entries import is_export, read_entries
-from sim.io.formats.csv.table import EXTRA, KNOWN, NEEDED, CsvTable, open_table, read_header
+from sim.io.formats.csv.table import EXTRA, KNOWN, NEEDED, STATED, CsvTable, open_table, read_header
 
 SUFFIXES = (".csv",)
 ENOUGH = 3  # [columns] of ours in the header that identify the format
@@ -73,12 +83,15 @@ def read(path: Path, options: ReadOptions) -> Log:
     refuse_pick(options.pick, where=str(path))
     table = open_table(path, entries=options.entries)
     tests, codes = table.group_by_test()
+    options = _take_stated(table, options)
+    present = [name for name in NEEDED[2:] if name in table.cells]
     signals = {"time": table.parse_column("time_s")}
-    signals |= {name: table.parse_column(name) for name in ("voltage", "position", "velocity")}
+    signals |= {name: table.parse_column(name) for name in present}
     signals |= {name: table.parse_column(name, gaps=True) for name in EXTRA if name in table.cells}
     si = find_unit(options.units_or_default).si
     runs: list[Run] = []
     doubts = [*table.doubts, *warn_of_motor_choice(options.motor, where=table.where)]
+    doubts += warn_of_missing_signal(find_missing_motion(present), options, where=table.where)
     for number, rows in enumerate(_split(table, codes, signals["time"])):
         mine = {
             name: values[rows]
@@ -95,6 +108,7 @@ def read(path: Path, options: ReadOptions) -> Log:
         type=options.type or "",
         source=table.where,
         doubts=tuple(doubts),
+        computed=find_missing_motion(present) or "",
     )
 
 
@@ -109,10 +123,25 @@ def read_motors(path: Path, options: ReadOptions) -> dict[str, Log]:
     return assemble_motor_logs(read_entries(path), options=options, where=str(path))[0]
 
 
+def _take_stated(table: CsvTable, options: ReadOptions) -> ReadOptions:
+    """The options, with the type and the units that the file states and the user does not."""
+    units, type_ = table.find_stated("units"), table.find_stated("type")
+    if type_ not in {None, *TYPES}:
+        raise UnreadableFile(
+            f"type is {type_!r}", where=table.where, advice=f"Types are {', '.join(TYPES)}."
+        )
+    return replace(
+        options,
+        units=options.units or (find_unit(units).name if units else None),
+        type=options.type or type_,
+    )
+
+
 def write(log: Log, path: Path) -> None:
     """Write a log, with every number in the shortest form that reads back the same.
 
-    The column ``run`` is written only if a test occurs twice.
+    The column ``run`` is written only if a test occurs twice, and ``type`` and ``units`` only if
+    the log is not of a simple mechanism in meters.
 
     Args:
         log: the log to write; positions are written in its ``units``.
@@ -130,11 +159,19 @@ def write(log: Log, path: Path) -> None:
     numbered = len({run.test for run in log.runs}) < len(log.runs)
     extra = [name for name in EXTRA if any(getattr(run, name) is not None for run in log.runs)]
     with path.open("w", encoding="utf-8", newline="") as stream:
-        stream.write(",".join([*(["run"] if numbered else []), *NEEDED, *extra]) + "\n")
+        stated = [] if _is_usual(log) else list(STATED)
+        header = [*(["run"] if numbered else []), *NEEDED, *extra, *stated]
+        stream.write(",".join(header) + "\n")
+        end = f",{log.type or 'simple'},{log.units}\n" if stated else "\n"
         for number, run in enumerate(log.runs):
             prefix = f"{number},{run.test}," if numbered else f"{run.test},"
             for row in _rows(run, extra=extra, si=find_unit(log.units).si):
-                stream.write(f"{prefix}{row}\n")
+                stream.write(f"{prefix}{row}{end}")
+
+
+def _is_usual(log: Log) -> bool:
+    """Whether a reader takes a file that states no type and no units for this log."""
+    return log.type in {"", "simple"} and log.units == ReadOptions().units_or_default
 
 
 def _rows(run: Run, *, extra: list[str], si: float) -> Iterator[str]:

@@ -1,7 +1,9 @@
-"""Entries of a CSV export of DataLogTool or AdvantageScope, in either layout.
+"""Entries of a CSV file of another program, such as DataLogTool or AdvantageScope.
 
 Timestamp,Name,Value        a list: a row for each value (AdvantageScope calls it Key)
 Timestamp,<entry>,…         a table: a column for each entry, with empty cells without a value
+
+The times may have another name (``t``, ``time_ms``) and stand in any column of a table.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
@@ -11,19 +13,42 @@ import numpy as np
 
 from sim.core.errors import BadSample, UnreadableFile
 from sim.io.entries.entry import STRING, Entry, ValuesEntry
-from sim.io.formats.csv.table import split_rows
+from sim.io.entries.names import split_unit, split_words
+from sim.io.formats.csv.table import is_number, split_rows
 
-TIME = "timestamp"
+TIMES = frozenset({"t", "time", "timestamp"})
+UNITS = {  # unit of a time -> in µs
+    **dict.fromkeys(("s", "sec", "second", "seconds"), 1e6),
+    **dict.fromkeys(("ms", "msec", "millisecond", "milliseconds"), 1e3),
+    **dict.fromkeys(("us", "µs", "usec", "microsecond", "microseconds"), 1.0),
+}
+SLOWEST = 0.5  # [s] between two rows; where it seems to be more, the times are not in seconds
 LISTED = ({"name", "value"}, {"key", "value"})  # the other columns of a list
 EMPTY = ("", "null")  # cells without a value
-SECOND = 1e6  # [µs]
+PAUSE = 1e6  # [µs] put between two runs, where each begins at the same time
+IDLE = "none"  # the state between them
 
 _Sample = tuple[float, str]  # time [µs] and cell
 
 
 def is_export(names: Sequence[str]) -> bool:
-    """Whether the lower-case column names are those of an AdvantageScope or DataLogTool export."""
-    return len(names) > 1 and names[0] == TIME and "time_s" not in names
+    """Whether the lower-case column names are those of entries with a time, and not our own."""
+    return len(names) > 1 and "time_s" not in names and _find_time(names) is not None
+
+
+def _find_time(names: Sequence[str]) -> int | None:
+    """The index of the first column that holds times; None if none does."""
+    for index, name in enumerate(names):
+        words = _split_time(name)
+        if TIMES & words and words <= TIMES | UNITS.keys():
+            return index
+    return None
+
+
+def _split_time(name: str) -> set[str]:
+    """The words and the unit in the name of a column, lower case."""
+    name, unit = split_unit(name)
+    return {*split_words(name.lower()), *filter(None, [unit.lower()])}
 
 
 def read_entries(path: Path) -> list[Entry]:
@@ -40,24 +65,60 @@ def read_entries(path: Path) -> list[Entry]:
     _, rows = split_rows(path)
     _, header = next(rows)
     titles = [title.strip() for title in header]
-    listed = {title.lower() for title in titles[1:]} in LISTED
-    found: dict[str, list[_Sample]] = {} if listed else {title: [] for title in titles[1:]}
-    for line, row in rows:
-        if len(row) != len(titles):
-            raise UnreadableFile(
-                f"the row has {len(row)} cells where the header has {len(titles)}",
-                where=f"{where}, line {line}",
-                advice="Complete the line, or export the log again.",
-            )
-        time = _parse_time(row[0], where=f"{where}, line {line}") * SECOND
-        for name, cell in [(row[1], row[2])] if listed else zip(titles[1:], row[1:], strict=True):
+    first = _find_time([title.lower() for title in titles]) or 0
+    unit = titles.pop(first)
+    listed = {title.lower() for title in titles} in LISTED
+    found: dict[str, list[_Sample]] = {} if listed else {title: [] for title in titles}
+    written, cells = _read_times(rows, first, width=len(titles), where=where)
+    times = np.array(written) * _find_unit(unit, written)
+    begins = set() if listed else set((np.flatnonzero(np.diff(times) < 0.0) + 1).tolist())
+    for begin in sorted(begins):  # each run has a clock of its own
+        times[begin:] += times[begin - 1] - times[begin] + PAUSE
+    for number, row in enumerate(cells):
+        for name, cell in [(row[0], row[1])] if listed else zip(titles, row, strict=True):
+            samples = found.setdefault(name, [])
+            if number in begins and samples and not is_number(samples[-1][1]):
+                samples.append((times[number] - PAUSE / 2.0, IDLE))
             if cell.strip() not in EMPTY:
-                found.setdefault(name, []).append((time, cell.strip()))
+                samples.append((times[number], cell.strip()))
     if not any(found.values()):
         raise UnreadableFile(
             "there are no rows below the header", where=where, advice="Record a test first."
         )
     return list(_make_entries(found.items()))
+
+
+def _read_times(
+    rows: Iterable[tuple[int, list[str]]], column: int, *, width: int, where: str
+) -> tuple[list[float], list[list[str]]]:
+    """The time in each row, as it is written there, and the other cells of the row.
+
+    Raises:
+        UnreadableFile: a row has too many cells, or too few.
+        BadSample: a time is not a number.
+    """
+    times, cells = [], []
+    for line, row in rows:
+        if len(row) != width + 1:
+            raise UnreadableFile(
+                f"the row has {len(row)} cells where the header has {width + 1}",
+                where=f"{where}, line {line}",
+                advice="Complete the line, or export the log again.",
+            )
+        times.append(_parse_time(row.pop(column), where=f"{where}, line {line}"))
+        cells.append(row)
+    return times, cells
+
+
+def _find_unit(name: str, times: Sequence[float]) -> float:
+    """The unit of the times [µs]: by the name of their column, else by how far rows are apart."""
+    named = next((UNITS[word] for word in _split_time(name) if word in UNITS), None)
+    steps = np.abs(np.diff(times))
+    steps = steps[steps > 0.0]
+    if named is not None or not steps.size:
+        return named or UNITS["s"]
+    step = float(np.median(steps))
+    return next(unit for unit in (1e6, 1e3, 1.0) if step * unit < SLOWEST * 1e6 or unit == 1.0)
 
 
 def _parse_time(cell: str, *, where: str) -> float:

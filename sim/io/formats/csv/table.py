@@ -17,8 +17,10 @@ from sim.core.vocabulary import DIRECTIONS, KINDS, TESTS
 
 NEEDED = ("test", "time_s", "voltage", "position", "velocity")
 EXTRA = ("current", "bus_voltage")  # optional; empty in runs without them
-KNOWN = ("run", *NEEDED, *EXTRA)
-WORDS = ("run", "test")  # columns of texts; the others hold numbers
+STATED = ("type", "units")  # optional; the same in every row
+SIGNALS = ("run", *NEEDED, *EXTRA)
+KNOWN = (*SIGNALS, *STATED)
+WORDS = ("run", "test", *STATED)  # columns of texts; the others hold numbers
 
 _ENTRY = {"state": "test"}  # name of a signal -> its column, if they differ
 
@@ -88,7 +90,7 @@ class CsvTable:
             values = np.array([float(cell) for cell in cells])
         except ValueError:
             values = np.full(len(cells), np.nan)
-            odd = np.array([not _is_number(cell) for cell in cells])
+            odd = np.array([not is_number(cell) for cell in cells])
         else:
             odd = ~(np.abs(values) < LARGEST)
             if "_" in "".join(cells):  # only Python accepts 1_000 as a number
@@ -97,13 +99,28 @@ class CsvTable:
             odd &= [cell != "" and not cell.isspace() for cell in self.cells[name]]
         if odd.any():
             row = int(np.argmax(odd))
-            cell, numeric = self.cells[name][row].strip(), _is_number(cells[row])
+            cell, numeric = self.cells[name][row].strip(), is_number(cells[row])
             raise BadSample(
                 f"{name} {_describe_cell(cell, numeric=numeric)}",
                 where=self.describe_row(row),
                 advice="Write a number there, or remove the line.",
             )
         return values
+
+    def find_stated(self, name: str) -> str | None:
+        """What a column says that holds one word for the whole log; None if it is not there.
+
+        Raises:
+            UnreadableFile: its cells differ.
+        """
+        words = list(dict.fromkeys(cell.strip() for cell in self.cells.get(name, ())))
+        if len(words) > 1:
+            raise UnreadableFile(
+                f"the column {name} says both {words[0][:40]!r} and {words[1][:40]!r}",
+                where=self.where,
+                advice="A file holds one mechanism: write the same in every row.",
+            )
+        return words[0] or None if words else None
 
     def _plain(self, name: str, *, gaps: bool) -> Sequence[str]:
         """The cells of a column with decimal points; with ``gaps``, ``nan`` for empty cells."""
@@ -213,9 +230,9 @@ def _find_columns(
     """Our name of each column -> its index, and a doubt about unknown columns."""
     named = {_ENTRY.get(name, name): title.strip().lower() for name, title in entries.items()}
     for name in named:
-        if name not in KNOWN:
+        if name not in SIGNALS:
             raise BadRequest(
-                f"{name!r} is not a signal", advice=f"Choose one of: {', '.join(KNOWN)}."
+                f"{name!r} is not a signal", advice=f"Choose one of: {', '.join(SIGNALS)}."
             )
     titles = {name: named.get(name, name) for name in KNOWN}
     for title in titles.values():
@@ -225,14 +242,16 @@ def _find_columns(
             )
     place = {name: header.index(title) for name, title in titles.items() if title in header}
     missing = [titles[name] for name in NEEDED if name not in place]
-    if missing:
+    ignored = [name for name in header if name and name not in titles.values()]
+    # One of position and velocity suffices, unless it may be there under another name.
+    suffices = not ignored and missing in ([titles["position"]], [titles["velocity"]])
+    if missing and not suffices:
         raise MissingSignal(
             f"no column {' or '.join(missing)}; the first line is {','.join(header)[:80]!r}",
             where=where,
             advice=f"Name the columns {','.join(NEEDED)} in the first line, or say what they are "
             "called with --state, --voltage, --position and --velocity.",
         )
-    ignored = [name for name in header if name and name not in titles.values()]
     doubt = Doubt(
         "unknown-column",
         f"{where}: nothing here reads the columns {', '.join(map(repr, ignored))}; they were left "
@@ -263,7 +282,7 @@ def _uses_decimal_comma(cells: Mapping[str, tuple[str, ...]], *, where: str) -> 
     return "," in signs
 
 
-def _is_number(cell: str) -> bool:
+def is_number(cell: str) -> bool:
     """Whether the cell is a number, finite or not."""
     try:
         float(cell)

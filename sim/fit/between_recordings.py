@@ -1,0 +1,41 @@
+"""How much the gains of one mechanism differ from one recording to the next.
+
+The error of a fit says how well one recording determines the gains. It cannot say what changes
+before the next one: battery, heat, a chain that lies differently, another carpet. ``SHARES`` was
+measured on 241 logs of real robots, as ``tests/benchmarks/bench_real.py`` does it: by how much two
+recordings of one mechanism on one day differ, the median over all pairs.
+"""
+
+import math
+from collections.abc import Mapping
+
+from sim.fit.result import Fit
+
+SHARES: Mapping[str, float] = {"kS": 0.06, "kV": 0.03, "kA": 0.16, "kG": 0.11}
+"""Gain -> median difference of two recordings, as a share of it."""
+
+
+def describe_next_recording(found: Fit) -> str:
+    """By how much another recording's gains will differ, in one sentence.
+
+    Args:
+        found: the fit of one recording.
+
+    Returns:
+        The sentence; empty if no error is small enough for this to matter.
+    """
+    known = {
+        gain: share
+        for gain, share in SHARES.items()
+        if gain in found.gains
+        and math.isfinite(found.errors.get(gain, math.nan))
+        and found.errors[gain] < share * abs(found.gains[gain])
+    }
+    if not known:
+        return ""
+    told = [f"{gain} by about {100.0 * share:.0f} %" for gain, share in known.items()]
+    listed = " and ".join([", ".join(told[:-1]), told[-1]] if told[1:] else told)
+    return (
+        f"These errors are of this log alone. The next recording will differ: {listed}, as on most "
+        "robots. To see yours, record twice and fit both: sysid fit ONE TWO"
+    )

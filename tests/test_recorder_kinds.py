@@ -1,0 +1,238 @@
+"""Logs as other people's recorders write them: what they lack, and what they do to the signals."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import sim
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
+from sim.cli import sysid
+from sim.cli.options import LogReader
+from sim.core.log import Log, Run
+from sim.fit import fit
+from sim.inspect.detect_faults import inspect
+from sim.io.motion import find_landing, find_truncation, mend_motion
+from sim.reconcile import reconcile
+from sim.report.gain_verdicts import write_gain_verdict
+from sim.support.command_line import run_command
+
+KA = 0.1  # [share] by which a coarse recorder may change kA
+
+
+@pytest.fixture(scope="module")
+def drive() -> Log:
+    return simulate(MECHANISMS["drivetrain"], Routine(), rng=np.random.default_rng(3))
+
+
+def change(log: Log, **signals) -> Log:
+    """The log with signals computed from its runs."""
+    return replace(
+        log,
+        runs=tuple(
+            replace(run, **{name: make(run) for name, make in signals.items()}) for run in log.runs
+        ),
+    )
+
+
+def write_columns(log: Log, path, header: str, *, scale: float = 1.0, restart: bool = False):
+    """Write a log as another program would: with other names, units of time, and clocks."""
+    rows = [header]
+    for run in log.runs:
+        time = (run.time - run.time[0] * restart) * scale
+        signals = (time, run.voltage, run.position, run.velocity)
+        rows += [
+            ",".join([repr(t), run.test, *map(repr, rest)])
+            for t, *rest in zip(*(signal.tolist() for signal in signals), strict=True)
+        ]
+    path.write_text("\n".join(rows) + "\n", encoding="utf-8")
+    return path
+
+
+def assert_same_gains(found, expected, *, ka: float = KA) -> None:
+    for gain in ("kV", "kG"):
+        if gain in expected.gains:
+            assert found.gains[gain] == pytest.approx(expected.gains[gain], rel=0.02)
+    assert found.gains["kA"] == pytest.approx(expected.gains["kA"], rel=ka)
+
+
+@pytest.mark.parametrize(
+    ("header", "scale", "restart"),
+    [
+        ("t,test,voltage,position,velocity", 1.0, False),
+        ("time_ms,state,volts,position_m,velocity_mps", 1e3, False),
+        ("timestamp,test,voltage,position,velocity", 1e6, True),
+        ("Time (ms),Test,Voltage (V),Position (m),Velocity (m/s)", 1e3, True),
+    ],
+)
+def test_columns_are_found_by_what_they_are(tmp_path, drive, header, scale, restart):
+    path = write_columns(drive, tmp_path / "log.csv", header, scale=scale, restart=restart)
+
+    read = sim.read(path)
+
+    assert [run.test for run in read.runs] == [run.test for run in drive.runs]
+    for mine, true in zip(read.runs, drive.runs, strict=True):
+        assert np.allclose(np.diff(mine.time), np.diff(true.time), atol=2e-6)
+        assert np.array_equal(mine.velocity, true.velocity)
+
+
+def test_csv_of_an_arm_says_what_it_is(tmp_path):
+    arm = simulate(MECHANISMS["arm"], Routine(), rng=np.random.default_rng(1))
+    sim.write(arm, tmp_path / "arm.csv")
+
+    read = sim.read(tmp_path / "arm.csv")
+
+    assert (read.type, read.units) == (arm.type, arm.units)
+
+
+@pytest.mark.parametrize("missing", ["position", "velocity"])
+def test_missing_signal_is_computed_from_the_other(tmp_path, drive, missing):
+    sim.write(drive, tmp_path / "log.csv")
+    rows = (tmp_path / "log.csv").read_text("utf-8").splitlines()
+    place = rows[0].split(",").index(missing)
+    left = [",".join(cells[:place] + cells[place + 1 :]) for cells in (r.split(",") for r in rows)]
+    (tmp_path / "log.csv").write_text("\n".join(left) + "\n", encoding="utf-8")
+
+    read = LogReader().read_joined([tmp_path / "log.csv"])
+
+    assert [doubt.code for doubt in read.doubts] == [f"no-{missing}"]
+    assert_same_gains(fit(read), fit(drive))
+
+
+@pytest.mark.parametrize("signal", ["position", "velocity"])
+def test_signal_that_never_changes_is_replaced_and_named(drive, signal):
+    still = change(drive, **{signal: lambda run: np.zeros(len(run))})
+
+    mended = mend_motion(still)
+
+    assert [doubt.code for doubt in mended.doubts] == [f"{signal}-still"]
+    assert f"{signal}-still" in {doubt.code for doubt in inspect(still).doubts}
+    assert_same_gains(fit(mended), fit(drive))
+
+
+def test_arm_without_a_position_is_refused(tmp_path, capsys, reads):
+    path = tmp_path / "arm.csv"
+    path.write_text("test,time_s,voltage,velocity\ndynamic-forward,0,1,0\n", encoding="utf-8")
+
+    assert run_command(sysid, name="sysid", arguments=["fit", str(path), "--type", "arm"]) == 2
+    reads(capsys.readouterr().err)
+
+
+@pytest.mark.parametrize("share", [0.03, 0.12])
+@pytest.mark.parametrize("name", ["drivetrain", "shooter", "elevator", "arm"])
+def test_truncated_velocity_is_told_as_such_and_fitted(name, share):
+    log = simulate(MECHANISMS[name], Routine(), rng=np.random.default_rng(2))
+    step = share * log.top_speed
+    cut = change(log, velocity=lambda run: np.trunc(run.velocity / step) * step)
+
+    mended = mend_motion(cut)
+
+    assert find_truncation(log) == 0.0
+    assert find_truncation(cut) == pytest.approx(step)
+    assert {doubt.code for doubt in inspect(cut).doubts} >= {"velocity-truncated"}
+    assert not {"scales-differ", "unit-error"} & {doubt.code for doubt in inspect(cut).doubts}
+    assert_same_gains(fit(mended, type=log.type), fit(log, type=log.type))
+
+
+def test_rounded_velocity_is_not_truncated(drive):
+    step = 0.06 * drive.top_speed
+
+    assert (
+        find_truncation(change(drive, velocity=lambda r: np.round(r.velocity / step) * step)) == 0
+    )
+
+
+@pytest.mark.parametrize("frame", [0.1, 0.16, 0.2])
+def test_readings_held_for_long_are_fitted(frame):
+    log = simulate(MECHANISMS["drivetrain"], Routine(), rng=np.random.default_rng(5))
+
+    def hold(values):
+        def held(run: Run):
+            at = np.searchsorted(
+                run.time, run.time[0] + frame * ((run.time - run.time[0]) // frame)
+            )
+            return getattr(run, values)[at]
+
+        return held
+
+    held = change(log, position=hold("position"), velocity=hold("velocity"))
+
+    assert_same_gains(fit(held), fit(log))
+
+
+def test_wrong_scale_makes_no_gain_usable_and_prints_no_code(tmp_path, capsys, drive):
+    sim.write(change(drive, velocity=lambda run: run.velocity / 60.0), tmp_path / "log.csv")
+    arguments = ["fit", str(tmp_path / "log.csv")]
+
+    assert run_command(sysid, name="sysid", arguments=arguments) == 1
+    said = capsys.readouterr().out
+    assert "--velocity-scale 60" in said
+    assert "Verdict: Do not use these gains" in said
+    assert run_command(sysid, name="sysid", arguments=[*arguments, "--paste", "java"]) == 2
+    assert not capsys.readouterr().out
+
+
+def test_scale_that_is_a_little_wrong_leaves_kv_and_ka_open(tmp_path, drive):
+    sim.write(change(drive, velocity=lambda run: 1.08 * run.velocity), tmp_path / "log.csv")
+
+    read = LogReader().read_joined([tmp_path / "log.csv"])
+
+    assert "scales-differ" in {doubt.code for doubt in read.doubts}
+    assert "kV usable" not in write_gain_verdict(fit(read), read)
+
+
+def test_stale_first_row_is_no_fault():
+    rng = np.random.default_rng(3)
+    drive = simulate(MECHANISMS["drivetrain"], Routine(), rng=rng, period=0.005)
+
+    def stale(run: Run):
+        if run.kind != "dynamic":
+            return run.voltage
+        return np.concatenate((run.voltage[:1], [0.0], run.voltage[2:]))
+
+    spoilt = change(drive, voltage=stale)
+
+    assert inspect(spoilt).faults == ()
+
+
+def test_fall_onto_the_stop_is_seen_and_only_there():
+    arm = simulate(MECHANISMS["arm"], Routine(), rng=np.random.default_rng(4))
+    ramp = arm.list_runs_of_test("quasistatic-forward")[0]
+    time = np.arange(60) * 0.02
+    fallen = np.minimum(0.25 * time, 0.05)
+    before = Run(
+        ramp.test,
+        np.concatenate((ramp.time[0] - time[::-1] - 0.02, ramp.time)),
+        np.concatenate((np.zeros(60), ramp.voltage)),
+        np.concatenate((ramp.position[0] + 0.05 - fallen, ramp.position)),
+        np.concatenate((np.where(fallen < 0.05, -0.25 * (time > 0.0), 0.0), ramp.velocity)),
+    )
+
+    assert [find_landing(run) for run in arm.runs] == [0] * len(arm.runs)
+    assert 10 <= find_landing(before) <= 60
+
+
+@pytest.mark.parametrize("command", ["fit", "inspect"])
+def test_every_command_picks_a_mechanism_by_its_number(shared, capsys, command):
+    path = shared / "data" / "field-cases" / "two_mechanisms.wpilog"
+    if not path.exists():
+        pytest.skip("the field cases are not here")
+
+    assert run_command(sysid, name="sysid", arguments=[command, str(path), "--pick", "1"]) == 0
+    assert run_command(sysid, name="sysid", arguments=[command, str(path)]) == 2
+    assert "--pick 1" in capsys.readouterr().err
+
+
+def test_arm_that_falls_onto_its_stop_shows_its_spring(shared):
+    path = shared / "data" / "field-cases" / "arm_drops_onto_its_stop.csv"
+    if not path.exists():
+        pytest.skip("the field cases are not here")
+    log = LogReader(type="arm", units="radians").read_joined([path])
+
+    story = reconcile(log, type="arm")
+
+    assert "falls-first" in {doubt.code for doubt in log.doubts}
+    assert [part.effect for part in story.model.parts] == ["spring"]
+    assert story.gains["kG"].value == pytest.approx(1.509, abs=0.01)
