@@ -248,7 +248,7 @@ def test_of_a_group_the_first_is_the_student(tmp_path):
         (["gradescope", "-o", "x.zip", "--secret", "{root}/class.secret"], "in the course folder"),
         (
             ["gradescope", "-o", "x.zip", "--secret", "{elsewhere}/gone"],
-            "there is no such file with a secret",
+            "the file with the secret is missing",
         ),
         (["gradescope", "-o", "x.zip", "--roster", "gone.csv"], "gone.csv"),
         (["gradescope", "-o", "x.zip", "--exercise", "99"], "there is no exercise '99'"),

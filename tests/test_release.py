@@ -185,7 +185,7 @@ def empty_course(tmp_path, monkeypatch):
         ),
         (["release", "--check", "."], "no secret was named"),
         (["release", "--check", ".", "--secret", "short"], "fewer than 16 characters"),
-        (["class", "in", "--secret", "nowhere"], "there is no such file with a secret"),
+        (["class", "in", "--secret", "nowhere"], "the file with the secret is missing"),
     ],
 )
 def test_what_cannot_be_released_is_one_line(capsys, command, said):

@@ -151,6 +151,8 @@ def _gain(name: str, answers: Answers) -> None:
         ) from None
     value, asked = found.gains[name], variant.asked[name]
     score = earned(value, asked)
+    if score and not all(one.reaches for one in _left(answers)):
+        raise NotReachedError("counts after each test keeps its fast end or its first rise")
     if score == POINTS:
         return
     says, code = blame(name, variant, preparation)

@@ -53,8 +53,8 @@ def gradescope(
     """
     from grader.autograder import AutograderContents, pack_gradescope  # noqa: PLC0415 - --help must not wait
     from grader.classroom.roster import read_class_roster  # noqa: PLC0415 - the same
-    from grader.classroom.secret import find_secret  # noqa: PLC0415 - the same
     from grader.package_files import select_package_files  # noqa: PLC0415 - the same
+    from sim.support.secret import find_secret  # noqa: PLC0415 - the same
 
     course, asked = _find_asked_exercises(only)
     if secret is not None:

@@ -14,7 +14,7 @@ from sim.support.printable import list_first
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from sim.bench.dataset.secret import Secret
+    from sim.support.secret import Secret
 
 PATH = click.Path(path_type=Path)
 NAMED = 8  # files left out that are named
@@ -52,7 +52,7 @@ def release(  # noqa: PLR0917 - click passes options by name
     logs of their own, and no answer keys. Only the owner of the secret can make these numbers
     again, and grade them: grade class FOLDER --secret FILE.
     """
-    from grader.classroom.secret import find_secret  # noqa: PLC0415 - --help must not wait for it
+    from sim.support.secret import find_secret  # noqa: PLC0415 - --help must not wait for it
 
     if check is not None:
         kept = find_secret(secret, make=False)

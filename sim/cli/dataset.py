@@ -59,13 +59,12 @@ def dataset(  # noqa: PLR0917 - click passes options by name
     from sim.bench.dataset.folder import DatasetPlace, check_separation  # noqa: PLC0415 - as all below: --help must not wait
     from sim.bench.dataset.key import choose_key_path  # noqa: PLC0415
     from sim.bench.dataset.plan import plan_jobs  # noqa: PLC0415
-    from sim.bench.dataset.secret import find_secret  # noqa: PLC0415
     from sim.bench.dataset.spec import read_spec  # noqa: PLC0415
 
     asked = read_spec(spec)
     key = key or choose_key_path(output)
     check_separation(output, key=key, spec=spec, secret=asked.secret)
-    secret = find_secret(asked, make=not check)
+    secret = asked.find_secret(make=not check)
     place = DatasetPlace(output, key, asked.name, secret, overwrite)
     jobs = plan_jobs(asked, secret)
     if check:
