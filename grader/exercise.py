@@ -192,7 +192,7 @@ class Exercise:
             whole = find_whole_answer(given, names=self.files, companion_files=self.companion_files)
             files = find_files(whole, folder=self.folder, names=self.files)
         except Refusal as refusal:
-            return self._ungradable(str(refusal), student=student)
+            return self.skip(str(refusal), student=student)
         return choose_best_grade(
             [self._grade_file(file, student=student, run=run) for file in files]
         )
@@ -218,7 +218,7 @@ class Exercise:
         try:
             subject = self.module.read(file, student=student, **asked)
         except (Refusal, NotRunError, NotReachedError) as refusal:
-            return replace(self._ungradable(str(refusal), student=student), file=file)
+            return replace(self.skip(str(refusal), student=student), file=file)
         results = run_checks(self.checks, subject)
         score, most = (sum(points) for points in zip(*_sum_points(results), strict=True))
         broken = next((one for one in results if one.status is Status.ERROR), None)
@@ -254,7 +254,8 @@ class Exercise:
             exercise=self.name,
         )
 
-    def _ungradable(self, reason: str, *, student: str) -> Grade:
+    def skip(self, reason: str, *, student: str) -> Grade:
+        """The grade of an answer that is not graded, for a reason of one line."""
         results = tuple(skip_check(one, reason) for one in self.checks)
         most = sum(one.points for one in self.checks)
         return Grade(self.name, student, 0.0, most, "ungradable", results, reason=reason)

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, cast
 import click
 from click.shell_completion import CompletionItem
 
+from grader.cli.course_here import find_course_here
 from grader.terminal import print_error, print_lines
 from sim.core.errors import BadRequest
 from sim.support import command_line
@@ -27,15 +28,7 @@ if TYPE_CHECKING:
     from grader.exercise import Exercise
 
 
-MODULES = {
-    "class": "classroom",
-    "doctor": "doctor",
-    "edition": "edition",
-    "export": "export",
-    "mystery": "mystery",
-    "release": "release",
-    "watch": "watch",
-}
+OWN_MODULE = ("class", "doctor", "edition", "export", "mystery", "release", "watch")
 COURSE_PACKAGES = ("tomlkit", "tree_sitter", "tree_sitter_java")  # of the extra `course`
 
 
@@ -44,13 +37,14 @@ class ExerciseOrCommand(click.Group):
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """The names of all commands: those of this file, and those in modules of their own."""
-        return sorted([*super().list_commands(ctx), *MODULES])
+        return sorted([*super().list_commands(ctx), *OWN_MODULE])
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         """The command of this name, or None."""
-        if cmd_name not in MODULES:
+        if cmd_name not in OWN_MODULE:
             return super().get_command(ctx, cmd_name)
-        return cast("click.Command", import_module(f"{__name__}.{MODULES[cmd_name]}").COMMAND)
+        module = cmd_name.replace("class", "classroom")
+        return cast("click.Command", import_module(f"{__name__}.{module}").COMMAND)
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Take everything that does not begin with a command as a request to grade."""
@@ -242,10 +236,9 @@ def locate_course(
         BadRequest: there is no course here, or the name is none.
     """
     from grader.class_package import find_learner  # noqa: PLC0415 - the same
-    from grader.course import describe_other_code, find_course, load_progress  # noqa: PLC0415 - --help must not wait
+    from grader.course import load_progress  # noqa: PLC0415 - --help must not wait
 
-    folder = find_course(inside.resolve() if inside else Path.cwd())
-    _print_message(describe_other_code(folder))
+    folder = find_course_here(inside)
     progress, said = load_progress(folder)
     _print_message(said)
     return folder, progress, find_learner(folder, known=progress.student, student=student)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from grader.cli.course_here import choose_exercises, find_course_here
 from grader.terminal import print_error, print_lines, style_line, wrap_text
 from sim.support.command_line import DONE, INTERRUPTED, NOT_RIGHT
 from sim.support.printable import list_first
@@ -97,12 +98,12 @@ def class_(  # noqa: PLR0917 - click passes options by name
 
     known = read_class_roster(roster) if roster else None
     formats = choose_exports(wanted, roster=known)
-    course = _find_course()
+    course = find_course_here()
     out = output or folder.with_name(f"{folder.resolve().name.removesuffix('.zip')}-graded")
     if engine:
         return grade_in_container(click.get_current_context(), course=course, output=out)
-    asked = _find_asked_exercises(only, course)
     value = kept.value if (kept := find_secret(secret, make=False)) else None
+    asked = choose_exercises(only, course)
     there = _find_submissions(folder, course, asked, known, student=student)
     there = _check_submissions(there, asked, known, secret=value, self_study=self_study)
     marks = _read_marks(overrides, there, asked, known)
@@ -119,16 +120,6 @@ def class_(  # noqa: PLR0917 - click passes options by name
 
 
 COMMAND = class_
-
-
-def _find_course() -> Path:
-    """The course folder one stands in; prints whether other code than its own is running."""
-    from grader.course import describe_other_code, find_course  # noqa: PLC0415 - --help must not wait for it
-
-    course = find_course(Path.cwd())
-    if said := describe_other_code(course):
-        print_error(said)
-    return course
 
 
 def _read_marks(
@@ -158,15 +149,6 @@ def _find_alike(
 
     foreign = find_foreign_logs(there, packages) if packages else ()
     return (*foreign, *find_likenesses(there, asked, graded))
-
-
-def _find_asked_exercises(only: tuple[str, ...], course: Path) -> "tuple[Exercise, ...]":
-    from grader.exercise import find_exercise, list_exercises  # noqa: PLC0415 - --help must not wait for it
-
-    if not only:
-        return list_exercises(course)
-    names = {find_exercise(one, course).name for one in only}
-    return tuple(one for one in list_exercises(course) if one.name in names)
 
 
 def _find_submissions(

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import click
 
 from sim.cli.options import FILE
-from sim.core.errors import BadRequest
 from sim.support.command_line import DONE, INTERRUPTED, NOT_RIGHT, print_error, quote_path
+from sim.support.os_errors import refuse_os_errors
 
 if TYPE_CHECKING:
     from sim.bench.dataset.folder import DatasetPlace
@@ -138,17 +138,13 @@ def _write_example(path: Path) -> int:
     """
     from importlib.resources import files  # noqa: PLC0415 - few ask for it
 
-    try:
-        with path.open("x", encoding="utf-8", newline="\n") as stream:
-            stream.write(
-                files("sim.bench.dataset").joinpath("example.toml").read_text(encoding="utf-8")
-            )
-    except OSError as error:
-        raise BadRequest(
-            f"the example cannot be written ({error.strerror})",
-            where=str(path),
-            advice="Name a new file, in a folder you may write to.",
-        ) from None
+    text = files("sim.bench.dataset").joinpath("example.toml").read_text(encoding="utf-8")
+    advice = "Name a new file, in a folder you may write to."
+    with (
+        refuse_os_errors("the example cannot be written", path, advice=advice),
+        path.open("x", encoding="utf-8", newline="\n") as stream,
+    ):
+        stream.write(text)
     following = f"sysid dataset {quote_path(path)} -o {quote_path(path.stem)}"
     click.echo(f"{path}: an example. Edit it, then: {following}")
     return DONE
