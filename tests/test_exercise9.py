@@ -215,7 +215,7 @@ def test_where_no_log_can_be_written_it_says_so(capsys, monkeypatch):
     monkeypatch.setattr(Path, "mkdir", full)
 
     assert run_command(["9"]) == 2
-    assert "your log cannot be written: No space left on device" in capsys.readouterr().err
+    assert "your log cannot be written (No space left on device)" in capsys.readouterr().err
 
 
 def test_explaining_the_voltage_is_recognized(copy):
