@@ -20,7 +20,7 @@ A folder ``exercises/exerciseN`` holds ``README.md`` with the task, ``hints.toml
                                                a Consequence; None where there is nothing to see
 
 What does not fit there stands in modules beside it: ``from .drawn import draw``. Answers that can
-be looked up stand in ``answer_key.py``: see ``grader.answer_key``.
+be looked up stand in ``answer_key.py``: see ``grader.answers.answer_key``.
 """
 
 import hashlib
@@ -37,10 +37,10 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from grader.answer_names import find_unknown_names
+from grader.answers.answer_names import find_unknown_names
+from grader.answers.submission import find_files, find_whole_answer, read_answers, read_text
 from grader.check import Check, NotReachedError, NotRunError, Result, Status, run_checks, skip_check
 from grader.consequence import Consequence
-from grader.submission import find_files, find_whole_answer, read_answers, read_text
 from sim.core.errors import BadRequest, Refusal
 
 HINTS = ("concept", "pointer", "step")  # from far to near
@@ -94,7 +94,7 @@ class Exercise:
         """The exercise's checks.py, loaded by path under a name of its own."""
         path = self.folder / "checks.py"
         own = hashlib.sha256(str(path).encode("utf-8", "surrogatepass")).hexdigest()[:12]
-        name = f"_checks_of_{self.name}_{own}"  # the same in each process: see grader.draw_cache
+        name = f"_checks_of_{self.name}_{own}"  # the same in each process, for the cache of draws
         spec = importlib.util.spec_from_file_location(
             name, path, submodule_search_locations=[str(self.folder)]
         )

@@ -30,7 +30,7 @@ from jupyterhub.auth import LocalAuthenticator
 import grader
 from grader.classroom.roster import read_class_roster
 from grader.start import QUIET
-from grader.variant import make_folder_name, normalize_name
+from grader.student_data.variant import make_folder_name, normalize_name
 from sim.core.errors import Refusal
 from sim.physics.engine import load_engine
 from sim.support.atomic_file import write_atomically

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from grader.check import Check, run_checks
 from grader.exercise import Exercise, Grade, list_exercises
-from grader.variant import make_folder_name
+from grader.student_data.variant import make_folder_name
 from sim.core.errors import BadRequest
 from sim.support.atomic_file import write_atomically
 from sim.support.os_errors import refuse_os_errors

@@ -23,10 +23,10 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from grader.answer_key import FILE_NAME as KEY
+from grader.answers.answer_key import FILE_NAME as KEY
+from grader.answers.submission import explain_restore
 from grader.exercise import Exercise, list_exercises
-from grader.fingerprint import PACKAGES
-from grader.submission import explain_restore
+from grader.student_data.fingerprint import PACKAGES
 from sim.core.errors import BadRequest
 from sim.support.os_errors import refuse_os_errors
 
@@ -82,8 +82,8 @@ def select_package_files(course: Path, *, with_keys: bool = True) -> PackageFile
     Args:
         course: the course folder. Where it holds no grader/ or sim/, those of the running
             installation are taken.
-        with_keys: also the exercises' answer keys (``grader.answer_key``), so that ``grade`` can
-            check everything at home. A class that is graded gets none.
+        with_keys: also the exercises' answer keys (``grader.answers.answer_key``), so that
+            ``grade`` can check everything at home. A class that is graded gets none.
 
     Raises:
         BadRequest: it is not the whole course, or a starter or a notebook is not as it was written.

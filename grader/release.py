@@ -14,12 +14,12 @@ from pathlib import Path
 
 import tomlkit
 
-from grader.class_package import PLACE, ClassPackage
 from grader.classroom.bundle import CourseBundle, zip_files
 from grader.classroom.secret import seal_file, seal_identity
 from grader.exercise import list_exercises
 from grader.package_files import select_package_files
-from grader.variant import make_folder_name, use_class_secret
+from grader.student_data.class_package import PLACE, ClassPackage
+from grader.student_data.variant import make_folder_name, use_class_secret
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ from grader.cli import run_command
 from grader.exercise import find_exercise
 from grader.package_files import select_package_files
 from grader.release import make_common_package
-from grader.variant import use_class_secret
+from grader.student_data.variant import use_class_secret
 from sim.core.errors import BadRequest
 
 EMAIL = "zoë.o'neil@example.org"

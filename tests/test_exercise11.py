@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from grader.answer_key import load_answer_key
+from grader.answers.answer_key import load_answer_key
 from grader.cli import run_command
 from grader.exercise import Exercise
 from grader.misconception import MISCONCEPTIONS

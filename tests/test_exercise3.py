@@ -7,7 +7,7 @@ import pytest
 
 from grader.cli import run_command
 from grader.exercise import Exercise
-from grader.variant import make_folder_name
+from grader.student_data.variant import make_folder_name
 
 ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise3", ROOT / "exercises" / "exercise3")

@@ -14,7 +14,7 @@ from grader.check import WrongAnswer
 from grader.cli import run_command
 from grader.exercise import Exercise
 from grader.misconception import MISCONCEPTIONS
-from grader.variant import use_class_secret
+from grader.student_data.variant import use_class_secret
 from sim.core.units import find_unit
 from sim.fit import fit
 from sim.io import read

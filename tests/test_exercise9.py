@@ -12,7 +12,7 @@ import pytest
 
 from grader.cli import run_command
 from grader.exercise import Exercise
-from grader.variant import derive_student_seed, use_class_secret
+from grader.student_data.variant import derive_student_seed, use_class_secret
 
 ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise9", ROOT / "exercises" / "exercise9")

@@ -13,13 +13,13 @@ import pytest
 from authored import authored_answer
 from test_release import lay_out, read
 
-from grader.answer_key import load_answer_key
+from grader.answers.answer_key import load_answer_key
 from grader.classroom.bundle import pack_course
 from grader.course import find_course
 from grader.exercise import Exercise, list_exercises
 from grader.package_files import select_package_files
 from grader.release import StudentPackage, make_student_package, pack_course_folder
-from grader.variant import use_class_secret
+from grader.student_data.variant import use_class_secret
 
 ROOT = find_course(Path(__file__).resolve().parent)
 SECRET = b"0123456789abcdef-keys"

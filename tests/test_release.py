@@ -6,7 +6,6 @@ import zipfile
 
 import pytest
 
-from grader.class_package import read_class_package
 from grader.classroom.bundle import pack_course
 from grader.cli import run_command
 from grader.course import find_course
@@ -17,7 +16,8 @@ from grader.release import (
     make_common_package,
     make_student_package,
 )
-from grader.variant import use_class_secret
+from grader.student_data.class_package import read_class_package
+from grader.student_data.variant import use_class_secret
 from sim.core.errors import BadRequest
 
 SECRET = b"0123456789abcdef-east"

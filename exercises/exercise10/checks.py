@@ -11,7 +11,7 @@ from grader.consequence import Consequence
 from grader.robotcode.bench.gains_run import GainConstant, Gains
 from grader.robotcode.checks.causes import check_compiles, check_stop
 from grader.robotcode.running import Runs, judge_runs, run_gains
-from grader.student_files import write_student_files
+from grader.student_data.student_files import write_student_files
 
 from .comment_units import find_commented_units, judge_comment
 from .drawn import draw

@@ -5,10 +5,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
+from grader.answers.wrong_number import WrongNumber
 from grader.check import NotReachedError, WrongAnswer
 from grader.robotcode.bench.gains_run import CLASSES, CLOSED_LOOP, GainFacts, Gains
 from grader.robotcode.checks.causes import check_compiles, check_stop
-from grader.wrong_number import WrongNumber
 
 from .key import FEED_FORWARD, PLACES, SLOT0, Variant, near
 from .slips import find_constant_slip, find_feedback_slip, name_slip

@@ -1,13 +1,13 @@
 """The questions and their right answers, and what is said about wrong ones.
 
-A class's package lacks this module and all that only it imports: see ``grader.answer_key``.
+A class's package lacks this module and all that only it imports: see ``grader.answers.answer_key``.
 """
 
 from collections.abc import Mapping
 
-from grader.answer import AnswerKey, judge_number, read_answer_number
+from grader.answers.choice_answer import check_choice, read_choice
+from grader.answers.number_answer import AnswerKey, judge_number, read_answer_number
 from grader.check import NotReachedError, WrongAnswer, shorten
-from grader.choice_answer import check_choice, read_choice
 
 from .drawn import QUESTIONS, Variant, draw
 from .knowledge import STORIES

@@ -1,10 +1,10 @@
 """Which causes can be behind a kV, and in which order one looks: cheap things first.
 
-A class's package lacks this module: see ``grader.answer_key``.
+A class's package lacks this module: see ``grader.answers.answer_key``.
 """
 
+from grader.answers.choice_answer import read_choices
 from grader.check import WrongAnswer
-from grader.choice_answer import read_choices
 
 from .team import Variant
 

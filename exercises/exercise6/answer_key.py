@@ -1,13 +1,13 @@
 """Words about the morning of the tests: which are right, and what to say of a wrong one.
 
-A class's package lacks this module and all that only it imports: see ``grader.answer_key``.
+A class's package lacks this module and all that only it imports: see ``grader.answers.answer_key``.
 """
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
+from grader.answers.choice_answer import check_choice, read_choices
 from grader.check import WrongAnswer
-from grader.choice_answer import check_choice, read_choices
 
 from .morning import FOLDERS, SEEN, draw_morning
 

@@ -5,9 +5,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from grader.answers.submission import read_answers
 from grader.check import NotReachedError, WrongAnswer, check
-from grader.student_files import format_log, write_student_files
-from grader.submission import read_answers
+from grader.student_data.student_files import format_log, write_student_files
 
 from .blame import blame
 from .drawn import Variant, draw

@@ -10,7 +10,7 @@ from functools import cache
 from pathlib import Path
 from types import MappingProxyType
 
-from grader.fingerprint import list_authored_files
+from grader.student_data.fingerprint import list_authored_files
 
 READABLE = 0o644
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from grader.classroom.answer_files import Files
 from grader.classroom.bundle import unpack_course
 from grader.exercise import Exercise, Grade, list_exercises
-from grader.variant import use_class_secret
+from grader.student_data.variant import use_class_secret
 from sim.support.printable import list_first
 
 if TYPE_CHECKING:

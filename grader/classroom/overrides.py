@@ -15,7 +15,7 @@ from pathlib import Path
 
 from grader.classroom.grading import GradedStudent, Record
 from grader.exercise import Exercise
-from grader.variant import normalize_name
+from grader.student_data.variant import normalize_name
 from sim.core.errors import BadRequest, Refusal, refusals_at
 from sim.support.student_table import read_student_table
 

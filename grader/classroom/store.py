@@ -10,7 +10,7 @@ from pathlib import Path
 
 from grader.classroom.grading import GradedStudent
 from grader.classroom.submissions import Submission
-from grader.variant import make_folder_name
+from grader.student_data.variant import make_folder_name
 from sim.support.atomic_file import make_private_folder, write_atomically
 from sim.support.os_errors import refuse_os_errors
 

@@ -187,9 +187,9 @@ def start(folder: Path | None, student: str | None, *, no_lab: bool) -> int:
 
     For example: grade start my-course
     """
-    from grader.class_package import read_class_package  # noqa: PLC0415 - the same
     from grader.course import Progress, update_progress  # noqa: PLC0415 - --help has to start at once
     from grader.start import start as begin  # noqa: PLC0415 - the same
+    from grader.student_data.class_package import read_class_package  # noqa: PLC0415 - the same
 
     if folder is not None:
         from grader.course_folder import unpack_course  # noqa: PLC0415 - the same
@@ -208,7 +208,7 @@ def start(folder: Path | None, student: str | None, *, no_lab: bool) -> int:
 
 def _ask_name(known: str) -> str:
     """Who is learning, typed on the terminal; ``known`` where nobody can type."""
-    from grader.variant import check_student_name  # noqa: PLC0415 - the same
+    from grader.student_data.variant import check_student_name  # noqa: PLC0415 - the same
 
     if not sys.stdin.isatty() or "JPY_PARENT_PID" in os.environ:  # a notebook cell takes no typing
         return known
@@ -235,8 +235,8 @@ def locate_course(
     Raises:
         BadRequest: there is no course here, or the name is none.
     """
-    from grader.class_package import find_learner  # noqa: PLC0415 - the same
     from grader.course import load_progress  # noqa: PLC0415 - --help must not wait
+    from grader.student_data.class_package import find_learner  # noqa: PLC0415 - the same
 
     folder = find_course_here(inside)
     progress, said = load_progress(folder)
@@ -256,10 +256,10 @@ def grade_file(
     picture: Path | None = None,
 ) -> int:
     """Grade an answer, note the score, and show the result; the exit code."""
-    from grader.class_package import explain_no_grading, read_class_package  # noqa: PLC0415 - the same
     from grader.course import update_progress  # noqa: PLC0415 - --help has to start at once
-    from grader.draw_cache import enable_draw_cache  # noqa: PLC0415 - the same
     from grader.report import format_grade, format_receipt, grade_to_json  # noqa: PLC0415 - the same
+    from grader.student_data.class_package import explain_no_grading, read_class_package  # noqa: PLC0415 - the same
+    from grader.student_data.draw_cache import enable_draw_cache  # noqa: PLC0415 - the same
 
     of_class = read_class_package(folder)
     if of_class and one.is_personal and of_class.is_for(who):

@@ -117,7 +117,7 @@ def _release(
     from grader.classroom.roster import read_class_roster  # noqa: PLC0415 - the same
     from grader.package_files import select_package_files  # noqa: PLC0415 - the same
     from grader.release import StudentPackage, make_student_package, pack_course_folder  # noqa: PLC0415 - the same
-    from grader.variant import make_folder_name  # noqa: PLC0415 - the same
+    from grader.student_data.variant import make_folder_name  # noqa: PLC0415 - the same
     from sim.support.work.executor import count_available_cores, run_jobs  # noqa: PLC0415 - the same
     from sim.support.work.progress_bar import progress_bar  # noqa: PLC0415 - the same
 
@@ -165,8 +165,8 @@ def _tell_made(output: Path, size: int, students: int, secret: "Secret | None") 
 
 def _check(place: Path, secret: bytes) -> int:
     """Say what is not as the class issued it."""
-    from grader.class_package import read_class_package  # noqa: PLC0415 - --help must not wait for it
     from grader.release import find_broken_seals  # noqa: PLC0415 - the same
+    from grader.student_data.class_package import read_class_package  # noqa: PLC0415 - --help must not wait for it
 
     found = read_class_package(place)
     if found is None:
