@@ -17,7 +17,6 @@ import tomlkit
 from grader.classroom.bundle import CourseBundle, zip_files
 from grader.classroom.secret import seal_file, seal_identity
 from grader.exercise import list_exercises
-from grader.package_files import select_package_files
 from grader.student_data.class_package import PLACE, ClassPackage
 from grader.student_data.variant import make_folder_name, use_class_secret
 
@@ -41,15 +40,6 @@ class StudentPackage:
     def __repr__(self) -> str:
         """Without the secret: a message may hold this."""
         return f"Package({self.student!r})"
-
-
-def make_common_package(course: Path) -> bytes:
-    """The zip file for everybody.
-
-    Raises:
-        BadRequest: this is not the whole course, or a starter is not as it was written.
-    """
-    return pack_course_folder(select_package_files(course).files)
 
 
 def make_student_package(package: StudentPackage) -> tuple[str, bytes]:
