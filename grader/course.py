@@ -10,9 +10,9 @@ from importlib import import_module
 from itertools import chain, count
 from pathlib import Path
 
-from grader.class_package import PLACE as ISSUED
-from grader.fingerprint import PACKAGES, fingerprint_folders, fingerprint_packages
-from grader.variant import check_student_name, make_folder_name
+from grader.student_data.class_package import PLACE as ISSUED
+from grader.student_data.fingerprint import PACKAGES, fingerprint_folders, fingerprint_packages
+from grader.student_data.variant import check_student_name, make_folder_name
 from sim.core.errors import BadRequest, Refusal
 from sim.support.atomic_file import write_atomically
 

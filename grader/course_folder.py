@@ -9,6 +9,7 @@ from pathlib import Path
 from grader.package_files import FOLDERS, select_package_files
 from sim.core.errors import BadRequest
 from sim.support.atomic_file import write_atomically
+from sim.support.os_errors import refuse_os_errors
 
 INSTALLATION = Path(__file__).resolve().parents[1]
 IN_WHEEL = "sysid_course"
@@ -36,18 +37,13 @@ def unpack_course(target: Path) -> bool:
             advice="Name a folder that is empty or new: grade start my-course",
         )
     files = select_package_files(find_course_source()).files
-    try:
+    advice = "Choose a folder that you may write to, on a disk with 10 MB of room."
+    with refuse_os_errors("the course cannot be written", target, advice=advice):
         for name, content in files.items():
             if name.partition("/")[0] not in {"grader", "sim"}:  # those that run are installed
                 path = target / name
                 path.parent.mkdir(parents=True, exist_ok=True)
                 write_atomically(path, content)
-    except OSError as error:
-        raise BadRequest(
-            f"the course cannot be written ({error.strerror or error})",
-            where=str(target),
-            advice="Choose a folder that you may write to, on a disk with 10 MB of room.",
-        ) from None
     return True
 
 

@@ -20,7 +20,7 @@ A folder ``exercises/exerciseN`` holds ``README.md`` with the task, ``hints.toml
                                                a Consequence; None where there is nothing to see
 
 What does not fit there stands in modules beside it: ``from .drawn import draw``. Answers that can
-be looked up stand in ``answer_key.py``: see ``grader.answer_key``.
+be looked up stand in ``answer_key.py``: see ``grader.answers.answer_key``.
 """
 
 import hashlib
@@ -37,10 +37,10 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from grader.answer_names import find_unknown_names
+from grader.answers.answer_names import find_unknown_names
+from grader.answers.submission import find_files, find_whole_answer, read_answers, read_text
 from grader.check import Check, NotReachedError, NotRunError, Result, Status, run_checks, skip_check
 from grader.consequence import Consequence
-from grader.submission import find_files, find_whole_answer, read_answers, read_text
 from sim.core.errors import BadRequest, Refusal
 
 HINTS = ("concept", "pointer", "step")  # from far to near
@@ -94,7 +94,7 @@ class Exercise:
         """The exercise's checks.py, loaded by path under a name of its own."""
         path = self.folder / "checks.py"
         own = hashlib.sha256(str(path).encode("utf-8", "surrogatepass")).hexdigest()[:12]
-        name = f"_checks_of_{self.name}_{own}"  # the same in each process: see grader.draw_cache
+        name = f"_checks_of_{self.name}_{own}"  # the same in each process, for the cache of draws
         spec = importlib.util.spec_from_file_location(
             name, path, submodule_search_locations=[str(self.folder)]
         )
@@ -192,7 +192,7 @@ class Exercise:
             whole = find_whole_answer(given, names=self.files, companion_files=self.companion_files)
             files = find_files(whole, folder=self.folder, names=self.files)
         except Refusal as refusal:
-            return self._ungradable(str(refusal), student=student)
+            return self.skip(str(refusal), student=student)
         return choose_best_grade(
             [self._grade_file(file, student=student, run=run) for file in files]
         )
@@ -218,7 +218,7 @@ class Exercise:
         try:
             subject = self.module.read(file, student=student, **asked)
         except (Refusal, NotRunError, NotReachedError) as refusal:
-            return replace(self._ungradable(str(refusal), student=student), file=file)
+            return replace(self.skip(str(refusal), student=student), file=file)
         results = run_checks(self.checks, subject)
         score, most = (sum(points) for points in zip(*_sum_points(results), strict=True))
         broken = next((one for one in results if one.status is Status.ERROR), None)
@@ -254,7 +254,8 @@ class Exercise:
             exercise=self.name,
         )
 
-    def _ungradable(self, reason: str, *, student: str) -> Grade:
+    def skip(self, reason: str, *, student: str) -> Grade:
+        """The grade of an answer that is not graded, for a reason of one line."""
         results = tuple(skip_check(one, reason) for one in self.checks)
         most = sum(one.points for one in self.checks)
         return Grade(self.name, student, 0.0, most, "ungradable", results, reason=reason)

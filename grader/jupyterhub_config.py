@@ -30,11 +30,11 @@ from jupyterhub.auth import LocalAuthenticator
 import grader
 from grader.classroom.roster import read_class_roster
 from grader.start import QUIET
-from grader.variant import make_folder_name, normalize_name
-from sim.bench.dataset.roster import read_roster
+from grader.student_data.variant import make_folder_name, normalize_name
 from sim.core.errors import Refusal
 from sim.physics.engine import load_engine
 from sim.support.atomic_file import write_atomically
+from sim.support.student_table import read_student_table
 from sim.support.work.cache import find_cache_folder
 
 HERE = Path(__file__).resolve().parent
@@ -100,10 +100,14 @@ def find_package(folder: str) -> Path:
 
 def load_codes(students: list[str]) -> dict[str, str]:
     """Normalized name -> code. A code is made once, and kept."""
-    kept = (
-        read_roster(CODES, advice="Remove it: new codes are made.").rows if CODES.exists() else ()
-    )
-    known = {normalize_name(row[0]): row[1] for _, row in kept if len(row) > 1}
+    known: dict[str, str] = {}
+    if CODES.exists():
+        advice = "Remove it: new codes are made."
+        kept = read_student_table(CODES, what="the file of codes", advice=advice)
+        names, typed = (kept.find_column(one, advice=advice) for one in ("student", "code"))
+        known = {
+            normalize_name(name): row.get(typed, "") for name, row in kept.index_rows(names).items()
+        }
     codes = {
         name: known.get(normalize_name(name))
         or "".join(secrets.choice(LETTERS) for _ in range(LENGTH))

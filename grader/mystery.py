@@ -7,17 +7,17 @@ so that everybody can grade it.
 
 import secrets
 import tomllib
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from grader.check import Check, run_checks
 from grader.exercise import Exercise, Grade, list_exercises
-from grader.variant import make_folder_name
+from grader.student_data.variant import make_folder_name
 from sim.core.errors import BadRequest
 from sim.support.atomic_file import write_atomically
+from sim.support.os_errors import refuse_os_errors
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -28,6 +28,7 @@ FOLDER = "mystery"  # in the course folder
 STATE = "mystery.toml"
 HIGHEST = 5  # level
 SEEDS = 2**32  # so many mysteries of each level
+WRITE = "Free some space on this disk, or give yourself permission to write into this folder."
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,7 +98,7 @@ def save_state(folder: Path, state: MysteryState) -> None:
         BadRequest: it cannot be written.
     """
     seed = "" if state.seed is None else f"seed = {state.seed}\n"
-    with _explain_unwritable(folder):
+    with refuse_os_errors("the mystery cannot be written", folder, advice=WRITE):
         folder.mkdir(parents=True, exist_ok=True)
         text = f"number = {state.number}\nlevel = {state.level}\n{seed}"
         write_atomically(folder / STATE, text)
@@ -141,7 +142,7 @@ def open_mystery(course: Path, folder: Path, state: MysteryState) -> tuple[Myste
 
     state = replace(state, seed=secrets.randbelow(SEEDS))
     mystery = draw_mystery(course, state)
-    with _explain_unwritable(folder):
+    with refuse_os_errors("the mystery cannot be written", folder, advice=WRITE):
         folder.mkdir(parents=True, exist_ok=True)
         for old in (*folder.glob("*.wpilog"), *folder.glob("*.csv"), *folder.glob("*.svg")):
             old.unlink()
@@ -159,17 +160,3 @@ def grade_mystery_answer(mystery: Mystery, answer: str, *, student: str) -> Grad
     most = sum(one.max_points for one in results)
     status = "passed" if score == most else "failed"
     return Grade(FOLDER, student, score, most, status, results)
-
-
-@contextmanager
-def _explain_unwritable(folder: Path) -> Iterator[None]:
-    """Turn an error of the disk into one line."""
-    try:
-        yield
-    except OSError as error:
-        raise BadRequest(
-            f"the mystery cannot be written: {error.strerror or error}",
-            where=str(folder),
-            advice="Free some space on this disk, or give yourself permission to write into this "
-            "folder.",
-        ) from error

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from grader.answer_names import find_similar_name
+from grader.answers.answer_names import find_similar_name
+from grader.answers.submission import read_answers, read_text
 from grader.check import Result, Status
-from grader.class_package import explain_no_grading, find_learner, read_class_package
 from grader.consequence import Consequence
 from grader.course import find_course, load_progress, update_progress
 from grader.exercise import Exercise, Grade, find_exercise
@@ -23,9 +23,9 @@ from grader.report import (
     judge_grade,
     list_feedback_lines,
 )
-from grader.submission import read_answers, read_text
+from grader.student_data.class_package import explain_no_grading, find_learner, read_class_package
+from grader.student_data.variant import make_folder_name
 from grader.terminal import Line, print_error, style_line
-from grader.variant import make_folder_name
 from sim.core.errors import BadRequest, Refusal
 from sim.support.atomic_file import write_atomically
 from sim.support.printable import make_printable

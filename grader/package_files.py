@@ -23,33 +23,22 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from grader.answer_key import FILE_NAME as KEY
+from grader.answers.answer_key import FILE_NAME as KEY
+from grader.answers.submission import explain_restore
 from grader.exercise import Exercise, list_exercises
-from grader.fingerprint import PACKAGES
-from grader.submission import explain_restore
+from grader.student_data.fingerprint import PACKAGES
 from sim.core.errors import BadRequest
+from sim.support.os_errors import refuse_os_errors
 
 TOPS = ("LICENSE", "README.md", "pyproject.toml")
 FOLDERS = ("exercises", "lessons")
 STARTERS = "exercises/starters.toml"
 AUTHORED = ("README.md", "hints.toml")  # of an exercise, besides checks.py and its modules
 SOURCES = (
-    ".py",
-    ".md",
-    ".html",
-    ".jinja",
-    ".js",
-    ".css",
-    ".svg",
-    "overrides.json",
-    "example.toml",
-    "probability.json",
-    "phoenix6.toml",
-    "revlib.toml",
-    "wpilib.toml",
-    "setup.sh",
-    "run_autograder",
-)
+    ".py", ".md", ".html", ".jinja", ".js", ".css", ".svg", "overrides.json", "example.toml",
+    "misconceptions.toml", "probability.json", "phoenix6.toml", "revlib.toml", "wpilib.toml",
+    "setup.sh", "run_autograder",
+)  # fmt: skip
 """Ends of names of what belongs to the packages."""
 MADE = {"__pycache__", "data", "build", "dist"}  # by Python, and a learner's own data
 IGNORED = {"Thumbs.db", "desktop.ini"}  # by Windows
@@ -93,8 +82,8 @@ def select_package_files(course: Path, *, with_keys: bool = True) -> PackageFile
     Args:
         course: the course folder. Where it holds no grader/ or sim/, those of the running
             installation are taken.
-        with_keys: also the exercises' answer keys (``grader.answer_key``), so that ``grade`` can
-            check everything at home. A class that is graded gets none.
+        with_keys: also the exercises' answer keys (``grader.answers.answer_key``), so that
+            ``grade`` can check everything at home. A class that is graded gets none.
 
     Raises:
         BadRequest: it is not the whole course, or a starter or a notebook is not as it was written.
@@ -238,14 +227,9 @@ def _list_files(top: Path) -> Iterator[Path]:
 
 
 def _read_content(name: str, path: Path, course: Path) -> bytes:
-    try:
+    advice = f"Get it back: {explain_restore(course, name)}"
+    with refuse_os_errors("students need it, and it cannot be read", Path(name), advice=advice):
         content = path.read_bytes()
-    except OSError as error:
-        raise BadRequest(
-            f"it cannot be read ({error.strerror}), and students need it",
-            where=name,
-            advice=f"Get it back: {explain_restore(course, name)}",
-        ) from None
     if not name.endswith(".ipynb"):
         return content
     return strip_notebook(content, name=name, course=course)

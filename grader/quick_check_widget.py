@@ -9,10 +9,10 @@ from collections.abc import Mapping
 from html import escape
 from typing import Any
 
-from grader.answer import AnswerKey, AskedNumber, Band, judge_number
+from grader.answers.number_answer import AnswerKey, AskedNumber, Band, judge_number
+from grader.answers.wrong_number import Scene
 from grader.check import WrongAnswer
 from grader.misconception import MISCONCEPTIONS
-from grader.wrong_number import Scene
 from sim.core.errors import BadRequest
 from sim.teaching.prediction import Prediction
 

@@ -14,12 +14,11 @@ from pathlib import Path
 
 import tomlkit
 
-from grader.class_package import PLACE, ClassPackage
-from grader.classroom.bundle import CourseBundle
+from grader.classroom.bundle import CourseBundle, zip_files
 from grader.classroom.secret import seal_file, seal_identity
 from grader.exercise import list_exercises
-from grader.package_files import select_package_files
-from grader.variant import make_folder_name, use_class_secret
+from grader.student_data.class_package import PLACE, ClassPackage
+from grader.student_data.variant import make_folder_name, use_class_secret
 
 
 @dataclass(frozen=True)
@@ -41,15 +40,6 @@ class StudentPackage:
     def __repr__(self) -> str:
         """Without the secret: a message may hold this."""
         return f"Package({self.student!r})"
-
-
-def make_common_package(course: Path) -> bytes:
-    """The zip file for everybody.
-
-    Raises:
-        BadRequest: this is not the whole course, or a starter is not as it was written.
-    """
-    return zip_files(select_package_files(course).files)
 
 
 def make_student_package(package: StudentPackage) -> tuple[str, bytes]:
@@ -79,17 +69,12 @@ def make_student_package(package: StudentPackage) -> tuple[str, bytes]:
         PLACE.as_posix(): tomlkit.dumps({**identity, "sealed": sealed}).encode(),
         **dict.fromkeys(sorted(beside), tomlkit.dumps(identity).encode()),
     }
-    return package.student, zip_files(files)
+    return package.student, pack_course_folder(files)
 
 
-def zip_files(files: Mapping[str, bytes]) -> bytes:
-    """The content of a zip file with one folder, ``course``; the same files give the same bytes."""
-    stream = io.BytesIO()
-    with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive:
-        for name, content in files.items():
-            info = zipfile.ZipInfo(f"course/{name}")  # its time is always 1980
-            archive.writestr(info, content, zipfile.ZIP_DEFLATED)
-    return stream.getvalue()
+def pack_course_folder(files: Mapping[str, bytes]) -> bytes:
+    """The content of a zip file with one folder, ``course``."""
+    return zip_files({f"course/{name}": content for name, content in files.items()})
 
 
 def find_broken_seals(course: Path, found: ClassPackage, *, secret: bytes) -> list[str]:

@@ -6,11 +6,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 
+from grader.answers.submission import find_files, read_answers, read_text
 from grader.check import Result, Status
 from grader.course import Progress, Standing
 from grader.exercise import HINTS, Exercise, Grade
 from grader.misconception import MISCONCEPTIONS
-from grader.submission import find_files, read_answers, read_text
 from grader.terminal import Line, StyledText, find_width, style_line, wrap_text
 
 MARKS = {

@@ -9,10 +9,10 @@ from pathlib import Path
 from urllib.parse import quote
 
 from grader.course import Progress
-from grader.draw_cache import enable_draw_cache
 from grader.exec_process import INTERRUPTED, run_process
 from grader.exercise import list_exercises
 from grader.report import find_next_step, format_next_step, format_overview, read_exercises
+from grader.student_data.draw_cache import enable_draw_cache
 from grader.terminal import print_lines, style_line
 from sim.core.errors import BadRequest
 from sim.physics.engine import load_engine

@@ -3,7 +3,7 @@
 CHECKS = '''
 """An exercise to test the examiner with."""
 from grader.check import WrongAnswer, check
-from grader.submission import read_answers
+from grader.answers.submission import read_answers
 FILES = ("answers.toml",)
 
 def read(path, *, student):

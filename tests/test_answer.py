@@ -6,11 +6,18 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from grader.answer import BANDS, FAST_KA, AnswerKey, ask_gains, judge_number, read_answer_number
+from grader.answers.number_answer import (
+    BANDS,
+    FAST_KA,
+    AnswerKey,
+    ask_gains,
+    judge_number,
+    read_answer_number,
+)
+from grader.answers.quantity import NotAUnitError, read_number, read_unit
+from grader.answers.wrong_number import Lookalike, Scene, WrongNumber
 from grader.check import WrongAnswer
 from grader.misconception import MISCONCEPTIONS
-from grader.quantity import NotAUnitError, read_number, read_unit
-from grader.wrong_number import Lookalike, Scene, WrongNumber
 
 TURN = 2 * math.pi
 GAINS = {"kS": 0.15, "kV": 2.4, "kA": 0.3}

@@ -297,6 +297,7 @@ def test_a_mark_that_means_nothing_is_refused(classroom, capsys, reads, line):
     command = ["class", str(classroom / "in"), "--exercise", "1"]
 
     assert run_command([*command, "--overrides", str(classroom / "marks.csv")]) == 2
+    assert not (classroom / "in-graded").exists()  # it is refused before anything is graded
     reads(capsys.readouterr().err)
 
 

@@ -9,7 +9,7 @@ import pytest
 from click.testing import CliRunner
 from small_course import lay_out
 
-from grader.answer_names import find_similar_name, find_unknown_names
+from grader.answers.answer_names import find_similar_name, find_unknown_names
 from grader.cli import grade as command
 from grader.cli import run_command
 from grader.course import find_course

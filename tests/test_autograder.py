@@ -19,8 +19,8 @@ from grader.autograder.submitter import find_submitter
 from grader.cli import run_command
 from grader.exercise import find_exercise
 from grader.package_files import select_package_files
-from grader.release import make_common_package
-from grader.variant import use_class_secret
+from grader.release import pack_course_folder
+from grader.student_data.variant import use_class_secret
 from sim.core.errors import BadRequest
 
 EMAIL = "zoë.o'neil@example.org"
@@ -248,7 +248,7 @@ def test_of_a_group_the_first_is_the_student(tmp_path):
         (["gradescope", "-o", "x.zip", "--secret", "{root}/class.secret"], "in the course folder"),
         (
             ["gradescope", "-o", "x.zip", "--secret", "{elsewhere}/gone"],
-            "there is no such file with a secret",
+            "the file with the secret is missing",
         ),
         (["gradescope", "-o", "x.zip", "--roster", "gone.csv"], "gone.csv"),
         (["gradescope", "-o", "x.zip", "--exercise", "99"], "there is no exercise '99'"),
@@ -268,7 +268,7 @@ def test_what_cannot_be_exported_is_one_line(root, tmp_path, monkeypatch, capsys
 def workflow(root, tmp_path, monkeypatch):
     """A repository that students start from, with the workflow in it."""
     repository = tmp_path / "zoë's repository"
-    archive = zipfile.ZipFile(io.BytesIO(make_common_package(root)))
+    archive = zipfile.ZipFile(io.BytesIO(pack_course_folder(select_package_files(root).files)))
     archive.extractall(tmp_path)
     (tmp_path / "course").rename(repository)
     monkeypatch.chdir(repository)

@@ -7,6 +7,7 @@ import json
 import math
 import re
 from dataclasses import replace
+from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import pytest
@@ -18,7 +19,7 @@ from grader.classroom.grading import MISSING, GradedStudent, make_grade_record, 
 from grader.classroom.item_analysis import analyze_items, count_misconceptions, summarize_exercises
 from grader.classroom.result_pages import summarize_class, write_pages
 from grader.classroom.results import ClassResults
-from grader.exercise import Grade
+from grader.exercise import Exercise, Grade
 from sim.core.errors import BadRequest
 from sim.plot import plot_score_heatmap
 
@@ -72,11 +73,13 @@ def student(name, *points, code="M-UNITS"):
     return GradedStudent(name, "", tuple(records))
 
 
-class Empty:
+class OneCheck(Exercise):
     """An exercise with one check, of which nothing was handed in."""
 
-    name = "exercise1"
     checks = (Check("q0", "About q0", 2.0, (), lambda _: None),)
+
+
+EMPTY = OneCheck("exercise1", Path())
 
 
 def some(*people):
@@ -114,10 +117,10 @@ def test_too_few_students_tell_nothing_apart():
 
 def test_who_handed_nothing_in_counts_as_absent_and_not_as_wrong():
     absent = GradedStudent(
-        "zoe", "", (make_missing_record(Empty(), "zoe", status=MISSING, reason="nothing"),)
+        "zoe", "", (make_missing_record(EMPTY, "zoe", status=MISSING, reason="nothing"),)
     )
     broken = GradedStudent(
-        "bob", "", (make_missing_record(Empty(), "bob", status="ungradable", reason="odd"),)
+        "bob", "", (make_missing_record(EMPTY, "bob", status="ungradable", reason="odd"),)
     )
     (column,) = summarize_exercises([student("ann", (2.0,)), absent, broken])
 
@@ -136,7 +139,7 @@ def test_the_gradebook_is_safe_for_a_spreadsheet(results, tmp_path):
 
 
 def test_canvas_gets_no_points_of_a_student_with_something_not_graded(tmp_path):
-    unread = make_missing_record(Empty(), "ann", status="ungradable", reason="empty")
+    unread = make_missing_record(EMPTY, "ann", status="ungradable", reason="empty")
     half = GradedStudent("ann", "", (*student("ann", (2.0,)).records, unread))
     people = some(half, student("ben", (2.0,), (0.0,)), student("cat", (2.0,), (2.0,)))
     results = replace(people, remarks={"cat": ("report.pdf is not a file of any exercise",)})
@@ -236,7 +239,7 @@ def test_pages_are_whole_ask_nobody_and_escape_names(results, tmp_path):
 
 
 def ungradable(name, exercise, reason):
-    record = make_missing_record(Empty(), name, status="ungradable", reason=reason)
+    record = make_missing_record(EMPTY, name, status="ungradable", reason=reason)
     return {**record, "exercise": exercise}
 
 
@@ -291,7 +294,7 @@ def test_a_name_that_the_font_lacks_stays_text_without_a_warning():
 
 def test_the_summary_counts_people():
     nobody = some(
-        GradedStudent("zoe", "", (make_missing_record(Empty(), "zoe", status=MISSING, reason=""),))
+        GradedStudent("zoe", "", (make_missing_record(EMPTY, "zoe", status=MISSING, reason=""),))
     )
 
     assert summarize_class(nobody) == "0 of 1 students handed something in."

@@ -28,7 +28,7 @@ KILLS = '''
 """An exercise whose check brings its process down, and takes its time before."""
 import os, time
 from grader.check import check
-from grader.submission import read_answers
+from grader.answers.submission import read_answers
 FILES = ("answers.toml",)
 
 def read(path, *, student):

@@ -16,7 +16,7 @@ from grader.exercise import Exercise, list_exercises
 CHECKS = '''
 """An exercise that says whether it was asked to run what it was given."""
 from grader.check import check
-from grader.submission import read_answers
+from grader.answers.submission import read_answers
 FILES = ("answers.toml",)
 
 def read(path, *, student, run=True):

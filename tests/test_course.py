@@ -13,7 +13,7 @@ from small_course import HALF, RIGHT, answer, lay_out
 
 from grader.cli import run_command
 from grader.course import PLACE, Progress, Standing, find_course, load_progress, update_progress
-from grader.variant import (
+from grader.student_data.variant import (
     check_student_name,
     derive_student_seed,
     make_folder_name,

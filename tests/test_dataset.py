@@ -10,7 +10,6 @@ from dataset_made import DAMAGED, PLAIN, SECRET, files, key, make_dataset, spec,
 import sim
 from sim.bench.dataset import making
 from sim.bench.dataset.plan import DAMAGE, FAULT, MECHANISM, RECORD, plan_jobs
-from sim.bench.dataset.secret import find_secret
 from sim.bench.dataset.spec import read_spec
 from sim.bench.simulate import simulate
 from sim.inspect.contaminate import contaminate
@@ -23,7 +22,7 @@ def _no_secret_around(monkeypatch):
 
 def jobs_of(path):
     asked = read_spec(path)
-    return plan_jobs(asked, find_secret(asked, make=False))
+    return plan_jobs(asked, asked.find_secret(make=False))
 
 
 def test_a_dataset_is_logs_in_a_folder_and_a_key_beside_it(tmp_path, capsys):

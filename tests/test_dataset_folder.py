@@ -11,8 +11,8 @@ from dataset_made import DAMAGED, PLAIN, SECRET, files, key, make_dataset, spec,
 
 from sim.bench.dataset import key as keys
 from sim.bench.dataset.folder import DatasetPlace
-from sim.bench.dataset.secret import Secret
 from sim.core.errors import BadRequest
+from sim.support.secret import Secret
 
 
 @pytest.fixture(autouse=True)

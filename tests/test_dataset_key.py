@@ -8,9 +8,9 @@ import pytest
 from dataset_made import DAMAGED, PLAIN, SECRET, files, key, make_dataset, spec, sysid
 
 import sim
-from sim.bench.dataset.secret import Secret
 from sim.bench.mechanisms import MECHANISMS
 from sim.core.units import find_unit
+from sim.support.secret import Secret
 
 
 @pytest.fixture(autouse=True)

@@ -216,8 +216,13 @@ def test_students_come_from_a_list_or_a_roster(tmp_path, students, content, foun
     ("students", "content", "said"),
     [
         ('"roster.csv"', None, "roster.csv: the roster cannot be read (No such file"),
-        ('"roster.csv"', "name\nann\n", "roster.csv: no column 'student' in its first line."),
-        ('"roster.csv"', "", "roster.csv: no column 'student' in its first line."),
+        (
+            '"roster.csv"',
+            "name\nann\n",
+            "roster.csv: the first line names no column student. Name one",
+        ),
+        ('"roster.csv"', "", "roster.csv: the first line names no column student. Name one"),
+        ('"roster.csv"', "student\n\n", "roster.csv: there is no student in this table."),
         ('"roster.csv"', "student\nann\nAnn\n", "line 3: 'Ann' and 'ann' are the same student."),
         ('"roster.csv"', "student,x\n,1\n", "roster.csv, line 2: the student's name is empty."),
         ('"roster.csv"', "student\n../bo\n", "line 2: the student's name '../bo' has a path sepa"),

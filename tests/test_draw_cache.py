@@ -8,13 +8,13 @@ from types import SimpleNamespace
 import pytest
 
 from grader import draw_cache as room
-from grader.draw_cache import enable_draw_cache
-from grader.student_files import write_student_files
-from grader.variant import use_class_secret
+from grader.student_data.draw_cache import enable_draw_cache
+from grader.student_data.student_files import write_student_files
+from grader.student_data.variant import use_class_secret
 from sim.support.work import cache
 
 DRAWN = """
-from grader.draw_cache import cache_generated_data
+from grader.student_data.draw_cache import cache_generated_data
 
 COUNT = []
 

@@ -16,7 +16,6 @@ from small_course import HALF, RIGHT, lay_out
 from grader.cli import run_command
 from sim.bench.dataset.making import make_log
 from sim.bench.dataset.plan import plan_jobs
-from sim.bench.dataset.secret import find_secret
 from sim.bench.dataset.spec import read_spec
 from sim.core.errors import BadRequest
 from sim.support.work import cluster
@@ -163,7 +162,7 @@ def test_a_class_is_graded_the_same_by_both(tmp_path, monkeypatch, executor):
 def test_a_refusal_of_a_job_comes_back_as_one(tmp_path, executor):
     late = '[[logs.faults]]\nname = "loop-overrun"\nat = 0.99\ntest = "dynamic-forward"\n'
     asked = read_spec(spec(tmp_path, PLAIN + late))  # a test of 1 s drives for 0.96 s
-    jobs = plan_jobs(asked, find_secret(asked, make=False))
+    jobs = plan_jobs(asked, asked.find_secret(make=False))
 
     with pytest.raises(BadRequest, match=r"number 1 \(log-0.\).*0.99 s is not within dynamic-fo"):
         list(run_jobs(make_log, jobs, processes=2, worth=1, cluster=executor))

@@ -1,5 +1,6 @@
 """Exercise 11: choosing an answer and a reason, and a decision with a reason that carries it."""
 
+import itertools
 import re
 import sys
 import tomllib
@@ -9,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from grader.answer_key import load_answer_key
+from grader.answers.answer_key import load_answer_key
 from grader.cli import run_command
 from grader.exercise import Exercise
 from grader.misconception import MISCONCEPTIONS
@@ -44,7 +45,11 @@ def right(student):
     """All letters and numbers that are right for a student."""
     variant = KEY.draw(student)
     picks = {
-        name: next(one for one, option in letters.items() if option.share == 1.0)
+        name: next(
+            one
+            for one, option in letters.items()
+            if option.share == 1.0 and not option.needs_reason
+        )
         for name, letters in variant.letters.items()
     }
     reasons = {key: one for one, key in variant.reasons.items()}
@@ -109,9 +114,8 @@ def test_every_wrong_option_says_why_and_names_no_right_one(copy, name):
     answers = [one for one in QUESTIONS[name].options if one.share == 1.0]
     assert len(answers) == (2 if name == "KC1_answer" else 1)
     for option in QUESTIONS[name].options:
-        check = grade_answer(copy, **{name: letter("ann", name, option.text)})[
-            name.lower().replace("_", "-")
-        ]
+        picks = right("ann") | {name: letter("ann", name, option.text)}
+        check = grade_answer(copy, **picks)[name.lower().replace("_", "-")]
         assert (check.status == "passed") == (option.share == 1.0)
         if option.share < 1.0:
             assert check.points == pytest.approx(option.share * check.max_points)
@@ -125,6 +129,7 @@ def test_every_wrong_option_says_why_and_names_no_right_one(copy, name):
 @pytest.mark.parametrize(
     ("name", "words", "share"),
     [
+        ("KC1_answer", "The encoder slipped", 1.0),
         ("KC2_answer", "Only add a kP", 0.6),
         ("KC3_answer", "Raise kP", 0.4),
         ("KC3_answer", "Add kI", 0.3),
@@ -132,10 +137,27 @@ def test_every_wrong_option_says_why_and_names_no_right_one(copy, name):
         ("KC3_answer", "Run SysId without", 0.0),
     ],
 )
-def test_half_a_solution_earns_its_part(copy, name, words, share):
-    check = grade_answer(copy, **{name: letter("ann", name, words)})[name.lower().replace("_", "-")]
+def test_half_a_solution_earns_its_part_with_the_right_reason(copy, name, words, share):
+    picks = right("ann") | {name: letter("ann", name, words)}
+    check = name.lower().replace("_", "-")
 
-    assert check.points == pytest.approx(2 * share)
+    assert grade_answer(copy, **picks)[check].points == pytest.approx(2 * share)
+    reason = name.replace("_answer", "_reason")
+    wrong = next(one for one in "abcde" if one != picks[reason])
+    for other in ("", wrong):
+        assert grade_answer(copy, **picks | {reason: other})[check].points == 0
+
+
+def test_random_letters_earn_at_most_a_quarter_of_each_knowledge_check(copy):
+    for story in ("KC1", "KC2", "KC3"):
+        answer, reason = f"{story}_answer", f"{story}_reason"
+        letters = KEY.draw("ann").letters
+        earned = []
+        for picks in itertools.product(letters[answer], letters[reason]):
+            results = grade_answer(copy, **dict(zip((answer, reason), picks, strict=True)))
+            earned.append(sum(check.points for check in results.values()))
+
+        assert sum(earned) / len(earned) <= (2 + 2) / 4
 
 
 @pytest.mark.parametrize(

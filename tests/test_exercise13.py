@@ -11,7 +11,7 @@ import pytest
 
 from grader.cli import run_command
 from grader.exercise import Exercise
-from grader.variant import make_folder_name
+from grader.student_data.variant import make_folder_name
 from sim.bench.slip import compute_slip_voltage
 from sim.inspect.detect_faults import inspect
 from sim.io import list_entries, read, read_motors

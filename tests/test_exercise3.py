@@ -7,7 +7,7 @@ import pytest
 
 from grader.cli import run_command
 from grader.exercise import Exercise
-from grader.variant import make_folder_name
+from grader.student_data.variant import make_folder_name
 
 ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise3", ROOT / "exercises" / "exercise3")
@@ -97,7 +97,7 @@ def test_where_no_numbers_can_be_written_it_says_so(capsys, monkeypatch):
     monkeypatch.setattr(Path, "mkdir", full)
 
     assert run_command(["3"]) == 2
-    assert "your numbers cannot be written: No space left on device" in capsys.readouterr().err
+    assert "your numbers cannot be written (No space left on device)" in capsys.readouterr().err
 
 
 def test_edges_and_widths_as_they_stand_in_the_table_are_recognized(copy):

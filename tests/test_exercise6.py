@@ -12,10 +12,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from grader.answer_key import load_answer_key
+from grader.answers.answer_key import load_answer_key
 from grader.cli import run_command
 from grader.exercise import Exercise
-from grader.variant import make_folder_name
+from grader.student_data.variant import make_folder_name
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.core.units import find_unit

@@ -15,7 +15,7 @@ import pytest
 
 from grader.check import WrongAnswer
 from grader.exercise import Exercise
-from grader.variant import use_class_secret
+from grader.student_data.variant import use_class_secret
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate

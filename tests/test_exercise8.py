@@ -14,7 +14,7 @@ from grader.check import WrongAnswer
 from grader.cli import run_command
 from grader.exercise import Exercise
 from grader.misconception import MISCONCEPTIONS
-from grader.variant import use_class_secret
+from grader.student_data.variant import use_class_secret
 from sim.core.units import find_unit
 from sim.fit import fit
 from sim.io import read
@@ -92,6 +92,26 @@ def test_who_keeps_everything_earns_nothing_for_it(median):
         earned = points(DRAWN.Preparation({}, 0.0, median), student=student)
 
         assert (earned["kept"], earned["reach"]) == (0, 0)
+
+
+@pytest.mark.parametrize(("ramp", "step"), [(4.0, 0.5), (5.0, 0.7), (6.0, 0.5), (99.0, 0.5)])
+def test_a_cut_that_is_the_same_for_everybody_earns_little(ramp, step):
+    earned = []
+    for student in STUDENTS:
+        reference = variant(student).reference
+        keep = dict.fromkeys(RAMPS, (0.0, ramp)) | dict.fromkeys(STEPS, (0.0, step))
+        earned.append(sum(points(replace(reference, keep=keep), student=student).values()))
+
+    assert np.mean(earned) <= 10 / 3
+
+
+def test_a_gain_counts_only_where_the_fast_ends_are_kept():
+    reference = variant("ann").reference
+    ramp = next(test for test in RAMPS if test not in reference.keep)
+    results = graded(replace(reference, keep={**reference.keep, ramp: (0.0, 4.0)}))
+
+    assert results["reach"].points == 1.5
+    assert {results[name].points for name in ("ks", "kv", "ka")} == {0}
 
 
 def test_what_is_lost_costs_half_a_point_for_each_test():

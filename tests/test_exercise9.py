@@ -12,7 +12,7 @@ import pytest
 
 from grader.cli import run_command
 from grader.exercise import Exercise
-from grader.variant import derive_student_seed, use_class_secret
+from grader.student_data.variant import derive_student_seed, use_class_secret
 
 ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise9", ROOT / "exercises" / "exercise9")
@@ -215,7 +215,7 @@ def test_where_no_log_can_be_written_it_says_so(capsys, monkeypatch):
     monkeypatch.setattr(Path, "mkdir", full)
 
     assert run_command(["9"]) == 2
-    assert "your log cannot be written: No space left on device" in capsys.readouterr().err
+    assert "your log cannot be written (No space left on device)" in capsys.readouterr().err
 
 
 def test_explaining_the_voltage_is_recognized(copy):

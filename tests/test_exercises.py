@@ -12,7 +12,7 @@ from grader.course import find_course
 from grader.exercise import HINTS, list_exercises
 from grader.misconception import MISCONCEPTIONS
 from grader.starter import remove_answers
-from grader.variant import use_class_secret
+from grader.student_data.variant import use_class_secret
 
 ROOT = find_course(Path(__file__).resolve().parent)
 EXERCISES = {one.name: one for one in list_exercises(ROOT)}

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 from authored import authored_answer
 
+from grader.answers.submission import read_answers
 from grader.exercise import list_exercises
-from grader.submission import read_answers
 from sim.core.errors import UnreadableFile
 
 ROOT = Path(__file__).resolve().parents[1]

@@ -23,7 +23,7 @@ from authored import authored_answer, mistakes_of
 from wheel import LEFT_OUT, build_wheel
 
 from grader.exercise import list_exercises
-from grader.variant import make_folder_name, use_class_secret
+from grader.student_data.variant import make_folder_name, use_class_secret
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -24,7 +24,7 @@ from grader.isolation import (
     seccomp,
 )
 from grader.isolation.scratch import remove_tree
-from grader.variant import use_class_secret
+from grader.student_data.variant import use_class_secret
 
 ROOT = Path(__file__).resolve().parents[1]
 

@@ -30,7 +30,7 @@ from tornado.websocket import websocket_connect
 from grader.cli import run_command
 from grader.course import find_course
 from grader.exercise import find_exercise
-from grader.variant import make_folder_name
+from grader.student_data.variant import make_folder_name
 
 ROOT = Path(__file__).resolve().parents[1]
 ANSWER = "exercises/exercise1/answers.toml"

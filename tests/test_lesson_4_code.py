@@ -9,13 +9,13 @@ import pytest
 
 import sim
 from grader.check import WrongAnswer
-from grader.log_checks import check_logged, check_units
-from grader.robotcode.running import run_routine
-from grader.routine_checks import (
+from grader.robotcode.checks.log import check_logged, check_units
+from grader.robotcode.checks.routine import (
     check_assembled,
     check_driven,
     check_open_loop,
 )
+from grader.robotcode.running import run_routine
 from sim.fit import fit
 
 LESSON = Path(__file__).resolve().parents[1] / "lessons" / "04_wire_sysidroutine.py"

@@ -15,7 +15,7 @@ from grader.mystery import (
     grade_mystery_answer,
     load_state,
 )
-from grader.variant import use_class_secret
+from grader.student_data.variant import use_class_secret
 from sim.io import read
 
 ROOT = Path(__file__).resolve().parents[1]

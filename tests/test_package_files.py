@@ -133,7 +133,7 @@ def test_line_ends_of_windows_do_not_make_another_starter(course):
 
 def test_a_missing_or_unlisted_starter_is_refused(course):
     (course / "exercises" / "exercise9" / "fit.py").unlink()
-    with pytest.raises(BadRequest, match="exercise9/fit.py: it cannot be read"):
+    with pytest.raises(BadRequest, match="exercise9/fit.py: students need it, and it"):
         select_package_files(course)
     (course / "exercises" / "starters.toml").write_text("[exercise9]\n", encoding="utf-8")
     with pytest.raises(BadRequest, match=r"has a starter answers.toml that is not listed"):

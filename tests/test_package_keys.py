@@ -13,13 +13,13 @@ import pytest
 from authored import authored_answer
 from test_release import lay_out, read
 
-from grader.answer_key import load_answer_key
+from grader.answers.answer_key import load_answer_key
 from grader.classroom.bundle import pack_course
 from grader.course import find_course
 from grader.exercise import Exercise, list_exercises
 from grader.package_files import select_package_files
-from grader.release import StudentPackage, make_student_package, zip_files
-from grader.variant import use_class_secret
+from grader.release import StudentPackage, make_student_package, pack_course_folder
+from grader.student_data.variant import use_class_secret
 
 ROOT = find_course(Path(__file__).resolve().parent)
 SECRET = b"0123456789abcdef-keys"
@@ -69,14 +69,14 @@ print(json.dumps(answers))
 @pytest.fixture(scope="module", params=[False, True], ids=["class", "self-study"])
 def common(request, tmp_path_factory):
     """The common package of a class and that for self-study, unpacked; whether it has keys."""
-    files = read(zip_files(select_package_files(ROOT, with_keys=request.param).files))
+    files = read(pack_course_folder(select_package_files(ROOT, with_keys=request.param).files))
     return lay_out(tmp_path_factory.mktemp("common"), files), request.param
 
 
 @pytest.fixture(scope="module")
 def unpacked(tmp_path_factory):
     """Student -> the folder of both of their zip files, unpacked."""
-    files = read(zip_files(select_package_files(ROOT, with_keys=False).files))
+    files = read(pack_course_folder(select_package_files(ROOT, with_keys=False).files))
     packed = pack_course(ROOT)
     return {
         who: lay_out(

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from grader.exercise import Exercise
-from grader.variant import make_folder_name
+from grader.student_data.variant import make_folder_name
 
 ROOT = Path(__file__).resolve().parents[1]
 FEW = 20  # students in the gate

@@ -9,7 +9,7 @@ import pytest
 
 from grader.exercise import Exercise, find_exercise
 from grader.mistake import make_wrong_answer, scale_numbers
-from grader.variant import make_folder_name
+from grader.student_data.variant import make_folder_name
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate

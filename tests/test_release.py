@@ -6,18 +6,19 @@ import zipfile
 
 import pytest
 
-from grader.class_package import read_class_package
 from grader.classroom.bundle import pack_course
 from grader.cli import run_command
 from grader.course import find_course
 from grader.exercise import find_exercise
+from grader.package_files import select_package_files
 from grader.release import (
     StudentPackage,
     find_broken_seals,
-    make_common_package,
     make_student_package,
+    pack_course_folder,
 )
-from grader.variant import use_class_secret
+from grader.student_data.class_package import read_class_package
+from grader.student_data.variant import use_class_secret
 from sim.core.errors import BadRequest
 
 SECRET = b"0123456789abcdef-east"
@@ -57,7 +58,7 @@ def lay_out(folder, *packages):
 
 
 def test_the_common_package_holds_the_course_and_nothing_private(course):
-    files = read(make_common_package(course))
+    files = read(pack_course_folder(select_package_files(course).files))
 
     for name in ("README.md", "pyproject.toml", "grader/__main__.py", "sim/core/log.py"):
         assert f"course/{name}" in files
@@ -93,7 +94,7 @@ def test_a_class_has_numbers_of_its_own_and_the_same_again(packed, anns):
 def test_where_a_class_issued_numbers_only_its_instructor_can_grade_them(
     course, anns, tmp_path, monkeypatch, capsys
 ):
-    place = lay_out(tmp_path, read(make_common_package(course)), anns)
+    place = lay_out(tmp_path, read(pack_course_folder(select_package_files(course).files)), anns)
     monkeypatch.chdir(place)
     answers = place / "exercises" / "exercise9" / "answers.toml"
     answers.write_text('kS = 0.1\nkV = ""\n', encoding="utf-8")
@@ -185,7 +186,7 @@ def empty_course(tmp_path, monkeypatch):
         ),
         (["release", "--check", "."], "no secret was named"),
         (["release", "--check", ".", "--secret", "short"], "fewer than 16 characters"),
-        (["class", "in", "--secret", "nowhere"], "there is no such file with a secret"),
+        (["class", "in", "--secret", "nowhere"], "the file with the secret is missing"),
     ],
 )
 def test_what_cannot_be_released_is_one_line(capsys, command, said):
@@ -210,7 +211,7 @@ def test_a_table_is_no_secret(tmp_path_factory, capsys, text):
 
 def test_half_a_course_is_not_released(tmp_path):
     with pytest.raises(BadRequest, match="not the whole course"):
-        make_common_package(tmp_path)
+        select_package_files(tmp_path)
 
 
 def test_a_secret_is_made_once_for_its_owner_only(course, tmp_path, monkeypatch, capsys):

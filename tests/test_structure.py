@@ -14,7 +14,7 @@ CATALOGUES = {  # these look into their own folder, or hand on a name when it is
     "sim/cli/__init__.py",
     "sim/io/__init__.py",
     "grader/__init__.py",
-    "grader/answer_key.py",  # the module beside an exercise's checks
+    "grader/answers/answer_key.py",  # the module beside an exercise's checks
     "grader/classroom/exports/__init__.py",
     "grader/cli/__init__.py",
     "grader/robotcode/bench/__init__.py",

@@ -2,11 +2,11 @@
 
 import pytest
 
+from grader.answers.choice_answer import check_choice, read_choice
 from grader.check import WrongAnswer
-from grader.choice_answer import check_choice, read_choice
 from grader.mistake import change_number, exchange_numbers, make_wrong_answer, scale_numbers
-from grader.student_files import write_student_files
-from grader.variant import derive_student_seed, make_folder_name, use_class_secret
+from grader.student_data.student_files import write_student_files
+from grader.student_data.variant import derive_student_seed, make_folder_name, use_class_secret
 from sim.core.errors import BadRequest
 
 TYPES = ("Simple", "Arm", "Elevator")

@@ -17,7 +17,7 @@ DOES = '''
 """An exercise whose check does what the answer asks for."""
 import os, time
 from grader.check import check
-from grader.submission import read_answers
+from grader.answers.submission import read_answers
 FILES = ("answers.toml",)
 
 def read(path, *, student):

@@ -6,12 +6,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.answer import read_answer_number
+from grader.answers.number_answer import read_answer_number
+from grader.answers.quantity import NotAUnitError, read_unit
+from grader.answers.submission import read_answers
 from grader.check import WrongAnswer, check
 from grader.consequence import Consequence
-from grader.quantity import NotAUnitError, read_unit
-from grader.student_files import write_student_files
-from grader.submission import read_answers
+from grader.student_data.student_files import write_student_files
 
 from .budget import MOMENTS, Variant
 from .drawn import draw

@@ -3,7 +3,7 @@
 from itertools import combinations
 from typing import TYPE_CHECKING
 
-from grader.variant import make_student_rng
+from grader.student_data.variant import make_student_rng
 
 from .budget import MOMENTS, NEAR, SHOWN, Moment, Variant
 from .guess import ALIKE, ROUNDED, guesses

@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 from itertools import product
 
-from grader.wrong_number import MANY, WrongNumber
+from grader.answers.wrong_number import MANY, WrongNumber
 
 from .budget import MOMENTS, SHOWN, Variant
 

@@ -9,7 +9,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from grader.answer import read_answer_number
+from grader.answers.number_answer import read_answer_number
 from grader.check import WrongAnswer
 from grader.consequence import Consequence, Picture
 

@@ -9,9 +9,9 @@ from pathlib import Path
 from grader.check import Check, NotReachedError, WrongAnswer, check
 from grader.consequence import Consequence
 from grader.robotcode.bench.gains_run import GainConstant, Gains
+from grader.robotcode.checks.causes import check_compiles, check_stop
 from grader.robotcode.running import Runs, judge_runs, run_gains
-from grader.routine_checks import check_compiles, check_stop
-from grader.student_files import write_student_files
+from grader.student_data.student_files import write_student_files
 
 from .comment_units import find_commented_units, judge_comment
 from .drawn import draw
@@ -131,7 +131,7 @@ def named(seen: Seen) -> None:
     wanted = (*seen.variant.gains, "kP")
     there = [one for one in wanted if seen.facts.find_constant(one)]
     if not there:
-        check_compiles(seen.facts.errors, language=seen.facts.language)
+        check_compiles(seen.facts)
         check_stop(seen.facts, "start")
         raise WrongAnswer(
             "no gain in this file",
@@ -249,7 +249,7 @@ def feedforward(seen: Seen) -> None:
         misconception = "M-NO-KG-IN-SYSID" if gravity else ""
         raise WrongAnswer(f"{one.kind} in line {one.line}", hint=hint, misconception=misconception)
     check_settings(one, seen.variant)
-    check_compiles(facts.errors, language=facts.language)
+    check_compiles(facts)
     check_stop(facts, "start", "periodic")
 
 

@@ -4,7 +4,7 @@ import math
 import re
 from collections.abc import Iterator
 
-from grader.quantity import NotAUnitError, Quantity, read_unit
+from grader.answers.quantity import NotAUnitError, Quantity, read_unit
 
 MOST_WORDS = 6  # of one unit: volts times seconds squared per meter
 _PER = re.compile(r"\b(for|per|each|every)\b(\s+(an?|the|each|every|one|1)\b)*(?=\s+[a-z°])")

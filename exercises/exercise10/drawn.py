@@ -4,7 +4,7 @@ from dataclasses import replace
 from itertools import combinations
 from typing import TYPE_CHECKING
 
-from grader.variant import make_student_rng
+from grader.student_data.variant import make_student_rng
 
 from .key import FULL, LENGTHS, PLACES, SLOT0, UNITS, Variant, near
 

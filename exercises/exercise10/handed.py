@@ -5,10 +5,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
+from grader.answers.wrong_number import WrongNumber
 from grader.check import NotReachedError, WrongAnswer
 from grader.robotcode.bench.gains_run import CLASSES, CLOSED_LOOP, GainFacts, Gains
-from grader.routine_checks import check_compiles, check_stop
-from grader.wrong_number import WrongNumber
+from grader.robotcode.checks.causes import check_compiles, check_stop
 
 from .key import FEED_FORWARD, PLACES, SLOT0, Variant, near
 from .slips import find_constant_slip, find_feedback_slip, name_slip
@@ -43,7 +43,7 @@ class Seen:
         """
         made = self.facts.feedforwards
         if not made:
-            check_compiles(self.facts.errors, language=self.facts.language)
+            check_compiles(self.facts)
             check_stop(self.facts, "start", "periodic")
             if not self.facts.constants:
                 raise NotReachedError("checked after you write the gains")
@@ -71,7 +71,7 @@ class Seen:
             WrongAnswer: nobody can know it.
         """
         if value is None:
-            check_compiles(self.facts.errors, language=self.facts.language)
+            check_compiles(self.facts)
             raise WrongAnswer(
                 f"the grader cannot know {what}",
                 hint="Write it as a number, or as a calculation with numbers and named constants.",

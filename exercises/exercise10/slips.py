@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 
-from grader.wrong_number import WrongNumber
+from grader.answers.wrong_number import WrongNumber
 
 from .key import FULL, SLOT0, Variant, near
 

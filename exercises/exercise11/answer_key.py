@@ -1,13 +1,13 @@
 """The questions and their right answers, and what is said about wrong ones.
 
-A class's package lacks this module and all that only it imports: see ``grader.answer_key``.
+A class's package lacks this module and all that only it imports: see ``grader.answers.answer_key``.
 """
 
 from collections.abc import Mapping
 
-from grader.answer import AnswerKey, judge_number, read_answer_number
+from grader.answers.choice_answer import check_choice, read_choice
+from grader.answers.number_answer import AnswerKey, judge_number, read_answer_number
 from grader.check import NotReachedError, WrongAnswer, shorten
-from grader.choice_answer import check_choice, read_choice
 
 from .drawn import QUESTIONS, Variant, draw
 from .knowledge import STORIES
@@ -74,12 +74,25 @@ def judge_answer(
     """
     raw = given.get(name.lower())
     if name in QUESTIONS:
-        return judged(QUESTIONS[name].chosen(raw, variant.letters[name]), points=points)
+        chosen = QUESTIONS[name].chosen(raw, variant.letters[name])
+        return judged(chosen, points=points, backed=_is_backed(name, given, variant))
     if name == "KC2_volts":
         return _judge_volts(raw, variant, points=points)
     row = next(one for one in ROWS if one.name == name.removesuffix("_reason"))
     judge = _judge_decision if name == row.name else _judge_reason
     return judge(row, given, variant)
+
+
+def _is_backed(name: str, given: Mapping[str, object], variant: Variant) -> bool:
+    """Whether the right reason was given for the answer of a knowledge check."""
+    reason = name.replace("_answer", "_reason")
+    if reason == name or reason not in QUESTIONS:
+        return False
+    try:
+        chosen = QUESTIONS[reason].chosen(given.get(reason.lower()), variant.letters[reason])
+    except WrongAnswer:
+        return False
+    return chosen.share == 1.0
 
 
 def _judge_volts(raw: object, variant: Variant, *, points: float) -> str | None:

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from grader.answer_key import load_answer_key
+from grader.answers.answer_key import load_answer_key
+from grader.answers.submission import read_answers
 from grader.check import Check, check
-from grader.student_files import write_student_files
-from grader.submission import read_answers
+from grader.student_data.student_files import write_student_files
 
 FILES = ("answers.toml",)
 HERE = Path(__file__).resolve().parent

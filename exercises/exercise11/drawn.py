@@ -4,8 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from grader.answer import AskedNumber, Band
-from grader.variant import cache_draws, make_student_rng
+from grader.answers.number_answer import AskedNumber, Band
+from grader.student_data.variant import cache_draws, make_student_rng
 
 from .knowledge import CHECKS
 from .question import LETTERS, Option, lettered

@@ -16,10 +16,11 @@ SLIP = Option(
     "The encoder slipped, but only if a second sensor or the current shows that the mechanism "
     "did not jump.",
     (
-        "This answer is accepted, because you want a second sensor to confirm it. Otherwise, "
-        "believe the people who saw the mechanism jump"
+        "You want a second sensor to confirm it, so this answer is a good one, too. Without that "
+        "sensor, believe the people who saw the mechanism jump"
     ),
     share=1.0,
+    needs_reason=True,
 )
 
 CHECKS = (
@@ -124,6 +125,7 @@ CHECKS = (
                 " voltage? And kP alone does not remove the whole error",
                 "M-KP-EXACT",
                 share=0.6,
+                needs_reason=True,
             ),
         ),
     ),
@@ -174,18 +176,21 @@ CHECKS = (
                 "missing voltage divided by kP. And with a large kP the empty arm shakes",
                 "M-KP-EXACT",
                 share=0.4,
+                needs_reason=True,
             ),
             Option(
                 "Add kI.",
                 "With kI the arm would come back slowly, and would swing up when the game piece "
                 "is gone. You know this error before it happens, so do not wait for feedback",
                 share=0.3,
+                needs_reason=True,
             ),
             Option(
                 "Use the mean of the gains with and without the piece.",
                 "Then the gains are wrong in both cases: too small with the game piece, and too "
                 "large without it. This is acceptable only if the game piece is light",
                 share=0.5,
+                needs_reason=True,
             ),
             Option(
                 "Raise kV.",

@@ -20,12 +20,14 @@ class Option:
         says: why it is wrong, without naming the right one; a note where it is right.
         code: the misconception behind it, or empty.
         share: [1] of the points it earns: 1 is right.
+        needs_reason: whether it earns them only together with the right reason.
     """
 
     text: str
     says: str = ""
     code: str = ""
     share: float = 0.0
+    needs_reason: bool = False
 
 
 @dataclass(frozen=True)
@@ -77,8 +79,13 @@ def lettered(options: Sequence[Option], order: Sequence[int]) -> dict[str, Optio
     return {LETTERS[place]: options[index] for place, index in enumerate(order)}
 
 
-def judged(chosen: Option, *, points: float) -> str | None:
+def judged(chosen: Option, *, points: float, backed: bool) -> str | None:
     """Hold the chosen option against what is right.
+
+    Args:
+        chosen: the option.
+        points: for a right answer.
+        backed: whether the right reason goes with it.
 
     Returns:
         A note, if there is something to say about it all the same.
@@ -86,13 +93,14 @@ def judged(chosen: Option, *, points: float) -> str | None:
     Raises:
         WrongAnswer: it is not right, or only in part.
     """
-    if chosen.share == 1.0:
+    counts = backed or not chosen.needs_reason
+    if chosen.share == 1.0 and counts:
         return chosen.says or None
     raise WrongAnswer(
         f'"{_short(chosen.text)}"',
-        hint=chosen.says,
+        hint=chosen.says if counts else f"{chosen.says}. It counts only with the right reason",
         misconception=chosen.code,
-        earned=chosen.share * points,
+        earned=chosen.share * points if counts else 0.0,
     )
 
 

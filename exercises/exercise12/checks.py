@@ -9,12 +9,12 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from grader.answer import AskedNumber, Band, read_answer_number
+from grader.answers.number_answer import AskedNumber, Band, read_answer_number
+from grader.answers.submission import read_answers
 from grader.check import NotReachedError, WrongAnswer, check
 from grader.mystery import Mystery
-from grader.student_files import format_log, write_student_files
-from grader.submission import read_answers
-from grader.variant import make_folder_name
+from grader.student_data.student_files import format_log, write_student_files
+from grader.student_data.variant import make_folder_name
 
 from .drawn import FLOOR, HIDDEN, Variant, draw, draw_determined
 from .gap import compared, gap, noise, with_effects, with_gains

@@ -4,8 +4,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from grader.draw_cache import cache_generated_data
-from grader.variant import cache_draws, make_student_rng
+from grader.student_data.draw_cache import cache_generated_data
+from grader.student_data.variant import cache_draws, make_student_rng
 
 from .gap import gap, noise, with_effects
 

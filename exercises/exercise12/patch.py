@@ -5,7 +5,7 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from grader.answer import AskedNumber, Band, read_answer_number
+from grader.answers.number_answer import AskedNumber, Band, read_answer_number
 from grader.check import WrongAnswer, shorten
 
 if TYPE_CHECKING:

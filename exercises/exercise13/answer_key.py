@@ -1,9 +1,9 @@
 """What Rotational_Rate is measured in: the same for everybody.
 
-A class's package lacks this module: see ``grader.answer_key``.
+A class's package lacks this module: see ``grader.answers.answer_key``.
 """
 
-from grader.choice_answer import check_choice
+from grader.answers.choice_answer import check_choice
 
 RATES = ("volts", "radians-per-second", "degrees-per-second", "rotations-per-second")
 ALSO = {"V": RATES[0], "rad/s": RATES[1], "deg/s": RATES[2], "rot/s": RATES[3]}

@@ -5,13 +5,18 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.answer import AnswerKey, judge_number, make_number_check, read_answer_number
-from grader.answer_key import load_answer_key
+from grader.answers.answer_key import load_answer_key
+from grader.answers.choice_answer import check_choice
+from grader.answers.number_answer import (
+    AnswerKey,
+    judge_number,
+    make_number_check,
+    read_answer_number,
+)
+from grader.answers.submission import read_answers
+from grader.answers.wrong_number import ALIKE, Scene
 from grader.check import WrongAnswer, check
-from grader.choice_answer import check_choice
-from grader.student_files import Made, write_student_files
-from grader.submission import read_answers
-from grader.wrong_number import ALIKE, Scene
+from grader.student_data.student_files import Made, write_student_files
 
 from .drawn import draw
 from .drive import BATTERY, MODULES, Variant

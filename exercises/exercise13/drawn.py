@@ -3,7 +3,7 @@
 from itertools import combinations
 from typing import TYPE_CHECKING
 
-from grader.variant import cache_draws, make_student_rng
+from grader.student_data.variant import cache_draws, make_student_rng
 
 from .drive import MODULES, Variant
 from .slips import lookalikes

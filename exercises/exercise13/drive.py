@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from grader.answer import BANDS, FAST, FAST_KA, AskedNumber, Band
+from grader.answers.number_answer import BANDS, FAST, FAST_KA, AskedNumber, Band
 
 if TYPE_CHECKING:
     from sim.bench.swerve import SwerveDrive

@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from grader.wrong_number import Lookalike, WrongNumber
+from grader.answers.wrong_number import Lookalike, WrongNumber
 
 if TYPE_CHECKING:
     from .drive import Variant

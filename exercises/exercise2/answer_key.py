@@ -1,10 +1,10 @@
 """Which causes can be behind a kV, and in which order one looks: cheap things first.
 
-A class's package lacks this module: see ``grader.answer_key``.
+A class's package lacks this module: see ``grader.answers.answer_key``.
 """
 
+from grader.answers.choice_answer import read_choices
 from grader.check import WrongAnswer
-from grader.choice_answer import read_choice
 
 from .team import Variant
 
@@ -52,7 +52,9 @@ def judge_list(raw: object, variant: Variant) -> None:
     Raises:
         WrongAnswer: it is no such list, or a point is lost; the hint names every reason.
     """
-    causes = _read(raw)
+    words = sorted(KINDS)
+    ask = f'Write at least two, in a list: ["...", "..."]. Choose from: {", ".join(words)}.'
+    causes = list(dict.fromkeys(read_choices(raw, words, ask=ask)))
     refused = {one: why for one in causes if (why := _refused(one, variant))}
     possible = [one for one in causes if one not in refused]
     found = [(f"{one}: {says}", code) for one, (says, code) in refused.items()]
@@ -140,18 +142,6 @@ def _about_evidence(causes: list[str], variant: Variant) -> str:
             "written numbers, electrical, mechanical"
         )
     return ""
-
-
-def _read(raw: object) -> list[str]:
-    """The causes, each once."""
-    if isinstance(raw, str) and raw:
-        raw = raw.split(",")
-    ask = f'Write at least two, in a list: ["...", "..."]. Choose from: {", ".join(sorted(KINDS))}.'
-    if raw is None or raw in ("", []):
-        raise WrongAnswer("nothing yet", hint=ask)
-    if not isinstance(raw, list):
-        raise WrongAnswer(f"{raw}, which is not a list", hint=ask)
-    return list(dict.fromkeys(read_choice(one, sorted(KINDS)) for one in raw))
 
 
 def _impossible(cause: str, variant: Variant) -> tuple[str, str]:

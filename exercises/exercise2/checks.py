@@ -4,13 +4,20 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from grader.answer import LARGEST, AnswerKey, AskedNumber, Band, judge_number, read_answer_number
-from grader.answer_key import load_answer_key
+from grader.answers.answer_key import load_answer_key
+from grader.answers.choice_answer import check_choice
+from grader.answers.number_answer import (
+    LARGEST,
+    AnswerKey,
+    AskedNumber,
+    Band,
+    judge_number,
+    read_answer_number,
+)
+from grader.answers.submission import read_answers
+from grader.answers.wrong_number import Scene
 from grader.check import WrongAnswer, check
-from grader.choice_answer import check_choice
-from grader.student_files import write_student_files
-from grader.submission import read_answers
-from grader.wrong_number import Scene
+from grader.student_data.student_files import write_student_files
 
 from .drawn import draw
 from .slips import lookalikes, rarer

@@ -3,7 +3,7 @@
 from itertools import combinations
 from typing import TYPE_CHECKING
 
-from grader.variant import cache_draws, make_student_rng
+from grader.student_data.variant import cache_draws, make_student_rng
 
 from .slips import lookalikes
 from .team import NEAR, Parts, Variant, verdict

@@ -3,7 +3,7 @@
 import math
 from itertools import combinations
 
-from grader.wrong_number import Lookalike, WrongNumber
+from grader.answers.wrong_number import Lookalike, WrongNumber
 
 from .team import Variant
 

@@ -1,9 +1,9 @@
 """SysId's analysis type and WPILib's class for each mechanism: the same for everybody.
 
-A class's package lacks this module: see ``grader.answer_key``.
+A class's package lacks this module: see ``grader.answers.answer_key``.
 """
 
-from grader.choice_answer import check_choice
+from grader.answers.choice_answer import check_choice
 
 RIGHT = {
     "elevator_type": "Elevator",

@@ -5,12 +5,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.answer import HALF, AnswerKey, make_number_check, read_answer_number
-from grader.answer_key import load_answer_key
+from grader.answers.answer_key import load_answer_key
+from grader.answers.number_answer import HALF, AnswerKey, make_number_check, read_answer_number
+from grader.answers.submission import read_answers
 from grader.check import WrongAnswer, check
 from grader.consequence import Consequence
-from grader.student_files import write_student_files
-from grader.submission import read_answers
+from grader.student_data.student_files import write_student_files
 
 from .drawn import draw
 from .held import Variant

@@ -3,8 +3,8 @@
 import math
 from typing import TYPE_CHECKING
 
-from grader.answer import BANDS, AskedNumber, Band
-from grader.variant import cache_draws, make_student_rng
+from grader.answers.number_answer import BANDS, AskedNumber, Band
+from grader.student_data.variant import cache_draws, make_student_rng
 
 from .held import Hold, Variant
 from .slips import telling

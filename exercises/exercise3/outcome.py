@@ -8,7 +8,7 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from grader.answer import AskedNumber, read_answer_number
+from grader.answers.number_answer import AskedNumber, read_answer_number
 from grader.check import WrongAnswer
 from grader.consequence import Consequence, follow_profiles
 

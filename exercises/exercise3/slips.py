@@ -3,8 +3,8 @@
 import math
 from collections.abc import Iterator, Sequence
 
-from grader.answer import AnswerKey, diagnose_number
-from grader.wrong_number import Lookalike, Scene, WrongNumber
+from grader.answers.number_answer import AnswerKey, diagnose_number
+from grader.answers.wrong_number import Lookalike, Scene, WrongNumber
 
 from .held import Hold, Variant
 

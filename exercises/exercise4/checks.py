@@ -5,17 +5,17 @@ from functools import partial
 from pathlib import Path
 
 from grader.check import check
-from grader.log_checks import check_logged, check_units
 from grader.robotcode.bench.facts import RoutineFacts
 from grader.robotcode.bench.simulation import Mount
-from grader.robotcode.running import Runs, judge_runs, run_routine
-from grader.routine_checks import (
+from grader.robotcode.checks.log import check_logged, check_units
+from grader.robotcode.checks.routine import (
     ConfigSetting,
     check_assembled,
     check_driven,
     check_found,
     check_open_loop,
 )
+from grader.robotcode.running import Runs, judge_runs, run_routine
 
 FILES = ("ExampleSubsystem.java", "example_subsystem.py")
 

@@ -6,8 +6,8 @@ from pathlib import Path
 from grader.check import NotReachedError, WrongAnswer, check
 from grader.robotcode.bench.button_run import ButtonFacts, Press
 from grader.robotcode.bench.facts import TESTS
+from grader.robotcode.checks.causes import ask_for_files, check_compiles, check_stop
 from grader.robotcode.running import Runs, judge_runs, run_buttons
-from grader.routine_checks import ask_for_files, check_compiles, explain_stop
 
 from .explained import check_comment
 
@@ -70,7 +70,7 @@ def _factories(facts: ButtonFacts) -> None:
     if public >= set(TESTS):
         return
     earned = 2 * len(public) / len(TESTS)
-    check_compiles(facts.errors, language=facts.language, earned=earned)
+    check_compiles(facts, earned=earned)
     hidden = [one for one in facts.factories if not one.public and set(one.tests) - public]
     if hidden:
         raise WrongAnswer(
@@ -78,8 +78,7 @@ def _factories(facts: ButtonFacts) -> None:
             hint="Make it public: in Java by that word, in Python by a name without a _ in front.",
             earned=earned,
         )
-    if facts.stop is not None and facts.stop.where == "start":
-        raise explain_stop(facts.stop, facts.language, earned)
+    check_stop(facts, "start", earned=earned)
     ask_for_files(facts.unknown, earned)
     lacking = named(set(TESTS) - public)
     raise WrongAnswer(
@@ -103,9 +102,7 @@ def _held(facts: ButtonFacts) -> None:
         fault = faults[one.test]
         share += 1.0 if fault is None else PRESSED if fault[0] else 0.0
     earned = round(3 * share / len(TESTS), 2)
-    if facts.stop is not None:
-        check_compiles(facts.errors, language=facts.language, earned=earned)
-        raise explain_stop(facts.stop, facts.language, earned)
+    check_stop(facts, earned=earned)
     for mode, tests in facts.alone.items():
         if tests:
             raise WrongAnswer(
@@ -114,13 +111,13 @@ def _held(facts: ButtonFacts) -> None:
                 "while you hold the button: whileTrue().",
             )
     for _, seen, hint in (fault for fault in faults.values() if fault is not None):
-        check_compiles(facts.errors, language=facts.language, earned=earned)
+        check_compiles(facts, earned=earned)
         raise WrongAnswer(seen, hint=hint, earned=earned)
     lacking = _missing(facts)
     if not lacking:
-        check_compiles(facts.errors, language=facts.language, earned=1)
+        check_compiles(facts, earned=1)
         return
-    check_compiles(facts.errors, language=facts.language, earned=earned)
+    check_compiles(facts, earned=earned)
     _explain_missing(facts, lacking, earned)
 
 

@@ -1,13 +1,13 @@
 """Words about the morning of the tests: which are right, and what to say of a wrong one.
 
-A class's package lacks this module and all that only it imports: see ``grader.answer_key``.
+A class's package lacks this module and all that only it imports: see ``grader.answers.answer_key``.
 """
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
+from grader.answers.choice_answer import check_choice, read_choices
 from grader.check import WrongAnswer
-from grader.choice_answer import check_choice, read_choice
 
 from .morning import FOLDERS, SEEN, draw_morning
 
@@ -144,14 +144,8 @@ def judge_steps(raw: object) -> None:
     Raises:
         WrongAnswer: it is another, or no order of the four.
     """
-    if isinstance(raw, str) and raw:
-        raw = raw.split(",")
     ask = f"Write all four, in a list: {', '.join(LISTED)}."
-    if raw is None or raw in ("", []):
-        raise WrongAnswer("nothing yet", hint=ask)
-    if not isinstance(raw, list):
-        raise WrongAnswer(f"{raw}, which is not a list", hint=ask)
-    found = tuple(read_choice(one, LISTED) for one in raw)
+    found = tuple(read_choices(raw, LISTED, ask=ask))
     seen = ", ".join(found)
     if sorted(found) != list(LISTED):
         raise WrongAnswer(seen, hint=f"each of the four once. {ask}")

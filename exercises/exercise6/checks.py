@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from grader.answer import AskedNumber, Band, read_answer_number
-from grader.answer_key import load_answer_key
+from grader.answers.answer_key import load_answer_key
+from grader.answers.choice_answer import normalize_choice
+from grader.answers.number_answer import AskedNumber, Band, read_answer_number
+from grader.answers.submission import read_answers
 from grader.check import NotReachedError, WrongAnswer, check
-from grader.choice_answer import normalize_choice
 from grader.consequence import Consequence
-from grader.student_files import write_student_files
-from grader.submission import read_answers
+from grader.student_data.student_files import write_student_files
 
 from .drawn import Variant, draw
 from .outcome import outcome

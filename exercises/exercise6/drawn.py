@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from grader.variant import cache_draws, make_student_rng
+from grader.student_data.variant import cache_draws, make_student_rng
 
 from .plan import Machine, Plan, dynamic, quasistatic
 from .rules import GRIP, QUARTER, SIGNAL, broken

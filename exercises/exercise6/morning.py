@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from grader.variant import make_student_rng
+from grader.student_data.variant import make_student_rng
 
 if TYPE_CHECKING:
     import numpy as np

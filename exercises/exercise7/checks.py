@@ -5,10 +5,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from grader.answers.submission import read_answers
 from grader.check import Check, WrongAnswer, check
 from grader.mystery import Mystery
-from grader.student_files import format_log, write_student_files
-from grader.submission import read_answers
+from grader.student_data.student_files import format_log, write_student_files
 
 from .drawn import LEVELS, LOGS, Case, draw, draw_case
 from .line import CLEAN, describe_case, read_claims
@@ -17,7 +17,7 @@ from .scored import scored
 if TYPE_CHECKING:
     import numpy as np
 
-    from grader.student_files import Made
+    from grader.student_data.student_files import Made
 
 FILES = ("answers.toml",)
 HERE = Path(__file__).resolve().parent

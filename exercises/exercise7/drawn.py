@@ -3,8 +3,8 @@
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from grader.draw_cache import cache_generated_data
-from grader.variant import cache_draws, make_student_rng
+from grader.student_data.draw_cache import cache_generated_data
+from grader.student_data.variant import cache_draws, make_student_rng
 
 if TYPE_CHECKING:
     import numpy as np

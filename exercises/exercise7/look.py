@@ -20,13 +20,13 @@ from typing import TYPE_CHECKING
 import click
 import numpy as np
 
-from sim.bench.dataset.student import make_folder_name
 from sim.cli.open import serve_page
 from sim.cli.open.view import PageView, SpanText
 from sim.core.errors import Refusal
 from sim.core.units import find_unit
 from sim.io import read
 from sim.plot.picture import COLORS, INK, Picture, make_panels
+from sim.support.student_names import make_folder_name
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -5,9 +5,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from grader.answers.submission import read_answers
 from grader.check import NotReachedError, WrongAnswer, check
-from grader.student_files import format_log, write_student_files
-from grader.submission import read_answers
+from grader.student_data.student_files import format_log, write_student_files
 
 from .blame import blame
 from .drawn import Variant, draw
@@ -135,6 +135,16 @@ def _require_stops_cut(answers: Answers) -> None:
             raise NotReachedError("counts after you cut the ends of tests that do not look right")
 
 
+def _require_ends_kept(answers: Answers) -> None:
+    """A gain counts only where both stops are cut and nothing that matters is: else it was luck.
+
+    Raises:
+        NotReachedError: a stop is kept, or the fast end or the first rise of a test is cut.
+    """
+    if not all(one.reaches for one in _left(answers)):
+        raise NotReachedError("counts after each test keeps its fast end or its first rise")
+
+
 def _gain(name: str, answers: Answers) -> None:
     from sim.core.errors import Refusal  # noqa: PLC0415 - numpy only where it is needed
 
@@ -152,9 +162,14 @@ def _gain(name: str, answers: Answers) -> None:
     value, asked = found.gains[name], variant.asked[name]
     score = earned(value, asked)
     if score == POINTS:
+        _require_ends_kept(answers)
         return
     says, code = blame(name, variant, preparation)
     close = "Close. " if score else ""
+    try:
+        _require_ends_kept(answers)
+    except NotReachedError:
+        score = 0.0
     raise WrongAnswer(
         f"{value:.4g} {asked.unit} comes out, with an acceleration R² of "
         f"{found.acceleration_r2:.3f}",

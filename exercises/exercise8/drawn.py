@@ -3,9 +3,9 @@
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-from grader.answer import AskedNumber, ask_gains
-from grader.draw_cache import cache_generated_data
-from grader.variant import cache_draws, make_student_rng
+from grader.answers.number_answer import AskedNumber, ask_gains
+from grader.student_data.draw_cache import cache_generated_data
+from grader.student_data.variant import cache_draws, make_student_rng
 
 from .left import left
 from .preparation import LONGEST, POINTS, Preparation, points

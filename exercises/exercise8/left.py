@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from sim.inspect.log_features import Flags
 
 ENOUGH = 0.6  # [share] of a test's valid samples that has to be kept
-FAST_END = 0.8  # [share] of a ramp's fastest valid speed that has to be among them
+FAST_END = 0.9  # [share] of a ramp's fastest valid speed that has to be among them
 FIRST_RISE = 0.1  # [share] of a step's fastest valid speed up to which a start may be cut
 
 

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from grader.answer import HALF, AskedNumber, Band, read_answer_number
+from grader.answers.number_answer import HALF, AskedNumber, Band, read_answer_number
 from grader.check import WrongAnswer
 
 if TYPE_CHECKING:

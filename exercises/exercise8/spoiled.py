@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from sim.inspect.log_features import Flags
 
 PRESSED = (1.0, 2.0)  # [severity] of a hard stop: 0.6 to 1.2 s against it
-STOPS = {"quasistatic": (0.78, 0.92), "dynamic": (0.55, 0.85)}  # [share of the run] where it hits
+STOPS = {"quasistatic": (0.65, 0.92), "dynamic": (0.55, 0.85)}  # [share of the run] where it hits
 SPIKES = (3, 5)  # [samples] of each test that are far off, one by one
 HEIGHT = (0.25, 0.6)  # [share of the top speed] by which they are
 LONELY = 6  # [samples] at least from one spike to the next

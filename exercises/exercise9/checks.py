@@ -6,12 +6,19 @@ from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from grader.answer import AnswerKey, AskedNumber, Band, ask_gains, judge_number, read_answer_number
+from grader.answers.number_answer import (
+    AnswerKey,
+    AskedNumber,
+    Band,
+    ask_gains,
+    judge_number,
+    read_answer_number,
+)
+from grader.answers.submission import read_answers
 from grader.check import WrongAnswer, check
 from grader.consequence import Consequence
-from grader.student_files import format_log, write_student_files
-from grader.submission import read_answers
-from grader.variant import derive_student_seed, make_student_rng
+from grader.student_data.student_files import format_log, write_student_files
+from grader.student_data.variant import derive_student_seed, make_student_rng
 
 from .outcome import outcome
 from .scene import columns, scene

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from grader.answer import AskedNumber, read_answer_number
+from grader.answers.number_answer import AskedNumber, read_answer_number
 from grader.check import WrongAnswer
 from grader.consequence import Consequence, follow_profiles
 

@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from grader.answer import AskedNumber
-from grader.wrong_number import Lookalike, Scene, WrongNumber
+from grader.answers.number_answer import AskedNumber
+from grader.answers.wrong_number import Lookalike, Scene, WrongNumber
 
 if TYPE_CHECKING:
     from sim.bench.mechanism import Mechanism

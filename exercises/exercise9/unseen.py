@@ -10,7 +10,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from grader.answer import (
+from grader.answers.number_answer import (
     UNIT_ASSUMED,
     AnswerKey,
     AskedNumber,
@@ -19,7 +19,7 @@ from grader.answer import (
     judge_number,
 )
 from grader.check import NotReachedError, NotRunError, WrongAnswer
-from grader.variant import derive_student_seed, make_student_rng
+from grader.student_data.variant import derive_student_seed, make_student_rng
 
 from .scene import ASSUMED, USUAL, columns, scene
 
@@ -195,7 +195,7 @@ def judge_function(path: Path, *, student: str, points: float, run: bool) -> str
         NotReachedError: there is no file.
         NotRunError: there is one, and it may not be run.
     """
-    from grader.submission import read_text  # noqa: PLC0415 - beside its only use
+    from grader.answers.submission import read_text  # noqa: PLC0415 - beside its only use
 
     if not path.is_file():
         raise NotReachedError(

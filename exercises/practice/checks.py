@@ -10,15 +10,15 @@ from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
-from grader.answer import AskedNumber, Band, judge_number, read_answer_number
+from grader.answers.choice_answer import read_choice
+from grader.answers.number_answer import AskedNumber, Band, judge_number, read_answer_number
+from grader.answers.submission import read_answers, read_text
 from grader.check import Check, NotReachedError, WrongAnswer, check
-from grader.choice_answer import read_choice
 from grader.course import find_course
 from grader.exercise import Exercise
 from grader.robotcode.bench.facts import RoutineFacts
-from grader.student_files import format_log, write_student_files
-from grader.submission import read_answers, read_text
-from grader.variant import derive_student_seed
+from grader.student_data.student_files import format_log, write_student_files
+from grader.student_data.variant import derive_student_seed
 from sim.core.errors import Refusal
 
 from .measured import ANALYSES, Measured, noted, of_bench, of_robot, team_of

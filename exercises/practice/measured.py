@@ -6,10 +6,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from grader.answer import AnswerKey, AskedNumber, Band, ask_gains, read_answer_number
+from grader.answers.choice_answer import normalize_choice
+from grader.answers.number_answer import AnswerKey, AskedNumber, Band, ask_gains, read_answer_number
+from grader.answers.wrong_number import Scene
 from grader.check import NotReachedError, WrongAnswer, shorten
-from grader.choice_answer import normalize_choice
-from grader.wrong_number import Scene
 from sim.core.errors import Refusal
 
 if TYPE_CHECKING:

@@ -10,20 +10,20 @@ autograder.zip, as Gradescope asks for it:
     roster.csv, class.secret     only where asked for
 """
 
-import io
 import re
 import shlex
 import tomllib
-import zipfile
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+
+from grader.classroom.bundle import zip_files
 
 SCRIPTS = ("setup.sh", "run_autograder")
 NOT_FOR_GRADING = {"ipywidgets", "jupyterlab", "sysid-course"}  # lessons need them, or it is us
 SECONDS_ALLOWED = 540  # [s] of the ten minutes that Gradescope allows unless told otherwise
 OWNER_ONLY = {"class.secret", "roster.csv"}
-EXECUTABLE, READABLE, PRIVATE = 0o755, 0o644, 0o600
+EXECUTABLE, PRIVATE = 0o755, 0o600
 
 
 @dataclass(frozen=True)
@@ -71,7 +71,8 @@ def pack_gradescope(given: AutograderContents) -> bytes:
         files["roster.csv"] = given.roster
     if given.secret is not None:
         files["class.secret"] = given.secret + b"\n"
-    return _zip_files(files)
+    rights = dict.fromkeys(SCRIPTS, EXECUTABLE) | dict.fromkeys(OWNER_ONLY, PRIVATE)
+    return zip_files(files, rights=rights)
 
 
 def _join_lines(lines: Iterable[str]) -> bytes:
@@ -90,79 +91,16 @@ def _read_requirements(pyproject: bytes) -> tuple[list[str], list[str]]:
     return plain, list(extras["robot"])
 
 
-def _zip_files(files: Mapping[str, bytes]) -> bytes:
-    stream = io.BytesIO()
-    with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive:
-        for name, content in files.items():
-            info = zipfile.ZipInfo(name)  # its time is always 1980
-            info.create_system = 3  # Unix, wherever it is packed: it keeps who may run a file
-            mode = EXECUTABLE if name in SCRIPTS else PRIVATE if name in OWNER_ONLY else READABLE
-            info.external_attr = mode << 16
-            archive.writestr(info, content, zipfile.ZIP_DEFLATED)
-    return stream.getvalue()
-
-
-WORKFLOW = """\
-# Made by: grade export github. Put it into the students' repository: .github/workflows/grade.yml
-#
-# Students can change this file, and the checks in their repository. It tells them how far they
-# are; for marks, grade what they handed in on a machine of yours: grade class --help
-name: grade
-on:
-  push:
-  workflow_dispatch:
-permissions:
-  contents: read
-  checks: write
-jobs:
-  grade:
-    if: github.actor != 'github-classroom[bot]'
-    runs-on: ubuntu-24.04
-    timeout-minutes: 20
-    steps:
-      - uses: actions/checkout@v4
-        with:
-          persist-credentials: false
-      - uses: actions/setup-python@v5
-        with:
-          python-version: "3.12"
-      - name: Install the course
-        run: python -m pip install --quiet --editable ".[course]"
-{steps}\
-      - name: Show the points
-        if: ${{{{ !cancelled() }}}}
-        uses: classroom-resources/autograding-grading-reporter@v1
-        env:
-{results}\
-        with:
-          runners: {runners}
-"""
-STEP = """\
-      - name: {name}
-        id: {name}
-        if: ${{{{ !cancelled() }}}}
-        env:
-          STUDENT: ${{{{ github.actor }}}}
-        run: |
-          code=0
-          grade class exercises/{name} --student "$STUDENT" --exercise {name} \\
-            --self-study --export github --output "$RUNNER_TEMP/{name}" || code=$?
-          if [ "$code" -gt 1 ]; then exit "$code"; fi
-          cat "$RUNNER_TEMP/{name}"/github/*.txt >> "$GITHUB_OUTPUT"
-"""
-RESULT = """\
-          {upper}_RESULTS: ${{{{ steps.{name}.outputs.result }}}}
-"""
-
-
 def make_workflow(exercises: Sequence[str]) -> str:
     """A workflow for GitHub Classroom: one step for each exercise, and the points of all.
 
     Args:
         exercises: names of those that are graded.
     """
-    return WORKFLOW.format(
-        steps="".join(STEP.format(name=name) for name in exercises),
-        results="".join(RESULT.format(name=name, upper=name.upper()) for name in exercises),
-        runners=",".join(exercises),
+    from jinja2 import Environment  # noqa: PLC0415 - Gradescope needs no template
+
+    brackets = Environment(  # noqa: S701 - no page, and GitHub has braces of its own
+        *("[%", "%]", "[[", "]]"), trim_blocks=True, keep_trailing_newline=True
     )
+    text = Path(__file__).with_name("workflow.yml.jinja").read_text(encoding="utf-8")
+    return brackets.from_string(text).render(exercises=exercises)

@@ -5,7 +5,7 @@ import json
 import sys
 from pathlib import Path
 
-from grader.variant import check_student_name
+from grader.student_data.variant import check_student_name
 from sim.core.errors import BadRequest, Refusal
 
 KEYS = ("email", "name", "sid")

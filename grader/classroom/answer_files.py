@@ -21,11 +21,11 @@ from enum import Enum
 from functools import cache
 from pathlib import Path, PurePosixPath
 
-from grader.class_package import PLACE as ISSUED
+from grader.answers.submission import LARGEST
 from grader.classroom.submitted_files import MAX_TOTAL, SubmittedFile, format_file_name
 from grader.exercise import Exercise
 from grader.package_files import IGNORED, digest_starter, list_modules, read_listed_files
-from grader.submission import LARGEST
+from grader.student_data.class_package import PLACE as ISSUED
 from sim.support.printable import list_first
 
 MAX_FILES = 40  # for one exercise

@@ -1,25 +1,19 @@
-"""Files of an export, written whole or not at all."""
+"""Files of a class, written whole or not at all, for their owner alone."""
 
 from pathlib import Path
 
-from sim.core.errors import BadRequest
-from sim.report.page_file import write_page_file
-from sim.support.atomic_file import make_private_folder
+from sim.support.atomic_file import make_private_folder, write_atomically
+from sim.support.os_errors import refuse_os_errors
 
 
-def write_private_file(path: Path, text: str) -> Path:
+def write_private_file(path: Path, content: str | bytes) -> Path:
     """Write a file for its owner alone, and the folder it stands in; its path.
 
     Raises:
         BadRequest: it cannot be written.
     """
-    try:
+    advice = "Make room there, or name another folder with -o."
+    with refuse_os_errors("cannot be written", path, advice=advice):
         make_private_folder(path.parent)
-    except OSError as error:
-        raise BadRequest(
-            f"cannot be made: {error.strerror}",
-            where=str(path.parent),
-            advice="Name another folder with -o.",
-        ) from None
-    write_page_file(text, path, private=True)
+        write_atomically(path, content, private=True)
     return path

@@ -11,7 +11,7 @@ from grader.classroom.store import ResultStore, digest_job
 from grader.classroom.submissions import Submission
 from grader.classroom.workers import grade_in_workers
 from grader.exercise import Exercise
-from grader.fingerprint import fingerprint_folders
+from grader.student_data.fingerprint import fingerprint_folders
 
 
 @dataclass(frozen=True)

@@ -17,9 +17,9 @@ from typing import Any
 
 import click
 
-from sim.bench.dataset.secret import VARIABLE
 from sim.core.errors import BadRequest
 from sim.support.command_line import INTERRUPTED
+from sim.support.secret import VARIABLE
 
 ENGINES = ("docker", "podman")
 IMAGE = "sysid-course"

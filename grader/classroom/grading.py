@@ -8,11 +8,10 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from grader.check import Status
 from grader.classroom.answer_files import Files
 from grader.classroom.bundle import unpack_course
 from grader.exercise import Exercise, Grade, list_exercises
-from grader.variant import use_class_secret
+from grader.student_data.variant import use_class_secret
 from sim.support.printable import list_first
 
 if TYPE_CHECKING:
@@ -123,23 +122,8 @@ def make_ungraded_record(job: GradingJob, name: str, reason: str) -> Record:
 
 def make_missing_record(exercise: Exercise, student: str, *, status: str, reason: str) -> Record:
     """The record of an exercise of which nothing was graded."""
-    checks = [
-        {
-            "id": one.id,
-            "description": one.description,
-            "status": str(Status.NOT_REACHED),
-            "points": 0.0,
-            "max_points": one.points,
-            "seen": reason,
-            "hint": "",
-            "misconception": "",
-        }
-        for one in exercise.checks
-    ]
-    most = sum(one.points for one in exercise.checks)
-    head = {"exercise": exercise.name, "student": student, "score": 0.0, "max_score": most}
-    end = {"file": "", "reason": reason, "warnings": [], "checks": checks}
-    return {**head, "status": status, **end}
+    skipped = exercise.skip(reason, student=student)
+    return make_grade_record(replace(skipped, status=status))
 
 
 def make_grade_record(grade: Grade, *, folder: Path | None = None) -> Record:

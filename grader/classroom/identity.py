@@ -6,13 +6,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType
 
-from grader.class_package import PLACE, parse_class_package
 from grader.classroom.answer_files import PROGRESS
 from grader.classroom.secret import seal_identity
 from grader.classroom.submissions import Submission
 from grader.course import NOBODY
 from grader.exercise import Exercise
-from grader.variant import check_student_name, make_folder_name, normalize_name
+from grader.student_data.class_package import PLACE, parse_class_package
+from grader.student_data.variant import check_student_name, make_folder_name, normalize_name
 from sim.core.errors import BadRequest, Refusal
 from sim.support.printable import list_first
 

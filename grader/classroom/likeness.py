@@ -19,7 +19,7 @@ from typing import Any
 from grader.classroom.grading import GradedStudent
 from grader.classroom.submissions import Submission
 from grader.exercise import Exercise
-from grader.variant import make_folder_name
+from grader.student_data.variant import make_folder_name
 from sim.core.errors import BadRequest
 
 MIN_BITS = 24.0  # of what two answers share: far beyond chance in the pairs of any class

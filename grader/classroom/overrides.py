@@ -8,16 +8,16 @@ A check is an exercise and the id of one of its checks, or the exercise alone: t
 those of the whole exercise.
 """
 
-import csv
-import io
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from grader.classroom.grading import GradedStudent, Record
-from grader.variant import normalize_name
-from sim.core.errors import BadRequest, Refusal
+from grader.exercise import Exercise
+from grader.student_data.variant import normalize_name
+from sim.core.errors import BadRequest, Refusal, refusals_at
+from sim.support.student_table import read_student_table
 
 COLUMNS = ("student", "check", "points", "why")
 
@@ -27,12 +27,11 @@ class Override:
     """A mark set by hand.
 
     Args:
-        student: whose.
+        student: whose, normalized.
         exercise: of which exercise.
         check: the id of the check; empty for the whole exercise.
         points: how many.
         why: as the student may read it.
-        where: the line it stands in.
     """
 
     student: str
@@ -40,62 +39,81 @@ class Override:
     check: str
     points: float
     why: str
-    where: str
 
 
-def read_overrides(path: Path) -> tuple[Override, ...]:
-    """Read a file of marks.
+def read_overrides(
+    path: Path, *, students: Collection[str], exercises: Sequence[Exercise]
+) -> tuple[Override, ...]:
+    """Read a file of marks, before anything is graded.
+
+    Args:
+        path: path of a CSV file.
+        students: everybody in the class.
+        exercises: those that are graded.
 
     Raises:
-        BadRequest: it cannot be read, lacks a column, or a line says no points or no reason.
+        BadRequest: it cannot be read or lacks a column; or a mark is of nobody, of nothing that is
+            graded, of no number of points or too many, or says no reason.
     """
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        why = error.strerror if isinstance(error, OSError) else "it is not UTF-8"
-        raise BadRequest(
-            f"the marks cannot be read ({why})",
-            where=str(path),
-            advice="Give the path of a CSV file in UTF-8.",
-        ) from None
-    delimiter = max(",;\t", key=text.partition("\n")[0].count)
-    table = csv.DictReader(io.StringIO(text, newline=""), delimiter=delimiter)
-    header = {(name or "").strip().casefold(): name for name in table.fieldnames or ()}
-    missing = [name for name in COLUMNS if name not in header]
-    if missing:
-        raise BadRequest(
-            f"the first line names no column {missing[0]}",
-            where=str(path),
-            advice=f"Write this as the first line: {','.join(COLUMNS)}",
-        )
+    advice = "Give the path of a CSV file in UTF-8."
+    table = read_student_table(path, what="the file of marks", advice=advice)
+    advice = f"Write this as the first line: {','.join(COLUMNS)}"
+    columns = {name: table.find_column(name, advice=advice) for name in COLUMNS}
+    known = {normalize_name(one) for one in students}
+    most = {one.name: {each.id: each.points for each in one.checks} for one in exercises}
     found = []
-    for row in table:
-        cells = {name: (row.get(header[name]) or "").strip() for name in COLUMNS}
-        if any(cells.values()):
-            found.append(_parse_row(cells, where=f"{path}, line {table.line_num}"))
+    for where, row in table.rows:
+        with refusals_at(where):
+            cells = {name: row.get(column, "").strip() for name, column in columns.items()}
+            found.append(_parse_row(cells, known, most))
     return tuple(found)
 
 
-def _parse_row(cells: dict[str, str], *, where: str) -> Override:
-    exercise, _, check = cells["check"].partition("/")
+def _parse_row(
+    cells: Mapping[str, str],
+    students: Collection[str],
+    most: Mapping[str, Mapping[str, float]],
+) -> Override:
+    """A mark, from the cells of its line.
+
+    Args:
+        cells: by ``COLUMNS``.
+        students: normalized names of everybody.
+        most: exercise -> check -> points there are.
+
+    Raises:
+        BadRequest: as ``read_overrides``.
+    """
+    try:
+        student = normalize_name(cells["student"])
+    except Refusal:
+        student = ""
+    exercise, _, check = (part.strip() for part in cells["check"].partition("/"))
+    checks = most.get(exercise, {})
+    limit = checks.get(check, 0.0) if check else sum(checks.values())
     try:
         points = float(cells["points"].replace(",", "."))
     except ValueError:
         points = math.nan
-    if not math.isfinite(points) or points < 0:
-        raise BadRequest(
-            f"{cells['points']!r} is no number of points",
-            where=where,
-            advice="Write a number, such as 2 or 1.5.",
-        )
-    if not cells["why"]:
-        raise BadRequest(
-            "it does not say why",
-            where=where,
-            advice="Write the reason into the column why: the student reads it.",
-        )
-    names = (cells["student"], exercise.strip(), check.strip())
-    return Override(*names, points, cells["why"], where)
+    what = advice = ""
+    if student not in students:
+        what = f"there is no student {cells['student']!r} in this class"
+        advice = "Write the name as in the column student of gradebook.csv."
+    elif exercise not in most:
+        what = f"{exercise!r} is not graded"
+        advice = f"Choose one of: {', '.join(most)}."
+    elif check and check not in checks:
+        what = f"{exercise} has no check {check!r}"
+        advice = f"Choose one of: {', '.join(checks)}."
+    elif not 0 <= points <= limit:
+        what = f"{cells['points']!r} is no number of points from 0 to {limit:g}"
+        advice = "Write a number, such as 2 or 1.5."
+    elif not cells["why"]:
+        what = "it does not say why"
+        advice = "Write the reason into the column why: the student reads it."
+    if what:
+        raise BadRequest(what, advice=advice)
+    return Override(student, exercise, check, points, cells["why"])
 
 
 def apply_overrides(
@@ -105,61 +123,30 @@ def apply_overrides(
 
     Args:
         students: the results of everybody.
-        overrides: the marks.
-
-    Raises:
-        BadRequest: a mark is of nobody, of nothing that is graded, or of more points than there
-            are.
+        overrides: the marks, of students and exercises among them.
     """
     found = {normalize_name(one.student): one for one in students}
     for one in overrides:
-        try:
-            key = normalize_name(one.student)
-        except Refusal:
-            key = ""
-        if key not in found:
-            raise BadRequest(
-                f"there is no student {one.student!r} in this class",
-                where=one.where,
-                advice="Write the name as in the column student of gradebook.csv.",
-            )
-        records = [dict(record) for record in found[key].records]
-        record = next((each for each in records if each["exercise"] == one.exercise), None)
-        if record is None:
-            raise BadRequest(
-                f"{one.exercise!r} was not graded",
-                where=one.where,
-                advice=f"Choose one of: {', '.join(str(each['exercise']) for each in records)}.",
-            )
-        _set_points(record, one)
-        found[key] = replace(found[key], records=tuple(records))
+        records = [
+            _set_points(record, one) if record["exercise"] == one.exercise else record
+            for record in found[one.student].records
+        ]
+        found[one.student] = replace(found[one.student], records=tuple(records))
     return tuple(found.values())
 
 
-def _set_points(record: Record, override: Override) -> None:
-    """Set the points of a whole exercise, or of one check of it."""
+def _set_points(record: Record, override: Override) -> Record:
+    """The record with the points of the whole exercise, or of one check of it, set."""
     said = f"Your instructor gave {override.points:g} points: {override.why}"
-    checks = [dict(one) for one in record["checks"]]
+    checks, warnings, score = [*record["checks"]], [*record["warnings"]], override.points
     if override.check:
-        check = next((one for one in checks if one["id"] == override.check), None)
-        if check is None:
-            raise BadRequest(
-                f"{override.exercise} has no check {override.check!r}",
-                where=override.where,
-                advice=f"Choose one of: {', '.join(str(one['id']) for one in checks)}.",
-            )
-        most = float(check["max_points"])
-        status = "passed" if override.points >= most else "failed"
-        check |= {"points": override.points, "status": status, "hint": said, "misconception": ""}
+        number = next(n for n, one in enumerate(checks) if one["id"] == override.check)
+        status = "passed" if score >= float(checks[number]["max_points"]) else "failed"
+        new = {"points": score, "status": status, "hint": said, "misconception": ""}
+        checks[number] = {**checks[number], **new}
         score = sum(float(one["points"]) for one in checks)
     else:
-        most, score = float(record["max_score"]), override.points
-        record["warnings"] = [*record["warnings"], said]
-    if override.points > most:
-        raise BadRequest(
-            f"{override.points:g} points are more than the {most:g} there are",
-            where=override.where,
-            advice=f"Write {most:g} or fewer.",
-        )
+        warnings.append(said)
     status = "passed" if score >= float(record["max_score"]) else "failed"
-    record |= {"checks": checks, "score": score, "status": status, "reason": ""}
+    new = {"checks": checks, "warnings": warnings, "score": score, "status": status, "reason": ""}
+    return {**record, **new}

@@ -23,7 +23,7 @@ from grader.classroom.results import (
     is_graded,
 )
 from grader.misconception import MISCONCEPTIONS
-from grader.variant import make_folder_name
+from grader.student_data.variant import make_folder_name
 from sim.support.printable import make_printable
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from grader.classroom.grading import MISSING, GradedStudent, make_ungraded_stude
 from grader.classroom.roster import Roster
 from grader.classroom.submissions import Submission
 from grader.exercise import Exercise
-from grader.variant import normalize_name
+from grader.student_data.variant import normalize_name
 from sim.support.printable import list_first
 
 

@@ -5,11 +5,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from grader.classroom.submission_names import Identities
-from sim.bench.dataset.roster import make_distinct_names, read_roster
-from sim.core.errors import BadRequest
+from sim.support.student_table import read_student_table
 
 GROUP, LATE = "group", "late"  # columns that say who worked together, and who was late
-COLUMNS = ("student", "sis login id", "login", "email", "sis user id", "id", "name")
+COLUMNS = ("sis login id", "student", "login", "email", "sis user id", "id", "name")
 
 
 @dataclass(frozen=True)
@@ -66,28 +65,9 @@ def read_class_roster(path: Path) -> Roster:
     Raises:
         BadRequest: it cannot be read, has no such column, nobody, or somebody twice.
     """
-    roster = read_roster(path, advice="Give the path of a CSV file in UTF-8.")
-    columns = COLUMNS[1:] if roster.find_column(["sis login id"]) is not None else COLUMNS
-    place = roster.find_column(columns)
-    if place is None:
-        raise BadRequest(
-            "the first line names no column for the students",
-            where=str(path),
-            advice='Write "student" above the column with the names of the students.',
-        )
-    if not roster.rows:
-        raise BadRequest(
-            "there is no student on this roster",
-            where=str(path),
-            advice="Write each student in a line of their own, below the first line.",
-        )
-    cells = [
-        (f"{path}, line {number}", row[place].strip() if place < len(row) else "")
-        for number, row in roster.rows
-    ]
-    names = make_distinct_names(cells)
-    rows = {
-        name: dict(zip(roster.header, row, strict=False))
-        for name, (_, row) in zip(names, roster.rows, strict=True)
-    }
-    return Roster(roster.header, rows)
+    table = read_student_table(
+        path, what="the roster", advice="Give the path of a CSV file in UTF-8."
+    )
+    advice = 'Write "student" above the column with the names of the students.'
+    column = table.find_column(*COLUMNS, advice=advice, usual="student")
+    return Roster(table.header, table.index_rows(column))

@@ -1,46 +1,7 @@
-"""The secret of a class: its numbers are drawn from it, and its data are sealed with it."""
+"""What a class's secret identifies and seals: whose numbers, whose file, whose package."""
 
 import hashlib
 import hmac
-import os
-import secrets
-from pathlib import Path
-
-from sim.bench.dataset.secret import FEWEST, SIZE, VARIABLE, Secret, read_secret
-from sim.core.errors import BadRequest
-
-
-def find_secret(path: Path | None, *, make: bool) -> Secret | None:
-    """The secret of a class.
-
-    Args:
-        path: of its file; None takes the environment's.
-        make: whether to make a new one where the file is not there yet; it is not written here.
-
-    Returns:
-        The secret; None where neither says one: everybody's numbers are then those of self-study.
-
-    Raises:
-        BadRequest: the file is not there, cannot be read, or holds too short a secret.
-    """
-    value = read_secret(path) if path else os.environ.get(VARIABLE, "").strip().encode()
-    if value and len(value) < FEWEST:
-        raise BadRequest(
-            f"the secret has fewer than {FEWEST} characters",
-            where=str(path or VARIABLE),
-            advice="Use a longer one: a short secret can be guessed.",
-        )
-    if value:
-        return Secret(value, hidden=True)
-    if path is None:
-        return None
-    if not make:
-        raise BadRequest(
-            "there is no such file with a secret",
-            where=str(path),
-            advice="Name the file that grade release made.",
-        )
-    return Secret(secrets.token_hex(SIZE).encode(), hidden=True, new=path)
 
 
 def identify_secret(secret: bytes) -> str:

@@ -10,9 +10,9 @@ from pathlib import Path
 
 from grader.classroom.grading import GradedStudent
 from grader.classroom.submissions import Submission
-from grader.variant import make_folder_name
-from sim.core.errors import BadRequest
+from grader.student_data.variant import make_folder_name
 from sim.support.atomic_file import make_private_folder, write_atomically
+from sim.support.os_errors import refuse_os_errors
 
 RESULTS = "results"
 RECORD_NAMES = {
@@ -58,14 +58,9 @@ class ResultStore:
         Raises:
             BadRequest: it cannot be made.
         """
-        try:
+        advice = "Name another folder with -o."
+        with refuse_os_errors("the results cannot be written", self.folder, advice=advice):
             make_private_folder(self.folder / RESULTS)
-        except OSError as error:
-            raise BadRequest(
-                f"the results cannot be written: {error.strerror}",
-                where=str(self.folder),
-                advice="Name another folder with -o.",
-            ) from None
 
     def get(self, student: str, expected: str) -> GradedStudent | None:
         """A student's results, if they are there whole and nothing they depend on has changed."""
@@ -85,15 +80,10 @@ class ResultStore:
             BadRequest: they cannot be written.
         """
         path = self._path(graded.student)
-        try:
-            text = json.dumps(asdict(graded), ensure_ascii=False, indent=1, allow_nan=False)
+        text = json.dumps(asdict(graded), ensure_ascii=False, indent=1, allow_nan=False)
+        advice = "Make room there, then run the same command again: what is graded is kept."
+        with refuse_os_errors("the results cannot be written", path, advice=advice):
             write_atomically(path, text + "\n", private=True)
-        except OSError as error:
-            raise BadRequest(
-                f"the results cannot be written: {error.strerror}",
-                where=str(path),
-                advice="Make room there, then run the same command again: what is graded is kept.",
-            ) from None
 
     def remove_outdated(self, written: Iterable[Path], *, students: Iterable[str]) -> None:
         """Remove the files that the run before this one wrote and this one did not.
@@ -111,22 +101,16 @@ class ResultStore:
         before: set[str] = set()
         with suppress(OSError, ValueError):  # the first run, or a list that somebody changed
             before = {*kept.read_text(encoding="utf-8").splitlines()}
-        path = kept
-        try:
-            for name in sorted(before - now):
-                path = self.folder / name
-                if path.resolve().is_relative_to(self.folder.resolve()) and path.is_file():
+        advice = "Close the programs that use it, then run the same command again."
+        for name in sorted(before - now):
+            path = self.folder / name
+            if path.resolve().is_relative_to(self.folder.resolve()) and path.is_file():
+                with refuse_os_errors("cannot be replaced", path, advice=advice):
                     path.unlink()
-                    with suppress(OSError):  # it is not empty
-                        path.parent.rmdir()
-            path = kept
+                with suppress(OSError):  # it is not empty
+                    path.parent.rmdir()
+        with refuse_os_errors("cannot be replaced", kept, advice=advice):
             write_atomically(kept, "".join(f"{name}\n" for name in sorted(now)), private=True)
-        except OSError as error:
-            raise BadRequest(
-                f"cannot be replaced: {error.strerror}",
-                where=str(path),
-                advice="Close the programs that use it, then run the same command again.",
-            ) from None
 
     def _path(self, student: str) -> Path:
         return self.folder / RESULTS / f"{make_folder_name(student)}.json"

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from pathlib import PurePath
 
 from grader.classroom.submitted_files import ARCHIVES
-from grader.variant import make_folder_name, normalize_name
+from grader.student_data.variant import make_folder_name, normalize_name
 from sim.core.errors import Refusal
 
 CANVAS = re.compile(r"(?P<name>[^_]+)(?P<late>_LATE)?_(?P<id>\d+)_\d+_(?P<file>.+)")

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, cast
 import click
 from click.shell_completion import CompletionItem
 
+from grader.cli.course_here import find_course_here
 from grader.terminal import print_error, print_lines
 from sim.core.errors import BadRequest
 from sim.support import command_line
@@ -27,15 +28,7 @@ if TYPE_CHECKING:
     from grader.exercise import Exercise
 
 
-MODULES = {
-    "class": "classroom",
-    "doctor": "doctor",
-    "edition": "edition",
-    "export": "export",
-    "mystery": "mystery",
-    "release": "release",
-    "watch": "watch",
-}
+OWN_MODULE = ("class", "doctor", "edition", "export", "mystery", "release", "watch")
 COURSE_PACKAGES = ("tomlkit", "tree_sitter", "tree_sitter_java")  # of the extra `course`
 
 
@@ -44,13 +37,14 @@ class ExerciseOrCommand(click.Group):
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """The names of all commands: those of this file, and those in modules of their own."""
-        return sorted([*super().list_commands(ctx), *MODULES])
+        return sorted([*super().list_commands(ctx), *OWN_MODULE])
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         """The command of this name, or None."""
-        if cmd_name not in MODULES:
+        if cmd_name not in OWN_MODULE:
             return super().get_command(ctx, cmd_name)
-        return cast("click.Command", import_module(f"{__name__}.{MODULES[cmd_name]}").COMMAND)
+        module = cmd_name.replace("class", "classroom")
+        return cast("click.Command", import_module(f"{__name__}.{module}").COMMAND)
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Take everything that does not begin with a command as a request to grade."""
@@ -193,9 +187,9 @@ def start(folder: Path | None, student: str | None, *, no_lab: bool) -> int:
 
     For example: grade start my-course
     """
-    from grader.class_package import read_class_package  # noqa: PLC0415 - the same
     from grader.course import Progress, update_progress  # noqa: PLC0415 - --help has to start at once
     from grader.start import start as begin  # noqa: PLC0415 - the same
+    from grader.student_data.class_package import read_class_package  # noqa: PLC0415 - the same
 
     if folder is not None:
         from grader.course_folder import unpack_course  # noqa: PLC0415 - the same
@@ -214,7 +208,7 @@ def start(folder: Path | None, student: str | None, *, no_lab: bool) -> int:
 
 def _ask_name(known: str) -> str:
     """Who is learning, typed on the terminal; ``known`` where nobody can type."""
-    from grader.variant import check_student_name  # noqa: PLC0415 - the same
+    from grader.student_data.variant import check_student_name  # noqa: PLC0415 - the same
 
     if not sys.stdin.isatty() or "JPY_PARENT_PID" in os.environ:  # a notebook cell takes no typing
         return known
@@ -241,11 +235,10 @@ def locate_course(
     Raises:
         BadRequest: there is no course here, or the name is none.
     """
-    from grader.class_package import find_learner  # noqa: PLC0415 - the same
-    from grader.course import describe_other_code, find_course, load_progress  # noqa: PLC0415 - --help must not wait
+    from grader.course import load_progress  # noqa: PLC0415 - --help must not wait
+    from grader.student_data.class_package import find_learner  # noqa: PLC0415 - the same
 
-    folder = find_course(inside.resolve() if inside else Path.cwd())
-    _print_message(describe_other_code(folder))
+    folder = find_course_here(inside)
     progress, said = load_progress(folder)
     _print_message(said)
     return folder, progress, find_learner(folder, known=progress.student, student=student)
@@ -263,10 +256,10 @@ def grade_file(
     picture: Path | None = None,
 ) -> int:
     """Grade an answer, note the score, and show the result; the exit code."""
-    from grader.class_package import explain_no_grading, read_class_package  # noqa: PLC0415 - the same
     from grader.course import update_progress  # noqa: PLC0415 - --help has to start at once
-    from grader.draw_cache import enable_draw_cache  # noqa: PLC0415 - the same
     from grader.report import format_grade, format_receipt, grade_to_json  # noqa: PLC0415 - the same
+    from grader.student_data.class_package import explain_no_grading, read_class_package  # noqa: PLC0415 - the same
+    from grader.student_data.draw_cache import enable_draw_cache  # noqa: PLC0415 - the same
 
     of_class = read_class_package(folder)
     if of_class and one.is_personal and of_class.is_for(who):

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from grader.cli.course_here import choose_exercises, find_course_here
 from grader.terminal import print_error, print_lines, style_line, wrap_text
 from sim.support.command_line import DONE, INTERRUPTED, NOT_RIGHT
 from sim.support.printable import list_first
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from grader.classroom.class_grading import GradedClass
     from grader.classroom.exports import ExportFormat
     from grader.classroom.grading import GradedStudent
+    from grader.classroom.overrides import Override
     from grader.classroom.results import ClassResults
     from grader.classroom.roster import Roster
     from grader.classroom.submissions import Submission
@@ -88,24 +90,23 @@ def class_(  # noqa: PLR0917 - click passes options by name
     from grader.classroom.class_grading import GradedClass  # noqa: PLC0415 - the same
     from grader.classroom.container import grade_in_container  # noqa: PLC0415 - the same
     from grader.classroom.exports import choose_exports  # noqa: PLC0415 - --help must not wait for it
-    from grader.classroom.overrides import apply_overrides, read_overrides  # noqa: PLC0415 - the same
+    from grader.classroom.overrides import apply_overrides  # noqa: PLC0415 - the same
     from grader.classroom.results import collect_results  # noqa: PLC0415 - the same
     from grader.classroom.roster import read_class_roster  # noqa: PLC0415 - the same
-    from grader.classroom.secret import describe_numbers, find_secret  # noqa: PLC0415 - the same
-    from grader.course import describe_other_code, find_course  # noqa: PLC0415 - the same
+    from grader.classroom.secret import describe_numbers  # noqa: PLC0415 - the same
+    from sim.support.secret import find_secret  # noqa: PLC0415 - the same
 
     known = read_class_roster(roster) if roster else None
     formats = choose_exports(wanted, roster=known)
-    course = find_course(Path.cwd())
-    if said := describe_other_code(course):
-        print_error(said)
+    course = find_course_here()
     out = output or folder.with_name(f"{folder.resolve().name.removesuffix('.zip')}-graded")
     if engine:
         return grade_in_container(click.get_current_context(), course=course, output=out)
-    asked = _find_asked_exercises(only, course)
     value = kept.value if (kept := find_secret(secret, make=False)) else None
+    asked = choose_exercises(only, course)
     there = _find_submissions(folder, course, asked, known, student=student)
     there = _check_submissions(there, asked, known, secret=value, self_study=self_study)
+    marks = _read_marks(overrides, there, asked, known)
     work = GradedClass(there, asked, course, value, _decide_running(asked, run, cluster))
     graded = _run(work, out, processes=processes, cluster=cluster, again=again)
     if graded is None:
@@ -113,12 +114,28 @@ def class_(  # noqa: PLR0917 - click passes options by name
     title = name or folder.resolve().stem
     results = collect_results(title, graded, known, asked=asked, handed_in=there)
     alike = _find_alike(there, asked, packages, graded)
-    changed = apply_overrides(results.students, read_overrides(overrides) if overrides else ())
+    changed = apply_overrides(results.students, marks)
     results = replace(results, students=changed, numbers=describe_numbers(value), likenesses=alike)
     return _write_results(results, out, formats)
 
 
 COMMAND = class_
+
+
+def _read_marks(
+    path: Path | None,
+    there: "Sequence[Submission]",
+    asked: "Sequence[Exercise]",
+    known: "Roster | None",
+) -> "tuple[Override, ...]":
+    """The marks set by hand, checked before an hour of grading; none if no file is named."""
+    from grader.classroom.overrides import read_overrides  # noqa: PLC0415 - --help must not wait for it
+
+    if path is None:
+        return ()
+    graded = [one.student for one in there if known is None or not one.problem]
+    everybody = [*graded, *(known.rows if known else ())]
+    return read_overrides(path, students=everybody, exercises=asked)
 
 
 def _find_alike(
@@ -132,15 +149,6 @@ def _find_alike(
 
     foreign = find_foreign_logs(there, packages) if packages else ()
     return (*foreign, *find_likenesses(there, asked, graded))
-
-
-def _find_asked_exercises(only: tuple[str, ...], course: Path) -> "tuple[Exercise, ...]":
-    from grader.exercise import find_exercise, list_exercises  # noqa: PLC0415 - --help must not wait for it
-
-    if not only:
-        return list_exercises(course)
-    names = {find_exercise(one, course).name for one in only}
-    return tuple(one for one in list_exercises(course) if one.name in names)
 
 
 def _find_submissions(

@@ -5,15 +5,15 @@ from typing import TYPE_CHECKING
 
 import click
 
-from grader.cli.release import PATH, refuse_secret_inside, report_left_out, write_file
+from grader.classroom.atomic_files import write_private_file
+from grader.cli.course_here import choose_exercises, find_course_here
+from grader.cli.release import PATH, refuse_secret_inside, report_left_out
 from grader.terminal import print_error, print_lines, style_line
-from sim.core.errors import BadRequest
 from sim.support.command_line import DONE
 
 if TYPE_CHECKING:
     from grader.exercise import Exercise
 
-OWNER_ONLY = 0o600  # of a zip file with a roster or a secret in it
 ONLY = click.option(
     "--exercise", "only", multiple=True, help="Only this exercise; may be repeated."
 )
@@ -53,10 +53,11 @@ def gradescope(
     """
     from grader.autograder import AutograderContents, pack_gradescope  # noqa: PLC0415 - --help must not wait
     from grader.classroom.roster import read_class_roster  # noqa: PLC0415 - the same
-    from grader.classroom.secret import find_secret  # noqa: PLC0415 - the same
     from grader.package_files import select_package_files  # noqa: PLC0415 - the same
+    from sim.support.secret import find_secret  # noqa: PLC0415 - the same
 
-    course, asked = _find_asked_exercises(only)
+    course = find_course_here()
+    asked = choose_exercises(only, course)
     if secret is not None:
         refuse_secret_inside(secret, {"course folder": course})
     kept = find_secret(secret, make=False) if secret else None
@@ -68,12 +69,10 @@ def gradescope(
     value = kept.value if kept else None
     listed = roster.read_bytes() if roster else None
     names = tuple(one.name for one in asked)
-    write_file(
+    write_private_file(
         output,
         pack_gradescope(AutograderContents(chosen.files, names, student_from, listed, value)),
     )
-    if value is not None or listed is not None:
-        output.chmod(OWNER_ONLY)
     _tell_gradescope(asked, output, with_secret=value is not None)
     return DONE
 
@@ -110,8 +109,8 @@ def github(output: Path, only: tuple[str, ...]) -> int:
     """
     from grader.autograder import make_workflow  # noqa: PLC0415 - --help must not wait for it
 
-    _, asked = _find_asked_exercises(only)
-    write_file(output, make_workflow([one.name for one in asked]).encode())
+    asked = choose_exercises(only, find_course_here())
+    write_private_file(output, make_workflow([one.name for one in asked]).encode())
     print_lines([style_line(f"{output}: for the repository that students start from")])
     return DONE
 
@@ -124,29 +123,6 @@ def jupyterhub(output: Path) -> int:
     The folder around that of the file has to hold roster.csv and packages. Run jupyterhub next to
     the file, as root on Linux.
     """
-    write_file(output, (Path(__file__).parents[1] / "jupyterhub_config.py").read_bytes())
+    write_private_file(output, (Path(__file__).parents[1] / "jupyterhub_config.py").read_bytes())
     print_lines([style_line(f"{output}: run jupyterhub in this folder, as root")])
     return DONE
-
-
-def _find_asked_exercises(only: tuple[str, ...]) -> "tuple[Path, tuple[Exercise, ...]]":
-    """The course folder, and the chosen exercises.
-
-    Raises:
-        BadRequest: there is no such exercise, or none at all.
-    """
-    from grader.course import describe_other_code, find_course  # noqa: PLC0415 - --help must not wait for it
-    from grader.exercise import find_exercise, list_exercises  # noqa: PLC0415 - the same
-
-    course = find_course(Path.cwd())
-    if said := describe_other_code(course):
-        print_error(said)
-    names = {find_exercise(one, course).name for one in only}
-    asked = tuple(one for one in list_exercises(course) if not only or one.name in names)
-    if not asked:
-        raise BadRequest(
-            "there are no exercises here",
-            where=str(course),
-            advice="Run this in the folder the course was fetched into.",
-        )
-    return course, asked

@@ -5,16 +5,17 @@ from typing import TYPE_CHECKING
 
 import click
 
+from grader.classroom.atomic_files import write_private_file
+from grader.cli.course_here import find_course_here
 from grader.terminal import print_error, print_lines, style_line
 from sim.core.errors import BadRequest
-from sim.support.atomic_file import make_private_folder, write_atomically
 from sim.support.command_line import DONE, NOT_RIGHT
 from sim.support.printable import list_first
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from sim.bench.dataset.secret import Secret
+    from sim.support.secret import Secret
 
 PATH = click.Path(path_type=Path)
 NAMED = 8  # files left out that are named
@@ -52,7 +53,7 @@ def release(  # noqa: PLR0917 - click passes options by name
     logs of their own, and no answer keys. Only the owner of the secret can make these numbers
     again, and grade them: grade class FOLDER --secret FILE.
     """
-    from grader.classroom.secret import find_secret  # noqa: PLC0415 - --help must not wait for it
+    from sim.support.secret import find_secret  # noqa: PLC0415 - --help must not wait for it
 
     if check is not None:
         kept = find_secret(secret, make=False)
@@ -66,9 +67,8 @@ def release(  # noqa: PLR0917 - click passes options by name
             "numbers for a class need a secret",
             advice="Name a file for it outside the packages: --secret class.secret",
         )
-    from grader.course import find_course  # noqa: PLC0415 - --help must not wait for it
 
-    course = find_course(Path.cwd())
+    course = find_course_here()
     if secret:
         refuse_secret_inside(secret, {"folder of the packages": output, "course folder": course})
     kept = find_secret(secret, make=True) if roster else find_secret(secret, make=False)
@@ -115,28 +115,24 @@ def _release(
 ) -> int:
     from grader.classroom.bundle import pack_course  # noqa: PLC0415 - --help must not wait for it
     from grader.classroom.roster import read_class_roster  # noqa: PLC0415 - the same
-    from grader.course import describe_other_code  # noqa: PLC0415 - the same
     from grader.package_files import select_package_files  # noqa: PLC0415 - the same
-    from grader.release import StudentPackage, make_student_package, zip_files  # noqa: PLC0415 - the same
-    from grader.variant import make_folder_name  # noqa: PLC0415 - the same
+    from grader.release import StudentPackage, make_student_package, pack_course_folder  # noqa: PLC0415 - the same
+    from grader.student_data.variant import make_folder_name  # noqa: PLC0415 - the same
     from sim.support.work.executor import count_available_cores, run_jobs  # noqa: PLC0415 - the same
     from sim.support.work.progress_bar import progress_bar  # noqa: PLC0415 - the same
 
     students = tuple(read_class_roster(roster).rows) if roster else ()
-    said = describe_other_code(course)
-    if said:
-        print_error(said)
     chosen = select_package_files(course, with_keys=not students)
     chosen.refuse_secret(secret.value if secret else b"")
     report_left_out(chosen.left_out)
-    everybody = zip_files(chosen.files)
+    everybody = pack_course_folder(chosen.files)
     if secret and secret.new:
         secret.save()
         print_error(f"{secret.new}: a new secret. Keep this file, and show it to nobody.")
     packed = pack_course(course)
     value = secret.value if secret else b""
     packages = [StudentPackage(student, value, name, packed) for student in students]
-    write_file(output / "course.zip", everybody)
+    write_private_file(output / "course.zip", everybody)
     with progress_bar("students", len(packages)) as (step, _):
         made = run_jobs(
             make_student_package,
@@ -145,7 +141,7 @@ def _release(
             worth=WORTH,
         )
         for student, content in made:
-            write_file(output / "students" / f"{make_folder_name(student)}.zip", content)
+            write_private_file(output / "students" / f"{make_folder_name(student)}.zip", content)
             step()
     _tell_made(output, len(everybody), len(students), secret)
     return DONE
@@ -167,27 +163,10 @@ def _tell_made(output: Path, size: int, students: int, secret: "Secret | None") 
     print_lines([style_line(one) for one in lines])
 
 
-def write_file(path: Path, content: bytes) -> None:
-    """Write a file atomically.
-
-    Raises:
-        BadRequest: it cannot be written.
-    """
-    try:
-        make_private_folder(path.parent)
-        write_atomically(path, content, private=True)
-    except OSError as error:
-        raise BadRequest(
-            f"cannot be written: {error.strerror}",
-            where=str(path),
-            advice="Make room there, or name another folder with -o.",
-        ) from None
-
-
 def _check(place: Path, secret: bytes) -> int:
     """Say what is not as the class issued it."""
-    from grader.class_package import read_class_package  # noqa: PLC0415 - --help must not wait for it
     from grader.release import find_broken_seals  # noqa: PLC0415 - the same
+    from grader.student_data.class_package import read_class_package  # noqa: PLC0415 - --help must not wait for it
 
     found = read_class_package(place)
     if found is None:

@@ -9,12 +9,12 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from grader.answers.submission import read_text
 from grader.check import NotReachedError, NotRunError, WrongAnswer
 from grader.robotcode.bench import find_bench
 from grader.robotcode.bench.simulation import Mount
 from grader.robotcode.library.world import WORLD
 from grader.robotcode.source import detect_language
-from grader.submission import read_text
 from sim.core.errors import UnreadableFile
 
 if TYPE_CHECKING:

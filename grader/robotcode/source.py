@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from grader.submission import read_text
+from grader.answers.submission import read_text
 from sim.core.errors import UnreadableFile
 
 LANGUAGES = {".java": "java", ".py": "python"}  # suffix in lower case -> language

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import click
 
 from sim.cli.options import FILE
-from sim.core.errors import BadRequest
 from sim.support.command_line import DONE, INTERRUPTED, NOT_RIGHT, print_error, quote_path
+from sim.support.os_errors import refuse_os_errors
 
 if TYPE_CHECKING:
     from sim.bench.dataset.folder import DatasetPlace
@@ -59,13 +59,12 @@ def dataset(  # noqa: PLR0917 - click passes options by name
     from sim.bench.dataset.folder import DatasetPlace, check_separation  # noqa: PLC0415 - as all below: --help must not wait
     from sim.bench.dataset.key import choose_key_path  # noqa: PLC0415
     from sim.bench.dataset.plan import plan_jobs  # noqa: PLC0415
-    from sim.bench.dataset.secret import find_secret  # noqa: PLC0415
     from sim.bench.dataset.spec import read_spec  # noqa: PLC0415
 
     asked = read_spec(spec)
     key = key or choose_key_path(output)
     check_separation(output, key=key, spec=spec, secret=asked.secret)
-    secret = find_secret(asked, make=not check)
+    secret = asked.find_secret(make=not check)
     place = DatasetPlace(output, key, asked.name, secret, overwrite)
     jobs = plan_jobs(asked, secret)
     if check:
@@ -139,17 +138,13 @@ def _write_example(path: Path) -> int:
     """
     from importlib.resources import files  # noqa: PLC0415 - few ask for it
 
-    try:
-        with path.open("x", encoding="utf-8", newline="\n") as stream:
-            stream.write(
-                files("sim.bench.dataset").joinpath("example.toml").read_text(encoding="utf-8")
-            )
-    except OSError as error:
-        raise BadRequest(
-            f"the example cannot be written ({error.strerror})",
-            where=str(path),
-            advice="Name a new file, in a folder you may write to.",
-        ) from None
+    text = files("sim.bench.dataset").joinpath("example.toml").read_text(encoding="utf-8")
+    advice = "Name a new file, in a folder you may write to."
+    with (
+        refuse_os_errors("the example cannot be written", path, advice=advice),
+        path.open("x", encoding="utf-8", newline="\n") as stream,
+    ):
+        stream.write(text)
     following = f"sysid dataset {quote_path(path)} -o {quote_path(path.stem)}"
     click.echo(f"{path}: an example. Edit it, then: {following}")
     return DONE

@@ -11,6 +11,9 @@
 A command turns any of them into one line on standard error and exit code 2.
 """
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 
 class Refusal(Exception):  # noqa: N818 - not an error of the program
     """Base class of all errors raised on purpose: what is wrong, where, and what to do.
@@ -59,3 +62,13 @@ class BadRequest(Refusal):
 def _rebuild(kind: type[Refusal], what: str, where: str, advice: str) -> Refusal:
     """An unpickled refusal."""
     return kind(what, where=where, advice=advice)
+
+
+@contextmanager
+def refusals_at(where: str) -> Iterator[None]:
+    """A context whose refusals name a place, and the place in it if they have one."""
+    try:
+        yield
+    except Refusal as refusal:
+        place = f"{where}, {refusal.where}" if refusal.where else where
+        raise BadRequest(refusal.what, where=place, advice=refusal.advice) from None

@@ -233,7 +233,7 @@ ks = kv = ka = Right(0)
     Mistake(
         "the examiner asked for the answer",
         FUNCTION,
-        fitting("from grader.variant import make_student_rng"),
+        fitting("from grader.student_data.variant import make_student_rng"),
         "function",
         "No module named 'grader'",
     ),

@@ -21,7 +21,7 @@ import psutil
 from bench_grade import loaded, spent
 from class_made import ROOT, SECRET, asked, make_class
 
-from grader.variant import use_class_secret
+from grader.student_data.variant import use_class_secret
 from sim.support.work.executor import count_available_cores
 
 CORES = count_available_cores()

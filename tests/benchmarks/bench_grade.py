@@ -4,8 +4,8 @@
 
 Aims: help within 0.2 s, answers that are only read within 0.4 s, exercise 9 within 1.5 s: with a
 function that fits five logs in a process of its own. The logs of exercises 7, 8 and 12 are drawn by
-the first process and kept (`grader.draw_cache`); only exercise 12 simulates. ``solved`` is an
-answer that earns everything, where that makes the examiner work harder than the file as it comes.
+the first process and kept (`draw_cache`); only exercise 12 simulates. ``solved`` is an answer that
+earns everything, where that makes the examiner work harder than the file as it comes.
 Processor time is the median, and tells what of the waiting is the machine being busy with other
 things (Windows does not tell it).
 """
@@ -25,7 +25,7 @@ import psutil
 
 from grader.course import load_progress
 from grader.exercise import find_exercise
-from grader.variant import make_folder_name
+from grader.student_data.variant import make_folder_name
 
 ROOT = Path(__file__).resolve().parents[2]
 READ, FUNCTION = 0.4, 1.5  # [s]

@@ -17,7 +17,7 @@ from types import ModuleType
 import numpy as np
 
 from grader.exercise import Exercise, list_exercises
-from grader.variant import make_folder_name, use_class_secret
+from grader.student_data.variant import make_folder_name, use_class_secret
 from sim.support.work.executor import run_jobs
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -22,9 +22,9 @@ Scores = Mapping[str, tuple[float, ...]]  # student -> points for each number
 
 CHECKS = '''"""Three numbers of a fixed log."""
 
-from grader.answer import AskedNumber, Band, read_answer_number
+from grader.answers.number_answer import AskedNumber, Band, read_answer_number
 from grader.check import Check, WrongAnswer, check
-from grader.submission import read_answers
+from grader.answers.submission import read_answers
 
 FILES = ("answers.toml",)
 KEY = {key}

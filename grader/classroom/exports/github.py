@@ -13,7 +13,7 @@ from grader.classroom.atomic_files import write_private_file
 from grader.classroom.feedback_text import compose_feedback
 from grader.classroom.grading import GradedStudent
 from grader.classroom.results import ClassResults
-from grader.variant import make_folder_name
+from grader.student_data.variant import make_folder_name
 from sim.support.printable import make_printable
 
 SUMMARY = "github/STUDENT.txt: result=…, a line for $GITHUB_OUTPUT"

@@ -13,11 +13,11 @@ from pathlib import Path
 from sim.bench.dataset.key import Entry, encode, read_key, write_key
 from sim.bench.dataset.making import MadeLog
 from sim.bench.dataset.plan import LogJob
-from sim.bench.dataset.secret import Secret
 from sim.core.errors import BadRequest
 from sim.support.atomic_file import atomic_path
 from sim.support.os_errors import refuse_os_errors
 from sim.support.printable import list_first
+from sim.support.secret import Secret
 
 LISTED = 3  # files in a message, at most
 MODIFIED = 946_684_800  # [s] 2000-01-01: real times would show how long each log took

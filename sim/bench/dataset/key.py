@@ -12,10 +12,10 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from sim.bench.dataset.secret import Secret
 from sim.core.errors import BadRequest
 from sim.support.atomic_file import write_atomically
 from sim.support.os_errors import refuse_os_errors
+from sim.support.secret import Secret
 
 ENDING = ".key.json"
 

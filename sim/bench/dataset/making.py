@@ -10,11 +10,10 @@ from pathlib import Path
 from typing import Any
 
 from sim.bench.dataset.plan import DAMAGE, MECHANISM, RECORD, Choice, LogJob
-from sim.bench.dataset.table import refusals_at
 from sim.bench.mechanism import Mechanism
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import simulate
-from sim.core.errors import Refusal
+from sim.core.errors import Refusal, refusals_at
 from sim.core.log import Log, Run
 from sim.core.units import convert_gains, find_unit
 from sim.inspect.contaminate import contaminate

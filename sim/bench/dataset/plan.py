@@ -13,9 +13,9 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from sim.bench.dataset.secret import Secret
 from sim.bench.dataset.spec import EffectChoice, FaultChoice, LogTable, Spec
-from sim.bench.dataset.student import make_folder_name, normalize_name
+from sim.support.secret import Secret
+from sim.support.student_names import make_folder_name, normalize_name
 
 EFFECT, FAULT, MECHANISM, RECORD, DAMAGE = range(5)  # independent random streams of a job
 

@@ -9,7 +9,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from sim.bench.dataset.roster import names_or_file, read_students
 from sim.bench.dataset.table import (
     NumberRange,
     choices,
@@ -19,24 +18,27 @@ from sim.bench.dataset.table import (
     number,
     number_range,
     read_table,
-    refusals_at,
     table,
     tables,
     text,
+    texts,
 )
 from sim.bench.mechanism import LARGEST
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import FASTEST, SLOWEST
-from sim.core.errors import BadRequest
+from sim.core.errors import BadRequest, refusals_at
 from sim.core.vocabulary import FOUR_TESTS, KINDS, TESTS
 from sim.inspect.fault import MOST
 from sim.inspect.faults import FAULTS
 from sim.physics.effects import EFFECTS
+from sim.support.secret import Secret, find_secret
+from sim.support.student_table import make_distinct_names, read_student_table
 
 FORMATS = ("wpilog", "csv")
 ENDING = ".secret"  # suffix of a file with a secret
 MOST_LOGS = 100_000  # [logs of a dataset] its key and plan still fit in memory
+ROSTER, COLUMN = "roster.csv", "student"  # an example, and the column unless the spec names another
 ORDINARY = NumberRange(1.0, 1.0)  # size of an effect, severity of a fault
 
 
@@ -50,6 +52,29 @@ def read_secret_name(key: str, value: object) -> str:
             "makes the file. Others may read the spec, so the secret itself must not be in it.",
         )
     return name
+
+
+@dataclass(frozen=True, kw_only=True)
+class RosterFile:
+    """The file of a roster, as a spec names it.
+
+    Args:
+        file: its path, seen from the spec's folder.
+        column: header of the column with the names.
+    """
+
+    file: str = key(text(ROSTER))
+    column: str = key(text(COLUMN), COLUMN)
+
+
+def read_students(name: str, value: object) -> tuple[str, ...] | RosterFile:
+    """Read the spec's students: a list of names, the path of a roster, or a table with its path."""
+    if isinstance(value, list):
+        return make_distinct_names((name, one) for one in texts("ann")(name, value))
+    if isinstance(value, dict):
+        found: RosterFile = table(RosterFile)(name, value)
+        return found
+    return RosterFile(file=text(ROSTER)(name, value))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -161,10 +186,31 @@ class Spec:
     name: str = key(text("week3"))
     seed: int | None = key(integer(0, 2**63 - 1), None)
     secret: Any = key(read_secret_name, None)
-    students: Any = key(names_or_file, ())
+    students: Any = key(read_students, ())
     formats: tuple[str, ...] = key(choices(FORMATS), FORMATS[:1])
     routine: LogSettings = key(table(LogSettings), LogSettings())
     logs: tuple[LogTable, ...] = key(tables(LogTable, "logs"), ())
+
+    def find_secret(self, *, make: bool) -> Secret:
+        """The secret of the dataset, or its seed.
+
+        Args:
+            make: whether to make a new secret if its file does not exist.
+
+        Raises:
+            BadRequest: there is none, it is too short, or file and environment differ.
+        """
+        if self.seed is not None:
+            return Secret(f"sysid dataset of seed {self.seed}".encode(), hidden=False)
+        found = find_secret(self.secret, make=make)
+        if found is None:
+            raise BadRequest(
+                "it says neither secret nor seed",
+                where=self.where,
+                advice=f'Add secret = "class{ENDING}" to the spec, and run this command again: it '
+                "makes the file. Or add seed = 1, if everybody may make the same data again.",
+            )
+        return found
 
 
 def read_spec(path: Path) -> Spec:
@@ -181,7 +227,12 @@ def read_spec(path: Path) -> Spec:
         if found.secret and found.seed is not None:
             advice = "Leave one of them out."
             raise BadRequest("the spec has both a seed and a secret", advice=advice)
-    students = read_students(found.students, where=str(path), folder=path.parent)
+    students = found.students
+    if isinstance(students, RosterFile):
+        advice = "Give the path of a CSV file in UTF-8, seen from the spec's folder."
+        roster = read_student_table(path.parent / students.file, what="the roster", advice=advice)
+        advice = f'Name one that is there: students = {{ file = "{students.file}", column = "…" }}'
+        students = tuple(roster.index_rows(roster.find_column(students.column, advice=advice)))
     total = max(len(students), 1) * sum(one.count * len(one.mechanisms) for one in found.logs)
     if total > MOST_LOGS:
         advice = f"Make several datasets: each dataset can have at most {MOST_LOGS} logs."

@@ -6,13 +6,12 @@ which returns the value as the program needs it.
 
 import json
 import math
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import MISSING, dataclass, field, fields
 from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from sim.core.errors import BadRequest, Refusal
+from sim.core.errors import BadRequest, refusals_at
 
 if TYPE_CHECKING:
     import numpy as np
@@ -40,16 +39,6 @@ class NumberRange:
     def draw(self, rng: "np.random.Generator") -> float:
         """Draw a number from the range."""
         return float(rng.uniform(self.least, self.most))
-
-
-@contextmanager
-def refusals_at(where: str) -> Iterator[None]:
-    """A context whose refusals name a place, and the place in it if they have one."""
-    try:
-        yield
-    except Refusal as refusal:
-        place = f"{where}, {refusal.where}" if refusal.where else where
-        raise BadRequest(refusal.what, where=place, advice=refusal.advice) from None
 
 
 def key(read: Reader, default: object = MISSING) -> Any:  # noqa: ANN401 - as ``dataclasses.field``

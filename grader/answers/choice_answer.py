@@ -37,6 +37,26 @@ def read_choice(
     return found
 
 
+def read_choices(raw: object, choices: Sequence[str], *, ask: str) -> list[str]:
+    """Read a list of choices, or a text with commas between them.
+
+    Args:
+        raw: what was given.
+        choices: the words there are.
+        ask: what to write, if it is no list.
+
+    Raises:
+        WrongAnswer: nothing was given, no list, or a word that is none of the choices.
+    """
+    if isinstance(raw, str) and raw:
+        raw = raw.split(",")
+    if raw is None or raw in ("", []):
+        raise WrongAnswer("nothing yet", hint=ask)
+    if not isinstance(raw, list):
+        raise WrongAnswer(f"{shorten(raw)}, which is not a list", hint=ask)
+    return [read_choice(one, choices) for one in raw]
+
+
 def check_choice(
     raw: object,
     right: str,

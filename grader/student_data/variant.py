@@ -14,7 +14,7 @@ from contextvars import ContextVar
 from functools import lru_cache, wraps
 from typing import TYPE_CHECKING, TypeVar
 
-from sim.bench.dataset.student import check_student_name, make_folder_name, normalize_name
+from sim.support.student_names import check_student_name, make_folder_name, normalize_name
 
 if TYPE_CHECKING:
     import numpy as np

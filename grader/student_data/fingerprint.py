@@ -6,7 +6,7 @@ from contextlib import suppress
 from pathlib import Path
 
 KINDS = (".py", ".toml", ".md", ".java")  # of a course's files; its data are drawn, not sent
-PACKAGES = tuple(Path(__file__).resolve().parents[1] / name for name in ("grader", "sim"))
+PACKAGES = tuple(Path(__file__).resolve().parents[2] / name for name in ("grader", "sim"))
 
 
 def fingerprint_folders(*tops: Path) -> str:

@@ -1,9 +1,9 @@
-"""The secret or seed from which a dataset is drawn and with which its key is sealed.
+"""The secret from which the data of a class or a dataset are drawn, and with which they are sealed.
 
-    seed = HMAC-SHA256(secret, [dataset, student, which log])
+    seed of a dataset's log = HMAC-SHA256(secret, [dataset, student, which log])
 
-A secret prevents others from making the same data. A seed in the spec does not: with the spec,
-anyone can compute the ground truth and seal another key.
+A secret prevents others from making the same data. A seed in a dataset's spec does not: with the
+spec, anyone can compute the ground truth and seal another key.
 """
 
 import hashlib
@@ -15,7 +15,6 @@ import secrets
 from dataclasses import dataclass
 from pathlib import Path
 
-from sim.bench.dataset.spec import ENDING, Spec
 from sim.core.errors import BadRequest
 from sim.support.os_errors import refuse_os_errors
 
@@ -71,49 +70,46 @@ class Secret:
                 stream.write(self.value + b"\n")
 
 
-def find_secret(spec: Spec, *, make: bool) -> Secret:
-    """The secret of a spec, or its seed.
+def find_secret(path: Path | None, *, make: bool) -> Secret | None:
+    """The secret of a class or a dataset, from its file or the environment.
 
     Args:
-        spec: the spec.
-        make: whether to make a new secret if its file does not exist.
+        path: path of its file; None if only the environment may hold it.
+        make: whether to make a new secret if there is none; it is not written here.
+
+    Returns:
+        The secret; None if neither a file is named nor the environment holds one.
 
     Raises:
-        BadRequest: there is none, it is too short, or file and environment differ.
+        BadRequest: the file is missing or cannot be read, the secret is too short, or file and
+            environment differ.
     """
-    if spec.seed is not None:
-        return Secret(f"sysid dataset of seed {spec.seed}".encode(), hidden=False)
-    set_ = os.environ.get(VARIABLE, "").strip().encode()
-    kept = read_secret(spec.secret) if spec.secret else b""
-    if set_ and kept and set_ != kept:
+    around = os.environ.get(VARIABLE, "").strip().encode()
+    kept = read_secret(path) if path else b""
+    if around and kept and around != kept:
         raise BadRequest(
             f"this file and the environment variable {VARIABLE} hold different secrets",
-            where=str(spec.secret),
+            where=str(path),
             advice=f"Unset {VARIABLE}, or remove the file.",
         )
-    value = kept or set_
+    value = kept or around
     if value:
         if len(value) < FEWEST:
             raise BadRequest(
                 f"the secret has fewer than {FEWEST} characters",
-                where=str(spec.secret) if kept else VARIABLE,
+                where=str(path) if kept else VARIABLE,
                 advice="Use a longer one: a short secret can be guessed.",
             )
         return Secret(value, hidden=True)
-    if spec.secret is None:
-        raise BadRequest(
-            "it says neither secret nor seed",
-            where=spec.where,
-            advice=f'Add secret = "class{ENDING}" to the spec, and run this command again: it '
-            "makes the file. Or add seed = 1, if everybody is allowed to make the same data again.",
-        )
+    if path is None:
+        return None
     if not make:
         raise BadRequest(
             "the file with the secret is missing",
-            where=str(spec.secret),
-            advice=f"Put back the file this dataset was made with, or set {VARIABLE}.",
+            where=str(path),
+            advice=f"Name, or put back, the file that the data were made with, or set {VARIABLE}.",
         )
-    return Secret(secrets.token_hex(SIZE).encode(), hidden=True, new=spec.secret)
+    return Secret(secrets.token_hex(SIZE).encode(), hidden=True, new=path)
 
 
 def read_secret(path: Path) -> bytes:

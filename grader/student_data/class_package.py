@@ -4,7 +4,7 @@ import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.variant import check_student_name, normalize_name
+from grader.student_data.variant import check_student_name, normalize_name
 from sim.core.errors import BadRequest, Refusal
 
 PLACE = Path(".course") / "class.toml"

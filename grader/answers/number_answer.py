@@ -9,9 +9,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
+from grader.answers.quantity import NotAUnitError, read_number, read_unit
+from grader.answers.wrong_number import MANY, Scene, WrongNumber, explain_wrong_number
 from grader.check import Check, WrongAnswer, check, shorten
-from grader.quantity import NotAUnitError, read_number, read_unit
-from grader.wrong_number import MANY, Scene, WrongNumber, explain_wrong_number
 
 LARGEST = 1e300  # beyond it a number is infinite, or soon will be
 HALF = 0.5  # [share] of the points inside the wider band

@@ -7,10 +7,11 @@ from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from grader.class_package import ClassPackage, read_class_package
-from grader.draw_cache import find_cache_path, write_cached_data
-from grader.variant import make_folder_name
+from grader.student_data.class_package import ClassPackage, read_class_package
+from grader.student_data.draw_cache import find_cache_path, write_cached_data
+from grader.student_data.variant import make_folder_name
 from sim.core.errors import BadRequest
+from sim.support.os_errors import refuse_os_errors
 from sim.support.work.cache import read_cached
 
 if TYPE_CHECKING:
@@ -63,18 +64,12 @@ def write_student_files(
     known = find_cache_path(exercise, student, "files")
     if known is not None and read_cached(known) == _digest_files(folder, files):
         return
-    try:
+    advice = "Free some space on this disk, or give yourself permission to write into this folder."
+    with refuse_os_errors(f"your {what} cannot be written", folder, advice=advice):
         folder.mkdir(parents=True, exist_ok=True)
         news = [_write_made_file(made, folder / name) for name, made in files.items()]
         if known is not None:
             write_cached_data(known, _digest_files(folder, files))
-    except OSError as error:
-        raise BadRequest(
-            f"your {what} cannot be written: {error.strerror}",
-            where=str(folder),
-            advice="Free some space on this disk, or give yourself permission to write into this "
-            "folder.",
-        ) from error
     number = exercise.name.removeprefix("exercise")
     if any(news) and there:
         was = "were" if what.endswith("s") else "was"

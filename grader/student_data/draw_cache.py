@@ -15,8 +15,8 @@ from functools import cache, wraps
 from pathlib import Path
 from typing import TypeVar
 
-from grader.fingerprint import fingerprint_folders
-from grader.variant import is_self_study, normalize_name
+from grader.student_data.fingerprint import fingerprint_folders
+from grader.student_data.variant import is_self_study, normalize_name
 from sim.support.work import cache as kept_files
 
 Drawn = TypeVar("Drawn")
