@@ -428,6 +428,57 @@ def test_a_search_for_what_is_missing_tells_how_far_it_is_and_ends_in_a_story(pa
     assert page.complaints == []
 
 
+def kv_shown(page):
+    """kV on the page."""
+    return float(page.get_by_label("kV as a number").input_value())
+
+
+def test_an_effect_that_was_found_is_switched_on_and_off(page, tmp_path):
+    arm = MECHANISMS["arm"].hide("drag", 1.0)
+    for name, seed, step in (("arm", 5, 5.0), ("other", 6, 4.0)):
+        log = simulate(arm, Routine(step=step), rng=np.random.default_rng(seed))
+        drop(page, write_log(log, tmp_path / f"{name}.wpilog"))
+        page.locator(".tab .name", has_text=name).wait_for()
+    page.locator(".tab .name", has_text="arm").click()
+    page.locator("h1#title", has_text="arm").wait_for()
+    page.locator("#gain-kG").wait_for()
+    wrong, far = kv_shown(page), error_shown(page)
+    page.get_by_label("Show the gap on").select_option(label="other.wpilog")
+    page.get_by_role("button", name="Look for what is missing").click()
+    box = page.locator("#story").get_by_label("drag")
+    box.wait_for()
+    wait_until(page, "document.querySelector('#sliders').inert")
+
+    truth = MECHANISMS["arm"].gains["kV"]
+    assert abs(kv_shown(page) - truth) < 0.02 * truth < abs(wrong - truth)
+    assert error_shown(page) < 0.5 * far
+    assert page.evaluate("sysid.chart.others.length") == 4
+    assert "held-out" in page.locator("#story").inner_text()
+    page.locator("#paste").click()
+    page.locator("#code-text", has_text=f"kV = {kv_shown(page):.2f}").wait_for()
+    page.get_by_label("Language").select_option("phoenix6")
+    page.locator("#code-text", has_text="Slot0Configs").wait_for()
+    page.get_by_role("button", name="Close", exact=True).click()
+    box.uncheck()
+    wait_until(page, "!document.querySelector('#sliders').inert")
+    assert kv_shown(page) == wrong
+    assert page.complaints == []
+
+
+def test_a_search_that_is_stopped_says_so_first_and_shows_what_it_has(page, tmp_path):
+    arm = MECHANISMS["arm"].hide("drag", 1.0)
+    log = simulate(arm, Routine(step=5.0), rng=np.random.default_rng(5))
+    drop(page, write_log(log, tmp_path / "arm.wpilog"))
+    page.locator("#gain-kG").wait_for()
+    page.get_by_role("button", name="Look for what is missing").click()
+    page.get_by_role("button", name="Stop").click()
+    page.get_by_role("button", name="Search five times as long").wait_for()
+
+    headline = page.locator("#story .headline").inner_text()
+    assert headline.startswith("The search was stopped before it had tried every effect.")
+    assert page.locator("#story .gaps > div").count() >= 1
+
+
 def test_signals_of_unknown_names_are_chosen_with_a_picture_of_each(page, tmp_path):
     log = drive_log()
     groups = [

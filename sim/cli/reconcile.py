@@ -27,7 +27,9 @@ if TYPE_CHECKING:
 
     from sim.core.log import Log
     from sim.fit import Fit
+    from sim.physics.model import Part
     from sim.reconcile import DamagedInterval, Story
+    from sim.reconcile.story import ParameterEstimate
 
 DROPOUT = "voltage-dropout"  # an inspection reports many short dropouts as one interval
 UNSURE = ("unexplained", "ambiguous")  # verdicts with exit code 1
@@ -173,20 +175,27 @@ def _solve(
 
 
 def _make_fit(story: "Story", log: "Log") -> "Fit":
-    """The fit of a log, with the gains of a story's last model.
-
-    Warnings about the model without effects do not concern these gains, unless they are grave.
-    """
+    """The fit of a log, with the gains of a story's last model."""
     from sim.fit import fit  # noqa: PLC0415 - --help must not wait for it
 
     plain = fit(log, type=story.model.type).in_log_units()
     if story.gains == story.gains_without:
         return plain
+    return replace_gains(plain, story.gains, story.model.parts)
+
+
+def replace_gains(
+    plain: "Fit", gains: "Mapping[str, ParameterEstimate]", parts: "tuple[Part, ...]"
+) -> "Fit":
+    """A fit with the gains and effects of another model, in the same unit.
+
+    Warnings about the model without effects do not concern these gains, unless they are grave.
+    """
     return replace(
         plain,
-        gains={name: one.value for name, one in story.gains.items()},
-        errors={name: one.error for name, one in story.gains.items() if one.error is not None},
-        parts=story.model.parts,
+        gains={name: one.value for name, one in gains.items()},
+        errors={name: one.error for name, one in gains.items() if one.error is not None},
+        parts=parts,
         doubts=tuple(doubt for doubt in plain.doubts if doubt.grave),
     )
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from sim.cli.fit.paste import write_snippet
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, Refusal
 from sim.core.units import find_unit
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from sim.fit import Fit
     from sim.inspect.detect_faults import Inspection
     from sim.io.entries.entry import Entry
+    from sim.reconcile.model_variant import ModelVariant
 
 SIGNALS = ("time", "voltage", "position", "velocity")
 MOST_ENTRIES = 400  # entries listed to choose from
@@ -101,8 +103,15 @@ def describe_faults(found: "Inspection", one: "OpenLog") -> dict[str, Any]:
     return {"faults": data["faults"], "doubts": _doubts(found.doubts, one), "clean": data["clean"]}
 
 
-def describe_fit(one: "OpenLog", reading: "Reading") -> dict[str, Any]:
+def describe_fit(
+    one: "OpenLog", reading: "Reading", chosen: "ModelVariant | None" = None
+) -> dict[str, Any]:
     """The gains with verdict and doubts, and the simulated initial state of each run.
+
+    Args:
+        one: the log.
+        reading: how to read it.
+        chosen: a model with effects, whose gains and simulated velocities are shown instead.
 
     Raises:
         Refusal: the log cannot be read or fitted.
@@ -111,7 +120,7 @@ def describe_fit(one: "OpenLog", reading: "Reading") -> dict[str, Any]:
     from sim.report.rows import make_gain_rows  # noqa: PLC0415 - the same
 
     pooled, log = one.fit(reading), one.combine_runs(reading)
-    found = pooled.found.in_log_units()
+    found = _apply_model(pooled.found.in_log_units(), chosen)
     gains = [
         {
             "name": name,
@@ -128,16 +137,29 @@ def describe_fit(one: "OpenLog", reading: "Reading") -> dict[str, Any]:
         "gains": gains,
         "verdict": write_gain_verdict(found, log),
         "doubts": _doubts(found.list_doubts(), one),
-        "notes": list(pooled.notes),
-        "parts": sorted(part.effect for part in found.parts),
+        "notes": [] if chosen else list(pooled.notes),
+        "tracks": _list_tracks(chosen, log) if chosen else None,
+        "parts": [] if chosen else sorted(part.effect for part in found.parts),
         "lag": found.position_delay if found.position_delay > LAGS else 0.0,
         "window": max(2.0 * (found.velocity_delay - found.position_delay), 0.0),
         "r2": _finite(found.simulated_velocity_r2),
         "feedback": {
             loop: {"kP": gains.kp, "kD": gains.kd} for loop, gains in found.feedback().items()
         },
-        **_describe_starts(found, log),
+        **({} if chosen else _describe_starts(found, log)),
     }
+
+
+def _list_tracks(chosen: "ModelVariant", log: "Log") -> list[list[float]]:
+    """The simulated velocity [SI] of each run; empty if motors were averaged."""
+    tracks = [run[:, 1].tolist() for run in chosen.tracks]
+    return tracks if list(map(len, tracks)) == list(map(len, log.runs)) else []
+
+
+def _apply_model(found: "Fit", chosen: "ModelVariant | None") -> "Fit":
+    from sim.cli.reconcile import replace_gains  # noqa: PLC0415 - once it is needed
+
+    return found if chosen is None else replace_gains(found, chosen.gains, chosen.parts)
 
 
 def describe_directions(one: "OpenLog", reading: "Reading") -> dict[str, Any]:
@@ -182,27 +204,35 @@ def _describe_starts(found: "Fit", log: "Log") -> dict[str, Any]:
     return {"starts": starts, "noise": noise}
 
 
-def write_code(one: "OpenLog", reading: "Reading", query: Mapping[str, str]) -> dict[str, str]:
+def write_code(
+    one: "OpenLog", reading: "Reading", query: Mapping[str, str], chosen: "ModelVariant | None"
+) -> dict[str, str]:
     """Robot code for the gains of a log, or for values that the user set with the sliders.
+
+    Args:
+        one: the log.
+        reading: how to read it.
+        query: language or motor controller, season, radius, and gains that were set by hand.
+        chosen: a model with effects, whose gains are written instead.
 
     Raises:
         Refusal: the log cannot be fitted, or its gains cannot be written as code.
     """
-    from sim.report.robot_code_snippet import LANGUAGES, SEASONS, write_robot_code  # noqa: PLC0415 - once needed
+    from sim.report.robot_code_snippet import LANGUAGES, SEASONS  # noqa: PLC0415 - once needed
 
     language, season = query.get("language", "java"), query.get("season", "2026")
-    if language not in LANGUAGES or season not in map(str, SEASONS):
-        raise BadRequest("there is no such language or season", advice="Choose java and 2026.")
-    found = one.fit(reading).found.in_log_units()
+    if season not in map(str, SEASONS):
+        raise BadRequest("there is no such season", advice="Choose 2026.")
+    found = _apply_model(one.fit(reading).found.in_log_units(), chosen)
     moved = {name: float(query[name]) for name in found.gains if _is_number(query.get(name, ""))}
     errors = {name: error for name, error in found.errors.items() if name not in moved}
     # A value set by hand has no standard error
     found = replace(found, gains={**found.gains, **moved}, errors=errors)
-    code = write_robot_code(found, language=language, season=int(season))
+    radius = float(query["radius"]) if _is_number(query.get("radius", "")) else None
+    code = write_snippet(found, language, season=int(season), radius=radius)
     if moved:
-        code = (
-            f"{LANGUAGES[language].comment} Moved by hand, not measured: {', '.join(moved)}\n{code}"
-        )
+        comment = LANGUAGES[language if language in LANGUAGES else "java"].comment
+        code = f"{comment} Moved by hand, not measured: {', '.join(moved)}\n{code}"
     return {"code": code}
 
 

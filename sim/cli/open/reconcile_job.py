@@ -4,13 +4,14 @@ import math
 import threading
 from typing import TYPE_CHECKING, Any
 
-from sim.core.errors import Refusal
+from sim.core.errors import BadRequest, Refusal
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Collection, Mapping
 
     from sim.core.log import Log
     from sim.reconcile import Story
+    from sim.reconcile.model_variant import ModelVariant
 
 PLACES = 5  # places listed where the base model's residual is largest
 
@@ -19,16 +20,25 @@ class ReconcileJob:
     """One search, in a thread of its own.
 
     Args:
-        read: reads the log.
+        read: reads the logs: ``log``, and ``validation`` and ``held_out`` if they are given.
         name: name of its file, as the page shows it.
         type: type of the mechanism; None takes the one in the file.
+        effort: [1] as of ``reconcile``.
     """
 
-    def __init__(self, read: "Callable[[], Log]", *, name: str, type: str | None) -> None:  # noqa: A002 - the field's own word
-        self._read, self._name, self._type = read, name, type
+    def __init__(
+        self,
+        read: "Callable[[], Mapping[str, Log]]",
+        *,
+        name: str,
+        type: str | None,  # noqa: A002 - the field's own word
+        effort: float,
+    ) -> None:
+        self._read, self._name, self._type, self._effort = read, name, type, effort
         self._words, self._share = "looking for damage", 0.0
-        self._story: dict[str, Any] | None = None
+        self._stopped = threading.Event()
         self._refusal: Refusal | None = None
+        self.story: Story | None = None
         threading.Thread(target=self._run, daemon=True).start()
 
     def to_json(self) -> dict[str, Any]:
@@ -39,7 +49,22 @@ class ReconcileJob:
         """
         if self._refusal is not None:
             raise self._refusal
-        return {"words": self._words, "share": self._share, "story": self._story}
+        story = None if self.story is None else describe_story(self.story)
+        return {"words": self._words, "share": self._share, "story": story}
+
+    def stop(self) -> None:
+        """Let the search end soon, with the best model so far."""
+        self._stopped.set()
+
+    def refit(self, effects: "Collection[str]") -> "ModelVariant":
+        """The model of the story with some of its effects.
+
+        Raises:
+            BadRequest: the search has not ended.
+        """
+        if self.story is None or self.story.variants is None:
+            raise BadRequest("the search has not ended", advice="Wait for it, or stop it.")
+        return self.story.variants.refit(effects)
 
     def _run(self) -> None:
         """Run the search; an error is reported when the page asks for its progress."""
@@ -47,14 +72,19 @@ class ReconcileJob:
         from sim.reconcile import reconcile  # noqa: PLC0415 - the same
 
         try:
-            log = self._read()
-            story = reconcile(
+            logs = self._read()
+            damages = {name: inspect_damage(log) for name, log in logs.items()}
+            log = logs["log"]
+            self.story = reconcile(
                 log,
+                validation=logs.get("validation"),
+                held_out=logs.get("held_out"),
                 type=self._type or log.type or "simple",
-                damages={"log": inspect_damage(log)},
+                damages=damages,
+                effort=self._effort,
                 progress=self._note,
+                is_stopped=self._stopped.is_set,
             )
-            self._story = describe_story(story)
         except Refusal as refusal:
             self._refusal = refusal
         except Exception as error:  # noqa: BLE001 - a bug must not leave the page waiting
@@ -76,6 +106,7 @@ def describe_story(story: "Story") -> dict[str, Any]:
         list_inspections,
         list_next_tests,
         list_remarks,
+        write_gain_caution,
         write_headline,
     )
 
@@ -104,10 +135,13 @@ def describe_story(story: "Story") -> dict[str, Any]:
     return {
         "headline": write_headline(story),
         "verdict": story.verdict,
+        "complete": story.complete,
+        "effects": [one.added for one in story.chapters[1:]],
         "findings": findings,
         "gaps": gaps,
         "places": [place.sentence for place in story.where[:PLACES]],
         "next": list(list_next_tests(story)),
-        "remarks": list(list_remarks(story)),
+        "caution": write_gain_caution(story),
+        "remarks": list(list_remarks(story) if story.complete else story.notes),
         "how": story.how,
     }

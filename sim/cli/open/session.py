@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from sim.cli.open.view import PageView
 from sim.core.errors import BadRequest, Refusal
+from sim.io.entries.entry import NEEDED
 
 if TYPE_CHECKING:
     from sim.cli.fit.parts import PooledParts
@@ -39,6 +40,12 @@ class Reading:
     units: str | None = None
     type: str | None = None
     entries: tuple[tuple[str, str], ...] = ()
+
+    @classmethod
+    def from_query(cls, query: Mapping[str, str]) -> "Reading":
+        """The options that a request of the page names."""
+        chosen = tuple((one, query[one]) for one in (*NEEDED, "state") if query.get(one))
+        return cls(query.get("units") or None, query.get("type") or None, chosen)
 
     @property
     def differentiates_position(self) -> bool:
@@ -116,6 +123,19 @@ class OpenLog:
 
         return self._compute_once(("log", reading), lambda: join_parts(self.read_parts(reading)))
 
+    def read_mechanism(self, reading: Reading) -> "Log":
+        """The log of one mechanism; several motors in the file are averaged.
+
+        Raises:
+            Refusal: as ``read_parts``.
+        """
+        if len(self.read_parts(reading)) == 1:
+            return self.combine_runs(reading)
+        from sim.io import read  # noqa: PLC0415 - reads formats
+
+        entries = dict(reading.entries)
+        return read(self.path, units=reading.units, type=reading.type, entries=entries)
+
     def list_entries(self) -> "list[Entry]":
         """The entries of the file, for choosing signals.
 
@@ -151,19 +171,27 @@ class OpenLog:
 
         return self._compute_once(("fit", reading), find)
 
-    def reconcile(self, reading: Reading) -> "ReconcileJob":
-        """The search for missing effects; the first call starts it."""
+    def reconcile(
+        self, reading: Reading, others: "Mapping[str, OpenLog]", effort: float
+    ) -> "ReconcileJob":
+        """The search for missing effects; the first call starts it.
+
+        Args:
+            reading: how to read the log.
+            others: ``validation`` and ``held_out`` -> another open log, where one is chosen.
+            effort: [1] as of ``reconcile``.
+        """
         from sim.cli.open.reconcile_job import ReconcileJob  # noqa: PLC0415 - once it is needed
 
-        def read_file() -> "Log":
-            from sim.io import read  # noqa: PLC0415 - reads formats
+        def read_logs() -> "dict[str, Log]":
+            alike = Reading(reading.units, reading.type)
+            more = {role: one.read_mechanism(alike) for role, one in others.items()}
+            return {"log": self.read_mechanism(reading), **more}
 
-            entries = dict(reading.entries)
-            return read(self.path, units=reading.units, type=reading.type, entries=entries)
-
+        numbers = tuple((role, one.number, one.revision) for role, one in others.items())
         return self._compute_once(
-            ("reconcile", reading),
-            lambda: ReconcileJob(read_file, name=self.name, type=reading.type),
+            ("reconcile", reading, numbers, effort),
+            lambda: ReconcileJob(read_logs, name=self.name, type=reading.type, effort=effort),
         )
 
     def renew(self, finished: "Mapping[str, Log]", path: Path) -> None:

@@ -41,6 +41,11 @@ export function closeLog(id) {
   return ask(`logs/${id}`, { method: "DELETE" });
 }
 
+/** Let a search for missing effects end with what it has. */
+export function stopSearch(id, query) {
+  return ask(addressOf(id, "reconcile", query), { method: "DELETE" });
+}
+
 /** Data about a log: summary, faults, fit, directions or code. */
 export function askLog(id, what, query = {}) {
   return ask(addressOf(id, what, query));

@@ -1,7 +1,7 @@
 // The page: the open logs, the selected log, and its results.
 
 import {
-  Refused, addressOf, askLive, askLog, askSamples, askView, closeLog, listLogs, openExample, openFile,
+  Refused, addressOf, askLive, askLog, askSamples, askView, closeLog, listLogs, openExample, openFile, stopSearch,
 } from "./api.js";
 import { Chart } from "./chart.js";
 import { makeSignalRows } from "./choices.js";
@@ -9,7 +9,7 @@ import { button, figure, item, prose, sentence, text } from "./elements.js";
 import { makeModel, rms, simulateRun } from "./simulate.js";
 import { Sliders } from "./sliders.js";
 import { writeSpans } from "./spans.js";
-import { storyParts } from "./story.js";
+import { searchForm, storyParts } from "./story.js";
 
 const MOST_SHOWN = 12; // faults in the list; further ones are collapsed
 const SIGNALS = 4; // arrays of a run: time, voltage, position, velocity
@@ -49,6 +49,7 @@ async function begin({ id, name, revision = 0 }) {
 async function load(log) {
   log.failed = null;
   log.faults = log.fit = log.fitRefused = log.search = null;
+  log.effects = [];
   const asked = (log.asked = {});
   setLoading(log, true);
   try {
@@ -100,8 +101,9 @@ async function askFit(log, asked) {
   try {
     const fit = await askLog(log.id, "fit", log.query);
     if (log.asked !== asked) return;
-    log.fit = fit;
-    log.gains = Object.fromEntries(fit.gains.map((gain) => [gain.name, gain.value]));
+    log.plain = fit;
+    takeFit(log, fit);
+    log.plainSimulated = log.simulated;
     log.fitError = simulate(log, log.gains);
   } catch (problem) {
     if (!(problem instanceof Refused)) throw problem;
@@ -111,9 +113,17 @@ async function askFit(log, asked) {
   if (!log.fit) return;
   const more = await askLog(log.id, "directions", log.query).catch(() => null);
   if (more === null || log.asked !== asked) return;
-  log.fit.doubts.push(...more.doubts);
-  log.fit.notes.push(...more.notes);
+  log.plain.doubts.push(...more.doubts);
+  log.plain.notes.push(...more.notes);
   if (active === log.id) showDoubts();
+}
+
+/** Show the gains of a fit, or of a model with effects. */
+function takeFit(log, fit) {
+  log.fit = fit;
+  log.moved = false;
+  log.gains = Object.fromEntries(fit.gains.map((gain) => [gain.name, gain.value]));
+  simulate(log, log.gains);
 }
 
 /** Do something for one file; an error is shown, and the rest of the page keeps working. */
@@ -208,14 +218,15 @@ at("signals").addEventListener("submit", (event) => {
 /** Simulate every run of a log with gains in its unit; returns the error, sets curves in `log`. */
 function simulate(log, gains) {
   const { si } = log.summary.units;
+  const { tracks } = log.fit; // of a model with effects, which only the server simulates
   const inSi = { ...gains, kV: gains.kV / si, kA: gains.kA / si };
   const model = makeModel(log.fit.type, inSi, log.fit);
   let [sum, count] = [0, 0];
   log.simulated = log.runs.map((run, k) => {
     const start = log.fit.starts[k];
-    if (!start || !model) return null;
+    if (!start || !(tracks ? tracks[k] : model)) return null;
     const cut = { time: run.time.subarray(start.first), voltage: run.voltage.subarray(start.first) };
-    const { velocity } = simulateRun(cut, model, start);
+    const velocity = tracks ? Float64Array.from(tracks[k].slice(start.first)) : simulateRun(cut, model, start).velocity;
     if (si !== 1) velocity.forEach((value, i) => { velocity[i] = value / si; });
     const error = rms(run.velocity.subarray(start.first), velocity);
     sum += error * error * velocity.length;
@@ -401,7 +412,7 @@ function showFit() {
     return;
   }
   report.href = addressOf(log.id, "report.html", log.query);
-  sliders.show(fit.gains, log.gains);
+  sliders.show(fit.gains, log.gains, { fixed: Boolean(fit.tracks) });
   at("verdict").replaceChildren(...prose(fit.verdict));
   showFeedback(fit);
   showDoubts();
@@ -440,52 +451,69 @@ function doubtItem({ message, grave }) {
 
 const POLL = 250; // [ms] between two requests for the progress of a search
 
-async function reconcile(log) {
+/** Search with these settings: {validation, held_out}: numbers of other logs; longer: try harder. */
+async function reconcile(log, settings) {
   const { asked } = log;
+  const search = (log.search = { words: "begins", share: 0, settings });
+  if (log.effects.length) await chooseEffects(log, []);
+  showStory();
   try {
-    for (;;) {
-      log.search = await askLog(log.id, "reconcile", log.query);
+    while (!search.story) {
+      Object.assign(search, await askLog(log.id, "reconcile", { ...log.query, ...settings }));
       if (log.asked !== asked) return;
       if (active === log.id) showStory();
-      if (log.search.story) return;
-      await new Promise((done) => setTimeout(done, POLL));
+      if (!search.story) await new Promise((done) => setTimeout(done, POLL));
     }
+    if (search.story.effects.length) await chooseEffects(log, search.story.effects);
   } catch (problem) {
     if (log.asked !== asked) return;
-    log.search = { refused: sentence(problem) };
+    search.refused = sentence(problem);
     if (active === log.id) showStory();
   }
+}
+
+/** The query for data about the chosen model. */
+function modelQuery(log) {
+  return { ...log.query, ...log.search?.settings, effects: log.effects.join() };
+}
+
+/** Show gains and curves of the model with these effects; without any, those of the fit. */
+async function chooseEffects(log, effects) {
+  log.effects = effects;
+  const { asked } = log;
+  const fit = effects.length ? { ...log.plain, ...await askLog(log.id, "fit", modelQuery(log)) } : log.plain;
+  if (log.asked !== asked || log.effects !== effects) return;
+  takeFit(log, fit);
+  if (active !== log.id) return;
+  showFit();
+  showStory();
+  showOthers();
 }
 
 function showStory() {
   const log = logs.get(active);
   const { search } = log;
   const place = at("story");
-  if (!search) {
-    const start = button("button", "Look for what is missing", () => {
-      log.search = { words: "begins", share: 0 };
-      showStory();
-      reconcile(log);
-    });
-    place.replaceChildren(
-      text("p", "Tries every effect of the catalogue, drag to backlash, and names those that explain the simulation error. " + (log.summary.compiled
-        ? "This takes some seconds." : "This takes minutes: Numba is not installed. With the extra fast it takes seconds."), "quiet"),
-      start,
-    );
-    return;
-  }
-  if (search.refused) {
-    place.replaceChildren(item("grave", search.refused));
-    return;
-  }
-  if (!search.story) {
+  if (search && !search.story && !search.refused) {
     const bar = place.querySelector("progress") ?? Object.assign(document.createElement("progress"), { max: 1 });
     bar.value = search.share;
     bar.setAttribute("aria-label", "How far the search is");
-    place.replaceChildren(text("p", `${search.words}…`, "quiet"), bar);
+    const stop = place.querySelector(".stop") ?? button("button stop", "Stop", () => {
+      search.stopped = true;
+      stopSearch(log.id, { ...log.query, ...search.settings });
+      showStory();
+    });
+    stop.disabled = search.stopped;
+    place.replaceChildren(text("p", `${search.stopped ? "stopping after" : ""} ${search.words}…`, "quiet"), bar, stop);
     return;
   }
-  place.replaceChildren(...storyParts(search.story));
+  const others = [...logs.values()].filter((one) => one !== log && one.runs);
+  const parts = !search
+    ? [text("p", "Tries every effect of the catalogue, drag to backlash, and names those that explain the simulation error. " + (log.summary.compiled
+        ? "This takes some seconds." : "This takes minutes: Numba is not installed. With the extra fast it takes seconds."), "quiet")]
+    : search.refused ? [item("grave", search.refused)]
+      : storyParts(search.story, log, (effects) => guarded(log.name, () => chooseEffects(log, effects)));
+  place.replaceChildren(...parts, searchForm(search, others, (settings) => guarded(log.name, () => reconcile(log, settings))));
 }
 
 function showMeter(log, error) {
@@ -583,8 +611,17 @@ function showOthers() {
       laid.push({ color: colors[k % colors.length], run, time: theirs.time, velocity: theirs.velocity.map((value) => value * factor) });
     }
   }
+  if (log.fit?.tracks) {
+    for (const [run, one] of log.plainSimulated.entries()) {
+      if (!one) continue;
+      const velocity = new Float64Array(log.runs[run].time.length).fill(NaN); // nothing is drawn before the run begins
+      velocity.set(one.velocity, one.first);
+      laid.push({ color: chart.colors.quiet, run, time: log.runs[run].time, velocity });
+    }
+  }
   chart.setOthers(laid);
-  document.querySelector(".legend .other").hidden = !laid.length;
+  document.querySelector(".legend .without").hidden = !log.fit?.tracks;
+  document.querySelector(".legend .other").hidden = !others.length;
 }
 
 function showRefusal(name, problem) {
@@ -619,7 +656,9 @@ function movedGains({ fit, gains }) {
 
 async function showCode() {
   const log = logs.get(active);
-  const query = { ...log.query, ...movedGains(log), language: at("language").value, season: at("season").value };
+  const [language, season] = [at("language").value, at("season").value];
+  at("radius-row").hidden = ["java", "python"].includes(language);
+  const query = { ...modelQuery(log), ...movedGains(log), language, season, radius: at("radius").value.replace(",", ".") };
   try {
     at("code-text").textContent = (await askLog(log.id, "code", query)).code;
   } catch (problem) {
@@ -647,7 +686,7 @@ at("example").addEventListener("click", () => guarded("example", async () => beg
 at("reset").addEventListener("click", () => sliders.reset());
 at("paste").addEventListener("click", async () => { await showCode(); at("code").showModal(); });
 at("copy").addEventListener("click", () => copy(at("code-text")));
-for (const id of ["language", "season"]) at(id).addEventListener("change", showCode);
+for (const id of ["language", "season", "radius"]) at(id).addEventListener("change", showCode);
 for (const id of ["type", "units"]) {
   at(id).addEventListener("change", () => {
     const log = logs.get(active);
@@ -700,34 +739,11 @@ at("theme").addEventListener("click", () => {
 });
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => chart.readColors());
 
-/** Draw samples of a step with noise, on the first screen. */
-function drawHero() {
-  const svg = "http://www.w3.org/2000/svg";
-  const dots = Array.from({ length: 46 }, (_, k) => {
-    const x = 40 + k * 12.7;
-    const wave = Math.sin(12.9 * k) * 2.6 + Math.sin(4.1 * k) * 1.7;
-    const dot = document.createElementNS(svg, "circle");
-    dot.setAttribute("cx", String(x));
-    dot.setAttribute("cy", String(60 + 130 * Math.exp(-(x - 40) / 82) + wave));
-    dot.setAttribute("r", "2.6");
-    return dot;
-  });
-  at("hero-dots").replaceChildren(...dots);
-  for (const [id, slow, end] of [["hero-fit", 82, 60], ["hero-ghost", 150, 44]]) {
-    const points = Array.from({ length: 59 }, (_, k) => {
-      const x = 40 + 10 * k;
-      return `${x} ${(end + (190 - end) * Math.exp(-(x - 40) / slow)).toFixed(1)}`;
-    });
-    at(id).setAttribute("d", `M${points.join("L")}`);
-  }
-}
-
 /** Keep the gains visible while scrolling; of a column taller than the screen, its end. */
 new ResizeObserver(([{ target }]) => {
   target.style.setProperty("--top", `${Math.min(12, innerHeight - target.offsetHeight - 12)}px`);
 }).observe(document.querySelector(".side"));
 
-drawHero();
 let kept = "";
 try {
   kept = localStorage.getItem("theme") ?? "";
