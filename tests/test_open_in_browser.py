@@ -429,7 +429,7 @@ def test_a_search_for_what_is_missing_tells_how_far_it_is_and_ends_in_a_story(pa
 
 
 def kv_shown(page):
-    """kV on the page."""
+    """The value of kV on the page."""
     return float(page.get_by_label("kV as a number").input_value())
 
 
