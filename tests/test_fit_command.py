@@ -218,8 +218,8 @@ def test_units_that_contradict_the_file_are_the_first_thing_said(tmp_path, fit):
 
     first = out.splitlines()[0]
     assert "the file says rotations" in first
-    assert "--units says radians" in first
-    assert out.count("--units says") == 1
+    assert "but you chose radians" in first
+    assert out.count("but you chose") == 1
     assert "the file says" not in right
 
 

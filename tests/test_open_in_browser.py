@@ -146,7 +146,7 @@ def wait_until(page, expression):
 
 def error_shown(page):
     """The simulation error on the page, in the log's unit per second."""
-    return float(re.match(r"[\d.]+", page.locator("#meter .big").inner_text())[0])
+    return float(re.search(r"[\d.]+", page.locator("#meter .quiet").inner_text())[0])
 
 
 def write_each(folder):
@@ -205,6 +205,39 @@ def test_what_is_watched_is_shown_live(page, server, tmp_path):
         f"http://{server.hosts[0]}"
     }
     assert page.complaints == []
+
+
+def test_verdict_gap_faults_and_warnings_are_seen_without_scrolling(browser, server, tmp_path):
+    with opened(browser, server.address, {"width": 1366, "height": 768}) as page:
+        drop(page, write_log(slipped_log(), tmp_path / "slipped.csv"))
+        page.locator("#fault-lines .link", has_text="encoder slip (sure)").wait_for()
+        page.locator("#meter .gap", has_text="× sensor noise").wait_for()
+
+        assert page.locator("#word").inner_text() == "Check first"
+        assert re.search(r"[\d.]+\s% of top speed", page.locator("#meter .gap").inner_text())
+        assert page.locator("#verdict").inner_text().startswith("kS usable")
+        for line in page.locator("#verdict-card :is(h2, .gap, #verdict, li)").all():
+            assert line.bounding_box()["y"] + line.bounding_box()["height"] < 768
+        warnings = page.locator("#doubts summary").all()
+        assert all(line.bounding_box()["height"] < 30 for line in warnings)  # one line each
+        warnings[0].click()
+        assert page.locator("#doubts details[open] p").count() == 1
+        said = page.locator("#doubts li").all_inner_texts()
+        assert len(said) == len(set(said))
+        assert "--" not in page.locator("body").inner_text()
+
+
+def test_an_advice_is_a_button(page, tmp_path):
+    elevator = simulate(MECHANISMS["elevator"], Routine(), rng=np.random.default_rng(1))
+    drop(page, write_log(replace(elevator, type="", mechanism="lift"), tmp_path / "lift.csv"))
+    page.locator("#doubts summary", has_text="A simulation").or_(
+        page.locator("#verdict", has_text="Choose the type")
+    ).first.wait_for()
+    page.locator("#doubts summary", has_text="A simulation").click()
+    page.get_by_role("button", name="Fit as elevator").click()
+    page.locator("#gain-kG").wait_for()
+
+    assert page.get_by_label("Type").input_value() == "elevator"
 
 
 def test_faults_are_listed_and_marked_and_shown_on_demand(page, tmp_path):
@@ -275,7 +308,7 @@ def test_a_dragged_gain_moves_the_curve_and_the_error_in_time(page, tmp_path):
     assert pictures > 0
     print(f"{pictures:.0f} pictures a second while a gain is dragged")  # noqa: T201 - for people
     page.get_by_role("button", name="Reset to the fit").click()
-    page.get_by_text("simulation error of the fit").wait_for()
+    page.get_by_text("× that of the fit").wait_for(state="hidden")
     assert error_shown(page) == before
 
 
@@ -375,7 +408,7 @@ def test_another_unit_is_read_anew(page, tmp_path):
     page.locator("#gain-kV").wait_for()
     before = error_shown(page)
     page.get_by_label("Units").select_option("feet")
-    page.locator("#meter .big", has_text="ft/s").wait_for()
+    page.locator("#meter .quiet", has_text="ft/s").wait_for()
 
     assert error_shown(page) == pytest.approx(before, rel=0.01)  # the numbers are feet now
     page.get_by_label("Type").select_option("arm")

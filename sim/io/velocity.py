@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from sim.core.advice import Action
 from sim.core.doubt import Doubt
 from sim.core.log import Array, Log, Run
 
@@ -87,8 +88,8 @@ def check_velocity(log: Log) -> Log:
     doubt = Doubt(
         "velocity-scale",
         f"{log.source}: the velocity is {share:.3g} times as fast as the position moves. Look "
-        "at the factors of both in the robot's code. If the position is right, add "
-        f"--velocity-scale {1.0 / share:.3g} or --ignore-velocity.",
+        "at the factors of both in the robot's code.",
+        action=Action("velocity-scale", f"{1.0 / share:.3g}"),
     )
     return log.add_doubts(doubt)
 

@@ -186,4 +186,4 @@ def _describe_repeats(recordings: Recordings) -> dict[str, str]:
 def _collect_doubts(recordings: Recordings) -> tuple[str, ...]:
     """Doubts from reading the logs, each once; those of the least used log first."""
     logs = [recordings.logs_by_name[name] for name in LOG_USES if name in recordings.logs_by_name]
-    return tuple(dict.fromkeys(doubt.message for log in logs for doubt in log.doubts))
+    return tuple(dict.fromkeys(doubt.text for log in logs for doubt in log.doubts))

@@ -119,7 +119,7 @@ def render_page(report: Report) -> str:
 
 
 def _messages(doubts: Sequence[Doubt], *, grave: bool) -> list[str]:
-    return [doubt.message for doubt in doubts if doubt.grave == grave]
+    return [doubt.text for doubt in doubts if doubt.grave == grave]
 
 
 def _html(picture: Picture) -> Markup:

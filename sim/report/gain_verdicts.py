@@ -1,6 +1,6 @@
 """A sentence about which gains can be used, their errors, and what to record for the others.
 
-kV usable (± 0.3 %), kS usable (± 0.01 V), kA not usable (± 40 %): add a dynamic test.
+kS usable (± 0.01 V), kV usable (± 0.3 %), kA not usable (± 40 %): add a dynamic test.
 """
 
 import math
@@ -36,7 +36,7 @@ def write_gain_verdict(found: Fit, log: Log | None = None) -> str:
         return "Do not use these gains: something is wrong."
     usable: list[str] = []
     others: dict[str, list[str]] = {}
-    for name in sorted(found.gains, key=lambda name: name != "kV"):  # kV first
+    for name in found.gains:
         error = _format_error(name, found.gains[name], found.errors.get(name, math.nan))
         label = "angle" if name == "offset_rad" else name
         if _is_usable(name, found.gains[name], found.errors.get(name, math.nan)):
@@ -49,6 +49,19 @@ def write_gain_verdict(found: Fit, log: Log | None = None) -> str:
     ]
     text = "; ".join([", ".join(usable), *groups] if usable else groups) + "."
     return f"{text}{_write_caution(found, usable)}"
+
+
+def judge_gains(found: Fit) -> str:
+    """The verdict in a word or two, for a heading."""
+    usable = [
+        _is_usable(name, value, found.errors.get(name, math.nan))
+        for name, value in found.gains.items()
+    ]
+    if any(doubt.grave for doubt in found.doubts):
+        return "Do not use"
+    if any(usable) and POOR_FIT & {doubt.code for doubt in found.doubts}:
+        return "Check first"
+    return "Usable" if all(usable) else "Partly usable" if any(usable) else "Not usable"
 
 
 def _write_caution(found: Fit, usable: Sequence[str]) -> str:

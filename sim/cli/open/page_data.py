@@ -116,7 +116,7 @@ def describe_fit(
     Raises:
         Refusal: the log cannot be read or fitted.
     """
-    from sim.report.gain_verdicts import write_gain_verdict  # noqa: PLC0415 - only for people
+    from sim.report.gain_verdicts import judge_gains, write_gain_verdict  # noqa: PLC0415 - only for people
     from sim.report.rows import make_gain_rows  # noqa: PLC0415 - the same
 
     pooled, log = one.fit(reading), one.combine_runs(reading)
@@ -135,6 +135,7 @@ def describe_fit(
     return {
         "type": found.type,
         "gains": gains,
+        "word": judge_gains(found),
         "verdict": write_gain_verdict(found, log),
         "doubts": _doubts(found.list_doubts(), one),
         "notes": [] if chosen else list(pooled.notes),
@@ -292,19 +293,29 @@ def describe_refusal(refusal: Refusal, folder: str) -> dict[str, str]:
     where = refusal.where.partition(folder)[2] or refusal.where
     place = where.replace("\\", "/").rpartition("/")[2]
     kind = type(refusal).__name__
-    return {"what": refusal.what, "where": place, "advice": refusal.advice, "kind": kind}
+    advice = refusal.action.on_page if refusal.action else refusal.advice
+    return {"what": refusal.what, "where": place, "advice": advice, "kind": kind}
 
 
 def _doubts(doubts: Sequence[Doubt], one: "OpenLog") -> list[dict[str, Any]]:
     return [
-        {"code": doubt.code, "message": _without_path(doubt.message, one), "grave": doubt.grave}
+        {
+            "message": _without_path(doubt.message, one),
+            "grave": doubt.grave,
+            "advice": doubt.action.on_page if doubt.action else "",
+            "type": doubt.action.argument
+            if doubt.action and doubt.action.name == "gravity-type"
+            else "",
+        }
         for doubt in doubts
     ]
 
 
 def _without_path(text: str, one: "OpenLog") -> str:
-    """A message in which the file's path is replaced by the name that the page shows."""
-    return text.replace(str(one.path), one.name)
+    """A message without the file's path: the page shows its name."""
+    short = text.removeprefix(f"{one.path}: ")
+    start = short[:1].upper() if short != text else short[:1]
+    return f"{start}{short[1:]}".replace(str(one.path), one.name)
 
 
 def _finite(value: float) -> float | None:

@@ -36,6 +36,7 @@ class ReconcileJob:
     ) -> None:
         self._read, self._name, self._type, self._effort = read, name, type, effort
         self._words, self._share = "looking for damage", 0.0
+        self._said: set[str] = set()  # warnings about the logs, which the page shows anyhow
         self._stopped = threading.Event()
         self._refusal: Refusal | None = None
         self.story: Story | None = None
@@ -49,7 +50,7 @@ class ReconcileJob:
         """
         if self._refusal is not None:
             raise self._refusal
-        story = None if self.story is None else describe_story(self.story)
+        story = None if self.story is None else describe_story(self.story, self._said)
         return {"words": self._words, "share": self._share, "story": story}
 
     def stop(self) -> None:
@@ -73,6 +74,7 @@ class ReconcileJob:
 
         try:
             logs = self._read()
+            self._said = {doubt.text for log in logs.values() for doubt in log.doubts}
             damages = {name: inspect_damage(log) for name, log in logs.items()}
             log = logs["log"]
             self.story = reconcile(
@@ -98,8 +100,13 @@ class ReconcileJob:
         self._words, self._share = words, share
 
 
-def describe_story(story: "Story") -> dict[str, Any]:
-    """A story as plain data: sentences, and gaps in times the noise of the velocity."""
+def describe_story(story: "Story", said: "Collection[str]" = ()) -> dict[str, Any]:
+    """A story as plain data: sentences, and gaps in times the noise of the velocity.
+
+    Args:
+        story: the result of reconcile.
+        said: remarks to leave out.
+    """
     from sim.reconcile.story_text import (  # noqa: PLC0415 - once it is needed
         format_gap,
         format_parameter,
@@ -110,6 +117,7 @@ def describe_story(story: "Story") -> dict[str, Any]:
         write_headline,
     )
 
+    remarks = list_remarks(story) if story.complete else story.notes
     names = ["base model", *(f"+ {one.added}" for one in story.chapters[1:])]
     findings = [
         {
@@ -142,6 +150,6 @@ def describe_story(story: "Story") -> dict[str, Any]:
         "places": [place.sentence for place in story.where[:PLACES]],
         "next": list(list_next_tests(story)),
         "caution": write_gain_caution(story),
-        "remarks": list(list_remarks(story) if story.complete else story.notes),
+        "remarks": [one for one in remarks if one not in said],
         "how": story.how,
     }

@@ -5,13 +5,14 @@ import {
 } from "./api.js";
 import { Chart } from "./chart.js";
 import { makeSignalRows } from "./choices.js";
-import { button, figure, item, prose, sentence, text } from "./elements.js";
+import { button, figure, foldedItem, item, prose, sentence, text } from "./elements.js";
 import { makeModel, rms, simulateRun } from "./simulate.js";
 import { Sliders } from "./sliders.js";
 import { writeSpans } from "./spans.js";
 import { searchForm, storyParts } from "./story.js";
 
 const MOST_SHOWN = 12; // faults in the list; further ones are collapsed
+const MOST_LINES = 3; // faults named under the verdict
 const SIGNALS = 4; // arrays of a run: time, voltage, position, velocity
 
 const at = (id) => document.getElementById(id);
@@ -82,6 +83,7 @@ function take(log, summary, samples) {
     const part = summary.runs.some((one) => one.part !== run.part) ? run.part : "";
     return { ...run, part, time, voltage, position: per(position, summary), velocity: per(velocity, summary) };
   });
+  log.top = log.runs.reduce((top, run) => run.velocity.reduce((most, one) => Math.max(most, Math.abs(one)), top), 0);
 }
 
 function per(values, { units }) {
@@ -276,7 +278,7 @@ function activate(id) {
 function clear(log) {
   at("title").textContent = log?.name ?? "";
   at("facts").textContent = "Reading…";
-  for (const id of ["runs", "faults", "doubts", "feedback", "sliders", "meter", "readout", "story"]) at(id).replaceChildren();
+  for (const id of ["runs", "faults", "fault-lines", "doubts", "feedback", "sliders", "word", "meter", "readout", "story"]) at(id).replaceChildren();
   at("verdict").textContent = "";
 }
 
@@ -354,7 +356,7 @@ function showFaults() {
   const log = logs.get(active);
   const place = at("faults");
   if (!log.faults) {
-    place.replaceChildren(item("busy", "Looking for faults…"));
+    for (const one of [place, at("fault-lines")]) one.replaceChildren(item("busy", "Looking for faults…"));
     return;
   }
   chart.setFaults(marks(log));
@@ -362,17 +364,33 @@ function showFaults() {
   const faults = log.faults.faults.filter(({ fault }) => !(growing && fault === "missing-test"));
   const rows = faults.slice(0, MOST_SHOWN).map((one) => faultCard(one));
   if (faults.length > MOST_SHOWN) rows.push(item("busy", `${faults.length - MOST_SHOWN} more are marked on the time axis.`));
-  if (!faults.length) {
-    rows.push(item("well", `No fault in ${log.runs.length === 1 ? "this run" : `these ${log.runs.length} runs`}.`));
-  }
-  rows.push(...log.faults.doubts.map((one) => doubtItem(one)));
-  place.replaceChildren(...rows);
+  const none = `No fault in ${log.runs.length === 1 ? "this run" : `these ${log.runs.length} runs`}.`;
+  place.replaceChildren(...rows.length ? rows : [item("well", none)]);
+  const lines = faults.slice(0, MOST_LINES).map((one) => {
+    const line = item("grave");
+    line.append(button("link", `${one.fault.replaceAll("-", " ")} (${surenessOf(one)})${one.test ? `: ${one.test}` : ""}`, () => showFault(one)));
+    return line;
+  });
+  if (faults.length > MOST_LINES) lines.push(item("busy", `${faults.length - MOST_LINES} more faults below`));
+  at("fault-lines").replaceChildren(...lines.length ? lines : [item("well", none)]);
+  showDoubts();
+}
+
+function surenessOf({ confidence }) {
+  return confidence >= 0.9 ? "sure" : confidence >= 0.7 ? "likely" : "perhaps";
+}
+
+/** Show where a fault is on the time axis; one without a place, its card. */
+function showFault(one) {
+  const placed = one.run !== null && one.test;
+  if (placed) chart.showFault({ run: one.run, start: one.start_s, end: one.end_s });
+  at(placed ? "plot" : "faults").scrollIntoView({ block: "center", behavior: "smooth" });
 }
 
 function faultCard(one) {
   const card = item("fault");
   const name = text("h3", one.fault.replaceAll("-", " "));
-  name.append(text("span", one.confidence >= 0.9 ? "sure" : one.confidence >= 0.7 ? "likely" : "perhaps", "badge"));
+  name.append(text("span", surenessOf(one), "badge"));
   card.append(name);
   if (one.test) {
     const where = one.run === null ? one.test : `${one.test}, ${one.start_s.toFixed(2)} to ${one.end_s.toFixed(2)} s`;
@@ -382,10 +400,7 @@ function faultCard(one) {
   advice.append(...prose(one.advice));
   card.append(text("p", one.evidence), advice);
   if (one.run !== null && one.test) {
-    card.append(button("button small", "Show", () => {
-      chart.showFault({ run: one.run, start: one.start_s, end: one.end_s });
-      at("plot").scrollIntoView({ block: "center", behavior: "smooth" });
-    }));
+    card.append(button("button small", "Show", () => showFault(one)));
   }
   return card;
 }
@@ -398,24 +413,17 @@ function showFit() {
   const report = at("report");
   report.toggleAttribute("href", false);
   report.setAttribute("aria-disabled", String(!fit));
-  at("verdict-card").classList.toggle("wrong", Boolean(fitRefused));
+  showDoubts();
   if (!fit) {
-    at("sliders").replaceChildren();
-    const said = fitRefused ? [text("p", "No gains", "big"), text("p", "The reason stands under Verdict.", "quiet")] : [text("p", "Fitting…", "quiet")];
-    at("meter").replaceChildren(...said);
-    const waits = log.summary.compiles
-      ? "The simulation is compiled first. That is done once, and takes about twenty seconds."
-      : "Fitting…";
-    at("verdict").textContent = fitRefused ? sentence(fitRefused) : waits;
-    at("doubts").replaceChildren();
-    at("feedback").replaceChildren();
+    for (const id of ["sliders", "meter", "feedback"]) at(id).replaceChildren();
+    at("verdict").textContent = fitRefused ? sentence(fitRefused) : log.summary.compiles
+      ? "The simulation is compiled first. That is done once, and takes about twenty seconds." : "";
     return;
   }
   report.href = addressOf(log.id, "report.html", log.query);
   sliders.show(fit.gains, log.gains, { fixed: Boolean(fit.tracks) });
   at("verdict").replaceChildren(...prose(fit.verdict));
   showFeedback(fit);
-  showDoubts();
   showSimulation(log);
 }
 
@@ -430,20 +438,26 @@ function showFeedback({ feedback }) {
   at("feedback").replaceChildren(...rows);
 }
 
+/** The verdict in a word, and the warnings of fit and inspection, each once, the worst first. */
 function showDoubts() {
-  const { fit } = logs.get(active);
-  at("verdict-card").classList.toggle("wrong", fit.doubts.some((one) => one.grave));
-  const known = fit.doubts.toSorted((a, b) => Number(b.grave) - Number(a.grave));
-  const notes = fit.notes.map((note) => item("well", note));
-  const parts = fit.parts.length
-    ? [item("busy", `The fit also allows for ${fit.parts.map((one) => one.replaceAll("-", " ")).join(", ")}; the curve here leaves them out.`)]
+  const { fit, fitRefused, faults } = logs.get(active);
+  const sure = faults?.faults.some((one) => one.confidence >= 0.9);
+  const word = fitRefused ? "No gains" : !fit ? "Fitting…" : sure && fit.word !== "Do not use" ? "Check first" : fit.word;
+  at("word").textContent = word;
+  at("verdict-card").classList.toggle("wrong", Boolean(fitRefused) || word === "Do not use");
+  at("verdict-card").classList.toggle("well", word === "Usable");
+  const said = new Map([...fit?.doubts ?? [], ...faults?.doubts ?? []].map((one) => [one.message, one]));
+  const known = [...said.values()].sort((a, b) => Number(b.grave) - Number(a.grave));
+  const notes = (fit?.notes ?? []).map((note) => foldedItem("well", "Note", note));
+  const parts = fit?.parts.length
+    ? [foldedItem("busy", "Note", `The fit also allows for ${fit.parts.map((one) => one.replaceAll("-", " ")).join(", ")}; the curve here leaves them out.`)]
     : [];
   at("doubts").replaceChildren(...known.map((one) => doubtItem(one)), ...parts, ...notes);
 }
 
-function doubtItem({ message, grave }) {
-  const made = item(grave ? "grave" : "look");
-  made.append(text("b", grave ? "Wrong" : "Warning"), " ", ...prose(message));
+function doubtItem({ message, grave, advice, type }) {
+  const made = foldedItem(grave ? "grave" : "look", grave ? "Wrong" : "Warning", `${message} ${advice ?? ""}`);
+  if (type) made.firstChild.append(button("button small", `Fit as ${type}`, () => choose("type", type)));
   return made;
 }
 
@@ -517,18 +531,20 @@ function showStory() {
 }
 
 function showMeter(log, error) {
-  const unit = `${log.summary.units.symbol}/s`;
-  const number = text("p", error === null ? "–" : figure(error), "big");
-  number.append(text("span", unit, "unit"));
-  const ratio = error === null || !log.fitError ? null : error / log.fitError;
-  const said = error === null
-    ? "Nothing moves with these gains: kV and kA have to be above zero."
-    : !log.moved || ratio === null ? "simulation error of the fit"
-      : `simulation error, ${ratio >= 10 ? Math.round(ratio) : ratio.toFixed(2)} × that of the fit`;
+  if (error === null) {
+    at("meter").replaceChildren(text("p", "Nothing moves with these gains: kV and kA have to be above zero.", "quiet"));
+    return;
+  }
+  const { si, symbol } = log.summary.units;
+  const floors = (error * si) / log.fit.noise;
+  const gap = text("p", "", "gap");
+  gap.append(text("b", floors.toPrecision(floors < 10 ? 2 : 3)), " × sensor noise, ", text("b", (100 * error / log.top).toPrecision(2)), "\u00a0% of top speed");
+  const ratio = error / log.fitError;
+  const moved = log.moved ? `, ${ratio >= 10 ? Math.round(ratio) : ratio.toFixed(2)} × that of the fit` : "";
   const bar = text("div", "", "bar-of-error");
-  bar.style.setProperty("--share", ratio === null ? 1 : Math.min(1, Math.max(0.04, 1 / ratio)));
-  bar.classList.toggle("far", ratio !== null && ratio > 2);
-  at("meter").replaceChildren(number, text("p", said, "quiet"), bar);
+  bar.style.setProperty("--share", Math.min(1, Math.max(0.04, 1 / floors)));
+  bar.classList.toggle("far", floors > 2);
+  at("meter").replaceChildren(gap, text("p", `simulation error ${figure(error)} ${symbol}/s${moved}`, "quiet"), bar);
 }
 
 function showCursor(cursor) {
@@ -592,6 +608,7 @@ function showTabs() {
   });
   at("logs").replaceChildren(...tabs);
   showOthers();
+  if (logs.get(active)?.runs && !view.raw) showStory(); // it lists the other logs
 }
 
 /** Draw the runs of other logs over those of the same test, in their order. */
@@ -687,22 +704,22 @@ at("reset").addEventListener("click", () => sliders.reset());
 at("paste").addEventListener("click", async () => { await showCode(); at("code").showModal(); });
 at("copy").addEventListener("click", () => copy(at("code-text")));
 for (const id of ["language", "season", "radius"]) at(id).addEventListener("change", showCode);
-for (const id of ["type", "units"]) {
-  at(id).addEventListener("change", () => {
-    const log = logs.get(active);
-    const before = { ...log.query };
-    log.query = { ...log.query, [id]: at(id).value };
-    guarded(log.name, async () => {
-      try {
-        await askLog(log.id, "summary", log.query);
-      } catch (problem) {
-        log.query = before;
-        showLog();
-        throw problem;
-      }
-      log.moved = false;
-      await load(log);
-    });
+for (const id of ["type", "units"]) at(id).addEventListener("change", () => choose(id, at(id).value));
+
+/** Read the log that is shown again, with another type or unit. */
+function choose(what, value) {
+  const log = logs.get(active);
+  const before = log.query;
+  log.query = { ...log.query, [what]: value };
+  guarded(log.name, async () => {
+    try {
+      await askLog(log.id, "summary", log.query);
+    } catch (problem) {
+      log.query = before;
+      showLog();
+      throw problem;
+    }
+    await load(log);
   });
 }
 

@@ -104,14 +104,15 @@ function endsOf({ name, value }) {
 /** A gain rounded to the precision of its error, and to the width of the field. */
 export function rounded(value, error) {
   const digits = Math.abs(value) < 0.01 ? DIGITS - 2 : DIGITS;
-  const kept = error > 0 ? Math.min(Math.max(1 - Math.floor(Math.log10(error)), 0), MOST_DECIMALS) : MOST_DECIMALS;
-  return String(Number(Number(value.toPrecision(digits)).toFixed(kept))).replace("-", "−");
+  const most = value ? digits - 1 - Math.floor(Math.log10(Math.abs(value))) : digits;
+  const needed = error > 0 ? 1 - Math.floor(Math.log10(error)) : MOST_DECIMALS;
+  return value.toFixed(Math.min(Math.max(needed, 0), Math.max(most, 0), MOST_DECIMALS)).replace("-", "−");
 }
 
 /** A standard error with two digits; a negligible one as an upper bound. */
 export function errorText({ error, error_text: words }) {
   if (error === null) return words;
-  return error < TINY ? `< ${TINY}` : String(Number(error.toPrecision(2)));
+  return error < TINY ? `< ${TINY}` : error >= 100 ? String(Math.round(error)) : error.toPrecision(2);
 }
 
 function element(tag, kind, text) {
