@@ -212,6 +212,7 @@ def test_verdict_gap_faults_and_warnings_are_seen_without_scrolling(browser, ser
         drop(page, write_log(slipped_log(), tmp_path / "slipped.csv"))
         page.locator("#fault-lines .link", has_text="encoder slip (sure)").wait_for()
         page.locator("#meter .gap", has_text="× sensor noise").wait_for()
+        page.locator("#doubts summary").nth(2).wait_for()
 
         assert page.locator("#word").inner_text() == "Check first"
         assert re.search(r"[\d.]+\s% of top speed", page.locator("#meter .gap").inner_text())
@@ -243,6 +244,12 @@ def test_an_advice_is_a_button(page, tmp_path):
 def test_faults_are_listed_and_marked_and_shown_on_demand(page, tmp_path):
     drop(page, write_log(slipped_log(), tmp_path / "slipped.csv"))
     page.locator("li.fault h3", has_text="encoder slip").wait_for()
+    page.locator("#gain-kV").wait_for()
+    page.get_by_role("button", name="Leave out", exact=True).click()
+    page.get_by_text("Left out: quasistatic-forward, 5.56 to 5.92 s").wait_for()
+    wait_until(page, "[...sysid.logs.values()][0].fit?.doubts.length === 0")
+    page.get_by_role("button", name="Take in again").click()
+    wait_until(page, "[...sysid.logs.values()][0].fit?.doubts.length > 0")
     page.get_by_role("button", name="Show", exact=True).click()
     view = page.evaluate("sysid.chart.view")
 

@@ -27,6 +27,7 @@ from sim.cli.options import (
     refuse_overwriting,
     velocity_options,
 )
+from sim.core.leave_out import LeftOutPart, leave_out
 from sim.core.vocabulary import METHODS
 from sim.feedback import PRESETS, Feedback
 from sim.support.command_line import DONE, NOT_RIGHT
@@ -96,6 +97,14 @@ feedback_options = combine_options(
 @click.option(
     "--load", type=float, help="Moved mass [kg] or moment of inertia [kg·m²], for --driven-by."
 )
+@click.option(
+    "--leave-out",
+    "left_out",
+    metavar="TEST[:FROM-TO]",
+    multiple=True,
+    callback=lambda _, __, texts: tuple(map(LeftOutPart.parse, texts)),
+    help="Leave out a test, or a part of it in seconds: dynamic-forward:5.5-6; may be repeated.",
+)
 @turning_options
 @paste_options
 @feedback_options
@@ -119,6 +128,7 @@ def fit(  # noqa: PLR0917 - click passes options by name
     ratio: float | None,
     radius: float,
     load: float | None,
+    left_out: tuple[LeftOutPart, ...],
     turning: "Turning | None",
     paste: str | None,
     season: str,
@@ -133,9 +143,9 @@ def fit(  # noqa: PLR0917 - click passes options by name
 ) -> int:
     """Find kS, kV, kA (and kG) in the logs of one mechanism.
 
-    FILES are .wpilog, .csv, or SysId's old .json. Files with one test each are joined. If there are
-    several sides of a drivetrain, modules or recordings, each is fitted, and the gains are compared
-    and averaged. Forward and reverse are compared, too, but not with --json or --paste.
+    FILES are .wpilog, .csv, or SysId's old .json. Files with one test each are joined. Several
+    sides, modules or recordings are fitted one by one, and the gains are compared and averaged.
+    Forward and reverse are compared, too, but not with --json or --paste.
 
     For example: sysid fit drive.wpilog --html drive.html
     """
@@ -144,17 +154,16 @@ def fit(  # noqa: PLR0917 - click passes options by name
 
     own = _read_own_gains(ctx, loop, kp=own_kp, kd=own_kd)
     built = read_motor_parts(driven_by, count=count, ratio=ratio, radius=radius, load=load)
-    reader = PartReader(
-        units, type_, motor, entries, None if ignore_velocity else velocity_scale, pick
-    )
-    parts = reader.read(files)
+    velocity = None if ignore_velocity else velocity_scale
+    reader = PartReader(units, type_, motor, entries, velocity, pick)
+    parts = leave_out(reader.read(files), left_out)
     log = join_parts(parts)
     find = partial(find_gains, type=type_ or "", method=method, median=median)
     pooled = fit_parts(parts, find, files=len(files))
-    found, notes = check_against_physics(pooled.found, log, parts=built, notes=pooled.notes)
+    notes = (*pooled.notes, *(f"Left out: {part}." for part in left_out))
+    found, notes = check_against_physics(pooled.found, log, parts=built, notes=notes)
     if not (as_json or paste):
-        found, more = compare_directions_alone(found, log, include_long=html is not None)
-        notes = (*more, *notes)
+        found, notes = compare_directions_alone(found, log, notes, include_long=html is not None)
     found, notes, turned = add_inertia(found, notes, log, turning, method=method)
     tried = try_feedback_gains(found := found.in_log_units(), PRESETS[preset], own=own)
     found = replace(found, doubts=(*found.doubts, *warn_of_bad_suggestions(found, tried)))

@@ -13,6 +13,7 @@ import numpy as np
 from sim.cli.fit.paste import write_snippet
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, Refusal
+from sim.core.leave_out import LeftOutPart, leave_out
 from sim.core.units import find_unit
 from sim.io.entries.entry import NUMBERS, STRING
 
@@ -171,8 +172,9 @@ def describe_directions(one: "OpenLog", reading: "Reading") -> dict[str, Any]:
     """
     from sim.cli.fit.plausibility import compare_directions_alone  # noqa: PLC0415 - once it is needed
 
-    found = one.fit(reading).found
-    doubted, notes = compare_directions_alone(found, one.combine_runs(reading), include_long=False)
+    found, log = one.fit(reading).found, one.combine_runs(reading)
+    log = leave_out({"": log}, map(LeftOutPart.parse, reading.left_out))[""]
+    doubted, notes = compare_directions_alone(found, log, include_long=False)
     more = [doubt for doubt in doubted.doubts if doubt not in found.doubts]
     return {"doubts": _doubts(more, one), "notes": list(notes)}
 

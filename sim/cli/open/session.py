@@ -4,7 +4,7 @@ import re
 import shutil
 import threading
 from collections.abc import Callable, Hashable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from itertools import count
 from pathlib import Path
@@ -35,17 +35,20 @@ class Reading:
         units: unit of its positions; None takes the one in the file.
         type: type of the mechanism; None takes the one in the file.
         entries: (signal, entry) for each entry that the user chose; the others are found by name.
+        left_out: parts that the fit does not use, as ``--leave-out`` names them.
     """
 
     units: str | None = None
     type: str | None = None
     entries: tuple[tuple[str, str], ...] = ()
+    left_out: tuple[str, ...] = ()
 
     @classmethod
     def from_query(cls, query: Mapping[str, str]) -> "Reading":
         """The options that a request of the page names."""
         chosen = tuple((one, query[one]) for one in (*NEEDED, "state") if query.get(one))
-        return cls(query.get("units") or None, query.get("type") or None, chosen)
+        left_out = tuple(filter(None, query.get("left_out", "").split(",")))
+        return cls(query.get("units") or None, query.get("type") or None, chosen, left_out)
 
     @property
     def differentiates_position(self) -> bool:
@@ -165,9 +168,12 @@ class OpenLog:
 
         def find() -> "PooledParts":
             from sim.cli.fit.parts import fit_parts  # noqa: PLC0415 - once it is needed
+            from sim.core.leave_out import LeftOutPart, leave_out  # noqa: PLC0415 - the same
             from sim.fit import fit  # noqa: PLC0415 - the same
 
-            return fit_parts(self.read_parts(reading), partial(fit, type=reading.type or ""))
+            logs = self.read_parts(replace(reading, left_out=()))
+            logs = leave_out(logs, map(LeftOutPart.parse, reading.left_out))
+            return fit_parts(logs, partial(fit, type=reading.type or ""))
 
         return self._compute_once(("fit", reading), find)
 

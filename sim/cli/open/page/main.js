@@ -13,6 +13,7 @@ import { searchForm, storyParts } from "./story.js";
 
 const MOST_SHOWN = 12; // faults in the list; further ones are collapsed
 const MOST_LINES = 3; // faults named under the verdict
+const FINEST = 1000; // times of a part to leave out are rounded to 1/FINEST s
 const SIGNALS = 4; // arrays of a run: time, voltage, position, velocity
 
 const at = (id) => document.getElementById(id);
@@ -40,7 +41,7 @@ async function openAll(files) {
 async function begin({ id, name, revision = 0 }) {
   if (begun.has(id)) return;
   begun.add(id);
-  const log = { id, name, revision, query: {}, others: false };
+  const log = { id, name, revision, query: {}, others: false, leftOut: [] };
   logs.set(id, log);
   if (active === null) activate(id);
   showTabs();
@@ -101,7 +102,7 @@ async function askFaults(log, asked) {
 
 async function askFit(log, asked) {
   try {
-    const fit = await askLog(log.id, "fit", log.query);
+    const fit = await askLog(log.id, "fit", modelQuery(log));
     if (log.asked !== asked) return;
     log.plain = fit;
     takeFit(log, fit);
@@ -113,11 +114,33 @@ async function askFit(log, asked) {
   }
   if (active === log.id) showFit();
   if (!log.fit) return;
-  const more = await askLog(log.id, "directions", log.query).catch(() => null);
+  const more = await askLog(log.id, "directions", modelQuery(log)).catch(() => null);
   if (more === null || log.asked !== asked) return;
   log.plain.doubts.push(...more.doubts);
   log.plain.notes.push(...more.notes);
   if (active === log.id) showDoubts();
+}
+
+/** Fit again without these parts: {test, start, end}, in the log's time. */
+function leaveOut(log, parts) {
+  Object.assign(log, { leftOut: parts, effects: [], fit: null, fitRefused: null, asked: {} });
+  setLoading(log, true);
+  showFaults();
+  showFit();
+  guarded(log.name, () => askFit(log, log.asked)).then(() => setLoading(log, false));
+}
+
+function nameOfPart({ test, start, end }) {
+  return `${test}:${Math.floor(FINEST * start) / FINEST}-${Math.ceil(FINEST * end) / FINEST}`;
+}
+
+/** A line for each part that was left out, with a button to take it in again. */
+function leftOutLines(log) {
+  return log.leftOut.map((part) => {
+    const line = item("busy", `Left out: ${part.test}, ${part.start.toFixed(2)} to ${part.end.toFixed(2)} s `);
+    line.append(button("link", "Take in again", () => leaveOut(log, log.leftOut.filter((one) => one !== part))));
+    return line;
+  });
 }
 
 /** Show the gains of a fit, or of a model with effects. */
@@ -327,12 +350,19 @@ function showSpans(spans) {
   const words = writeSpans(view.span_text, log, spans);
   at("span-text").textContent = words;
   at("span-text").hidden = at("span-copy").hidden = at("span-clear").hidden = !words;
+  at("span-leave").hidden = !words || view.raw;
   at("span-hint").textContent = words ? view.span_text.hint : "Drag across a test to mark a part of it. Its times then stand here, ready to copy.";
 }
 
 at("views").addEventListener("click", ({ target }) => { if (target.value) showSignals(target.value === "signals"); });
 at("drag").addEventListener("click", ({ target }) => { if (target.value) setDrag(target.value === "mark"); });
 at("span-copy").addEventListener("click", () => copy(at("span-text")));
+at("span-leave").addEventListener("click", () => {
+  const log = logs.get(active);
+  const marked = [...chart.spans].map(([run, [first, last]]) => ({ test: log.runs[run].test, start: log.runs[run].time[first], end: log.runs[run].time[last] }));
+  leaveOut(log, [...log.leftOut, ...marked]);
+  say("Left out. The gains are those of the rest.");
+});
 at("span-clear").addEventListener("click", () => { for (const run of [...chart.spans.keys()]) chart.setSpan(run, null); });
 
 function showRuns(log) {
@@ -372,7 +402,7 @@ function showFaults() {
     return line;
   });
   if (faults.length > MOST_LINES) lines.push(item("busy", `${faults.length - MOST_LINES} more faults below`));
-  at("fault-lines").replaceChildren(...lines.length ? lines : [item("well", none)]);
+  at("fault-lines").replaceChildren(...lines.length ? lines : [item("well", none)], ...leftOutLines(log));
   showDoubts();
 }
 
@@ -400,7 +430,11 @@ function faultCard(one) {
   advice.append(...prose(one.advice));
   card.append(text("p", one.evidence), advice);
   if (one.run !== null && one.test) {
-    card.append(button("button small", "Show", () => showFault(one)));
+    const log = logs.get(active);
+    const part = { test: one.test, start: one.start_s, end: one.end_s };
+    const leave = button("button small", "Leave out", () => leaveOut(log, [...log.leftOut, part]));
+    leave.disabled = log.leftOut.some((other) => nameOfPart(other) === nameOfPart(part));
+    card.append(button("button small", "Show", () => showFault(one)), " ", leave);
   }
   return card;
 }
@@ -488,7 +522,7 @@ async function reconcile(log, settings) {
 
 /** The query for data about the chosen model. */
 function modelQuery(log) {
-  return { ...log.query, ...log.search?.settings, effects: log.effects.join() };
+  return { ...log.query, ...log.search?.settings, effects: log.effects.join(), left_out: log.leftOut.map(nameOfPart).join() };
 }
 
 /** Show gains and curves of the model with these effects; without any, those of the fit. */
