@@ -332,7 +332,8 @@ def test_every_format_says_what_it_is():
 def test_only_students_of_whom_something_was_graded_are_in_the_average_and_the_histogram(tmp_path):
     absent = make_ungraded_student("Dora", [Empty()], handed_in=(), reason="")
     unread = make_ungraded_student("Gus", [Empty()], handed_in=["exercise1"], reason="a picture")
-    results = some(student("Ada", [2, 2], [0, 0]), absent, unread)
+    people = (student("Ada", [1.0]), absent, unread)
+    results = ClassResults("Robotics 1", people, ("exercise1",))
 
     page = write_pages(results, tmp_path).read_text(encoding="utf-8")
 

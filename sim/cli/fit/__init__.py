@@ -34,7 +34,7 @@ from sim.support.command_line import DONE, NOT_RIGHT
 
 if TYPE_CHECKING:
     from sim.cli.fit.inertia import Turning
-    from sim.cli.fit.parts import Parts
+    from sim.cli.fit.parts import Parts, PooledParts
     from sim.core.log import Log
     from sim.fit import Fit
     from sim.fit.feedback_trial import FeedbackTrial, OwnGains
@@ -167,7 +167,7 @@ def fit(  # noqa: PLR0917 - click passes options by name
     found, notes, turned = add_inertia(found, notes, log, turning, method=method)
     tried = try_feedback_gains(found := found.in_log_units(), PRESETS[preset], own=own)
     found = replace(found, doubts=(*found.doubts, *warn_of_bad_suggestions(found, tried)))
-    output = _FitOutput(files, found, log, preset, tried, notes, pooled.to_json(), turned)
+    output = _FitOutput(files, found, log, preset, tried, notes, pooled, turned)
     _write_files(output, html=html, plot=plot, wpilog=wpilog, parts=parts)
     return output.echo(as_json=as_json, paste=paste, season=int(season))
 
@@ -182,7 +182,7 @@ class _FitOutput:
     preset: str
     tried: "tuple[FeedbackTrial, ...]"
     notes: tuple[str, ...]
-    parts: dict[str, dict[str, object]]
+    pooled: "PooledParts"
     turned: "MomentOfInertia | None" = None
 
     def echo(self, *, as_json: bool, paste: str | None, season: int) -> int:
@@ -207,7 +207,8 @@ class _FitOutput:
         data = self.found.to_json(PRESETS[self.preset])
         data |= {"own_feedback": own[0]} if own else {}
         data |= {"moment_of_inertia": self.turned.to_json()} if self.turned else {}
-        return data | ({"parts": self.parts} if self.parts else {})
+        parts = self.pooled.to_json()
+        return data | ({"parts": parts} if parts else {})
 
     def print_result(self) -> None:
         """Print the fit on the terminal."""
@@ -229,18 +230,31 @@ def _write_files(
         from sim.cli.fit.wpilog import write_replay  # noqa: PLC0415 - only with --wpilog
 
         write_replay(output.found, parts, wpilog)
-    if html is None and plot is None:
-        return
-    from sim.report import Report, write_page, write_picture  # noqa: PLC0415 - draws
-
-    title = ", ".join(file.name for file in output.files)  # a page travels; folders are private
-    report = Report(
-        title, output.found, output.log, PRESETS[output.preset], output.tried, output.notes
-    )
     if html is not None:
-        write_page(report, html)
+        _write_page(output, html, parts)
     if plot is not None:
-        write_picture(report, plot)
+        from sim.report import write_picture  # noqa: PLC0415 - draws
+
+        write_picture(output.found, output.log, plot, tried=output.tried)
+
+
+def _write_page(output: _FitOutput, html: Path, parts: "Parts") -> None:
+    """Write the page of ``sysid open`` as one file."""
+    from sim.cli.open.saved_page import render_saved_page  # noqa: PLC0415 - once it is needed
+    from sim.cli.open.session import OpenLog, Reading  # noqa: PLC0415 - the same
+    from sim.fit.feedback_trial import OWN, format_gain_pair  # noqa: PLC0415 - the same
+    from sim.report.page_file import choose_page_path, write_page_file  # noqa: PLC0415 - the same
+
+    target = choose_page_path(html)
+    title = ", ".join(file.name for file in output.files)  # a page travels; folders are private
+    one = OpenLog(1, title, output.files[0], finished=parts)
+    trials = [
+        f"With {'your own' if trial.owner == OWN else 'the suggested'} gains "
+        f"({format_gain_pair(trial.gains)}), the {trial.loop} loop {trial.verdict.description}."
+        for trial in output.tried
+    ]
+    one.keep_fit(replace(output.pooled, found=output.found, notes=(*output.notes, *trials)))
+    write_page_file(render_saved_page(one, Reading()), target)
 
 
 def _refuse_conflicting_options(ctx: click.Context) -> None:

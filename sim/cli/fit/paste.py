@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from sim.fit import Fit
 
 LANGUAGES = ("java", "python")  # WPILib's feedforward, in the robot program
+SEASONS = ("2026", "2027")
 CONTROLLERS = ("phoenix6", "revlib", "yagsl")  # gains in a vendor's units, in Java
 
 paste_options = combine_options(
@@ -20,7 +21,7 @@ paste_options = combine_options(
     ),
     click.option(
         "--season",
-        type=click.Choice(("2026", "2027")),
+        type=click.Choice(SEASONS),
         default="2026",
         show_default=True,
         help="WPILib season, for --paste.",

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from sim.cli.fit.paste import write_snippet
+from sim.cli.fit.paste import SEASONS, write_snippet
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, Refusal
 from sim.core.leave_out import LeftOutPart, leave_out
@@ -29,6 +29,13 @@ SIGNALS = ("time", "voltage", "position", "velocity")
 MOST_ENTRIES = 400  # entries listed to choose from
 PICTURE = 120  # [points] of an entry's small plot
 LONGEST_UNIT = 40  # [characters] longer metadata is not a unit
+MEANS = {
+    "kS": "friction: the volts before the mechanism moves",
+    "kV": "the volts for a steady speed, for each unit of speed",
+    "kA": "the volts for acceleration, for each unit of acceleration",
+    "kG": "gravity: the volts that hold it where gravity pulls most",
+    "offset_rad": "what to add to the sensor's angle, to count from horizontal",
+}
 LAGS = 1e-5  # [s] a shorter lag is shown as 0
 FEWEST = 4  # [samples] shorter runs are not simulated
 
@@ -118,7 +125,6 @@ def describe_fit(
         Refusal: the log cannot be read or fitted.
     """
     from sim.report.gain_verdicts import judge_gains, write_gain_verdict  # noqa: PLC0415 - only for people
-    from sim.report.rows import make_gain_rows  # noqa: PLC0415 - the same
 
     pooled, log = one.fit(reading), one.combine_runs(reading)
     found = _apply_model(pooled.found.in_log_units(), chosen)
@@ -127,11 +133,10 @@ def describe_fit(
             "name": name,
             "value": value,
             "error": _finite(found.errors.get(name, math.nan)),
-            "error_text": row.error,
-            "unit": row.unit,
-            "means": row.means,
+            "unit": found.format_gain_unit(name),
+            "means": MEANS[name],
         }
-        for (name, value), row in zip(found.gains.items(), make_gain_rows(found), strict=True)
+        for name, value in found.gains.items()
     ]
     return {
         "type": found.type,
@@ -208,7 +213,10 @@ def _describe_starts(found: "Fit", log: "Log") -> dict[str, Any]:
 
 
 def write_code(
-    one: "OpenLog", reading: "Reading", query: Mapping[str, str], chosen: "ModelVariant | None"
+    one: "OpenLog",
+    reading: "Reading",
+    query: Mapping[str, str],
+    chosen: "ModelVariant | None" = None,
 ) -> dict[str, str]:
     """Robot code for the gains of a log, or for values that the user set with the sliders.
 
@@ -221,10 +229,8 @@ def write_code(
     Raises:
         Refusal: the log cannot be fitted, or its gains cannot be written as code.
     """
-    from sim.report.robot_code_snippet import LANGUAGES, SEASONS  # noqa: PLC0415 - once needed
-
     language, season = query.get("language", "java"), query.get("season", "2026")
-    if season not in map(str, SEASONS):
+    if season not in SEASONS:
         raise BadRequest("there is no such season", advice="Choose 2026.")
     found = _apply_model(one.fit(reading).found.in_log_units(), chosen)
     moved = {name: float(query[name]) for name in found.gains if _is_number(query.get(name, ""))}
@@ -234,7 +240,7 @@ def write_code(
     radius = float(query["radius"]) if _is_number(query.get("radius", "")) else None
     code = write_snippet(found, language, season=int(season), radius=radius)
     if moved:
-        comment = LANGUAGES[language if language in LANGUAGES else "java"].comment
+        comment = "#" if language == "python" else "//"
         code = f"{comment} Moved by hand, not measured: {', '.join(moved)}\n{code}"
     return {"code": code}
 
@@ -245,24 +251,6 @@ def _is_number(text: str) -> bool:
         return math.isfinite(float(text))
     except ValueError:
         return False
-
-
-def write_report(one: "OpenLog", reading: "Reading") -> str:
-    """The page that ``sysid fit --html`` writes.
-
-    Raises:
-        Refusal: the log cannot be fitted.
-    """
-    from sim.feedback import PRESETS  # noqa: PLC0415 - once it is needed
-    from sim.fit.feedback_trial import try_feedback_gains  # noqa: PLC0415 - the same
-    from sim.report import Report, render_page  # noqa: PLC0415 - draws
-
-    pooled, preset = one.fit(reading), PRESETS["default"]
-    found = pooled.found.in_log_units()
-    tried = try_feedback_gains(found, preset)
-    return render_page(
-        Report(one.name, found, one.combine_runs(reading), preset, tried, pooled.notes)
-    )
 
 
 def describe_entries(entries: "Sequence[Entry]") -> list[dict[str, Any]]:

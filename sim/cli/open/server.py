@@ -19,6 +19,7 @@ from urllib.parse import parse_qs, urlsplit
 
 from sim.cli.open import page_data
 from sim.cli.open.reconcile_job import ReconcileJob
+from sim.cli.open.saved_page import ENGINE, PAGE, render_saved_page
 from sim.cli.open.session import OpenLog, Reading, Session
 from sim.core.errors import BadRequest, Refusal
 from sim.io.format import LARGEST_FILE
@@ -26,8 +27,6 @@ from sim.io.format import LARGEST_FILE
 if TYPE_CHECKING:
     from sim.reconcile.model_variant import ModelVariant
 
-PAGE = Path(__file__).with_name("page")
-ENGINE = Path(__file__).parents[2] / "physics" / "engine" / "simulate.js"  # the page uses it, too
 KINDS = {
     ".html": "text/html; charset=utf-8",
     ".css": "text/css; charset=utf-8",
@@ -236,7 +235,7 @@ class PageRequest(BaseHTTPRequestHandler):
                 chosen = self._choose_model(one, query)
                 self._send_json(page_data.write_code(one, reading, query, chosen))
             case "report.html":
-                self._send(page_data.write_report(one, reading).encode(), KINDS[".html"], page=True)
+                self._send(render_saved_page(one, reading).encode(), KINDS[".html"], page=True)
             case _:
                 self._refuse(HTTPStatus.NOT_FOUND, "there is nothing here")
 
@@ -311,7 +310,7 @@ class PageRequest(BaseHTTPRequestHandler):
     def _send(
         self, content: bytes, kind: str, *, status: HTTPStatus = HTTPStatus.OK, page: bool = False
     ) -> None:
-        """Send a whole answer; a report (``page``) has a Content-Security-Policy of its own."""
+        """Send a whole answer; a saved page (``page``) has a Content-Security-Policy of its own."""
         self.send_response(status)
         self.send_header("Content-Type", kind)
         self.send_header("Content-Length", str(len(content)))

@@ -177,6 +177,10 @@ class OpenLog:
 
         return self._compute_once(("fit", reading), find)
 
+    def keep_fit(self, pooled: "PooledParts") -> None:
+        """Take a fit that was already computed, of the log as it is."""
+        self._results[self.revision, ("fit", Reading())] = pooled
+
     def reconcile(
         self, reading: Reading, others: "Mapping[str, OpenLog]", effort: float
     ) -> "ReconcileJob":

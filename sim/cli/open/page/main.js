@@ -1,7 +1,7 @@
 // The page: the open logs, the selected log, and its results.
 
 import {
-  Refused, addressOf, askLive, askLog, askSamples, askView, closeLog, listLogs, openExample, openFile, stopSearch,
+  Refused, addressOf, askLive, askLog, askSamples, askView, closeLog, listLogs, openExample, openFile, saved, stopSearch,
 } from "./api.js";
 import { Chart } from "./chart.js";
 import { makeSignalRows } from "./choices.js";
@@ -432,7 +432,7 @@ function faultCard(one) {
   if (one.run !== null && one.test) {
     const log = logs.get(active);
     const part = { test: one.test, start: one.start_s, end: one.end_s };
-    const leave = button("button small", "Leave out", () => leaveOut(log, [...log.leftOut, part]));
+    const leave = button("button small leave", "Leave out", () => leaveOut(log, [...log.leftOut, part]));
     leave.disabled = log.leftOut.some((other) => nameOfPart(other) === nameOfPart(part));
     card.append(button("button small", "Show", () => showFault(one)), " ", leave);
   }
@@ -454,7 +454,8 @@ function showFit() {
       ? "The simulation is compiled first. That is done once, and takes about twenty seconds." : "";
     return;
   }
-  report.href = addressOf(log.id, "report.html", log.query);
+  report.href = addressOf(log.id, "report.html", modelQuery(log));
+  report.download = `${log.name}.html`;
   sliders.show(fit.gains, log.gains, { fixed: Boolean(fit.tracks) });
   at("verdict").replaceChildren(...prose(fit.verdict));
   showFeedback(fit);
@@ -803,6 +804,7 @@ setTheme(kept);
 guarded("logs", async () => {
   view = await askView();
   document.body.classList.toggle("raw", view.raw);
+  document.body.classList.toggle("saved", Boolean(saved));
   showSignals(view.raw);
   const named = await listLogs();
   await Promise.all(named.map((one) => guarded(one.name, () => begin(one))));

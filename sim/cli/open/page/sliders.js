@@ -14,7 +14,7 @@ export class Sliders {
     form.addEventListener("submit", (event) => event.preventDefault());
   }
 
-  /** Show the gains of a fit: {name, value, error, error_text, unit, means}, at these values.
+  /** Show the gains of a fit: {name, value, error, unit, means}, at these values.
    *
    * Fixed gains are those of a model that the page cannot simulate.
    */
@@ -110,8 +110,8 @@ export function rounded(value, error) {
 }
 
 /** A standard error with two digits; a negligible one as an upper bound. */
-export function errorText({ error, error_text: words }) {
-  if (error === null) return words;
+export function errorText({ error }) {
+  if (error === null) return "not known";
   return error < TINY ? `< ${TINY}` : error >= 100 ? String(Math.round(error)) : error.toPrecision(2);
 }
 
