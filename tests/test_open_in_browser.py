@@ -492,7 +492,7 @@ def test_an_effect_that_was_found_is_switched_on_and_off(page, tmp_path):
     truth = MECHANISMS["arm"].gains["kV"]
     assert abs(kv_shown(page) - truth) < 0.02 * truth < abs(wrong - truth)
     assert error_shown(page) < 0.5 * far
-    assert page.evaluate("sysid.chart.others.length") == 4
+    assert page.evaluate("sysid.chart.without.length") == 4
     assert "held-out" in page.locator("#story").inner_text()
     page.locator("#paste").click()
     page.locator("#code-text", has_text=f"kV = {kv_shown(page):.2f}").wait_for()

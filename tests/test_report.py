@@ -1,12 +1,16 @@
 """Pages and pictures: whole, alone, for everybody, and written as a whole or not at all."""
 
 from dataclasses import replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 import pytest
 from page_flaws import page_flaws
-from story_made import STORIES
+from test_class_exports import student
 
+from grader.classroom.result_pages import write_pages
+from grader.classroom.results import ClassResults
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
@@ -16,15 +20,17 @@ from sim.fit import fit
 from sim.fit.feedback_trial import try_feedback_gains
 from sim.report import write_picture
 from sim.report.page_file import choose_page_path, write_page_file
-from sim.report.story import render_story
 
 SHORT = Routine(ramp=0.5, step=3.5, timeout=3.0)
 
 
 @pytest.fixture(scope="module")
 def whole():
-    """The page of a story."""
-    return render_story(STORIES["explained"], title="drive.csv")
+    """The page of a student."""
+    results = ClassResults("Robotics 1", (student("Ada", [1.0]),), ("exercise1",))
+    with TemporaryDirectory() as folder:
+        write_pages(results, Path(folder))
+        return next(Path(folder).glob("students/*.html")).read_text(encoding="utf-8")
 
 
 @pytest.fixture(scope="module")

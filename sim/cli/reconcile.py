@@ -93,7 +93,7 @@ def reconcile(  # noqa: PLR0917 - click passes options by name
     """
     refuse_overwriting(html, inputs=[*files, validation, held_out])
     if html is not None:
-        from sim.report.page_file import choose_page_path  # noqa: PLC0415 - draws, as all of its folder
+        from sim.report.page_file import choose_page_path  # noqa: PLC0415 - --help must not wait for it
 
         choose_page_path(html)  # refuse a wrong name before the search, not after it
 
@@ -110,10 +110,11 @@ def reconcile(  # noqa: PLR0917 - click passes options by name
     with _progress_display(visible=not (as_json or paste)) as progress:
         story = _solve(logs, type_=type_, travel=travel, effort=effort, progress=progress)
     if html is not None:
-        from sim.report.story import write_story  # noqa: PLC0415 - draws
+        from sim.cli.open.saved_page import save_page  # noqa: PLC0415 - once it is needed
+        from sim.cli.open.session import OpenLog  # noqa: PLC0415 - the same
 
         names = ", ".join(file.name for file in files)  # a page travels; folders are private
-        write_story(story, html, title=names)
+        save_page(OpenLog(1, names, files[0], finished={"": logs["log"]}), html, story)
     if paste:
         fit = _make_fit(story, logs["log"])
         click.echo(make_paste_text(fit, paste, season=int(season)), nl=False)

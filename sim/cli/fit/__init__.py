@@ -240,12 +240,10 @@ def _write_files(
 
 def _write_page(output: _FitOutput, html: Path, parts: "Parts") -> None:
     """Write the page of ``sysid open`` as one file."""
-    from sim.cli.open.saved_page import render_saved_page  # noqa: PLC0415 - once it is needed
-    from sim.cli.open.session import OpenLog, Reading  # noqa: PLC0415 - the same
+    from sim.cli.open.saved_page import save_page  # noqa: PLC0415 - once it is needed
+    from sim.cli.open.session import OpenLog  # noqa: PLC0415 - the same
     from sim.fit.feedback_trial import OWN, format_gain_pair  # noqa: PLC0415 - the same
-    from sim.report.page_file import choose_page_path, write_page_file  # noqa: PLC0415 - the same
 
-    target = choose_page_path(html)
     title = ", ".join(file.name for file in output.files)  # a page travels; folders are private
     one = OpenLog(1, title, output.files[0], finished=parts)
     trials = [
@@ -254,7 +252,7 @@ def _write_page(output: _FitOutput, html: Path, parts: "Parts") -> None:
         for trial in output.tried
     ]
     one.keep_fit(replace(output.pooled, found=output.found, notes=(*output.notes, *trials)))
-    write_page_file(render_saved_page(one, Reading()), target)
+    save_page(one, html)
 
 
 def _refuse_conflicting_options(ctx: click.Context) -> None:

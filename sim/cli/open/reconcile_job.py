@@ -144,7 +144,11 @@ def describe_story(story: "Story", said: "Collection[str]" = ()) -> dict[str, An
         "headline": write_headline(story),
         "verdict": story.verdict,
         "complete": story.complete,
-        "effects": [one.added for one in story.chapters[1:]],
+        "effects": [one.added for one in story.chapters[1:]] if story.variants else [],
+        "tried": [
+            f"{one.effect}: {one.improvement:.0f}, {one.why or 'could be added'}"
+            for one in story.chapters[0].tried
+        ],
         "findings": findings,
         "gaps": gaps,
         "places": [place.sentence for place in story.where[:PLACES]],

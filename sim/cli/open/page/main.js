@@ -72,6 +72,7 @@ async function load(log) {
   showTabs();
   if (!view.raw) await Promise.all([askFaults(log, asked), askFit(log, asked)]);
   setLoading(log, false);
+  if (saved && `logs/${log.id}/reconcile` in saved) await reconcile(log, {});
 }
 
 /** Split the samples into runs; positions and velocities in the log's unit, times in seconds. */
@@ -276,7 +277,9 @@ function moveGains(values) {
 function showSimulation(log) {
   if (active !== log.id) return;
   const error = simulate(log, log.gains);
-  chart.setSimulation(log.simulated, log.fit.noise === null ? null : log.fit.noise / log.summary.units.si);
+  const without = log.fit.tracks ? log.plainSimulated : [];
+  chart.setSimulation(log.simulated, log.fit.noise === null ? null : log.fit.noise / log.summary.units.si, without);
+  document.querySelector(".legend .without").hidden = !without.length;
   showMeter(log, error);
   showCursor(chart.cursor);
   at("reset").hidden = !sliders.isMoved;
@@ -513,7 +516,7 @@ async function reconcile(log, settings) {
       if (active === log.id) showStory();
       if (!search.story) await new Promise((done) => setTimeout(done, POLL));
     }
-    if (search.story.effects.length) await chooseEffects(log, search.story.effects);
+    if (search.story.effects.length && log.plain) await chooseEffects(log, search.story.effects);
   } catch (problem) {
     if (log.asked !== asked) return;
     search.refused = sentence(problem);
@@ -528,11 +531,17 @@ function modelQuery(log) {
 
 /** Show gains and curves of the model with these effects; without any, those of the fit. */
 async function chooseEffects(log, effects) {
+  const { asked, effects: before } = log;
   log.effects = effects;
-  const { asked } = log;
-  const fit = effects.length ? { ...log.plain, ...await askLog(log.id, "fit", modelQuery(log)) } : log.plain;
-  if (log.asked !== asked || log.effects !== effects) return;
-  takeFit(log, fit);
+  try {
+    const fit = effects.length ? { ...log.plain, ...await askLog(log.id, "fit", modelQuery(log)) } : log.plain;
+    if (log.asked !== asked || log.effects !== effects) return;
+    takeFit(log, fit);
+  } catch (problem) {
+    log.effects = before;
+    showStory();
+    throw problem;
+  }
   if (active !== log.id) return;
   showFit();
   showStory();
@@ -663,16 +672,7 @@ function showOthers() {
       laid.push({ color: colors[k % colors.length], run, time: theirs.time, velocity: theirs.velocity.map((value) => value * factor) });
     }
   }
-  if (log.fit?.tracks) {
-    for (const [run, one] of log.plainSimulated.entries()) {
-      if (!one) continue;
-      const velocity = new Float64Array(log.runs[run].time.length).fill(NaN); // nothing is drawn before the run begins
-      velocity.set(one.velocity, one.first);
-      laid.push({ color: chart.colors.quiet, run, time: log.runs[run].time, velocity });
-    }
-  }
   chart.setOthers(laid);
-  document.querySelector(".legend .without").hidden = !log.fit?.tracks;
   document.querySelector(".legend .other").hidden = !others.length;
 }
 
@@ -805,6 +805,7 @@ guarded("logs", async () => {
   view = await askView();
   document.body.classList.toggle("raw", view.raw);
   document.body.classList.toggle("saved", Boolean(saved));
+  document.body.classList.toggle("untold", saved && !Object.keys(saved).some((one) => one.endsWith("/reconcile")));
   showSignals(view.raw);
   const named = await listLogs();
   await Promise.all(named.map((one) => guarded(one.name, () => begin(one))));

@@ -1,6 +1,6 @@
 // The story of a search for missing effects.
 
-import { button, item, prose, text } from "./elements.js";
+import { button, foldedItem, item, prose, text } from "./elements.js";
 import { errorText, nameOf, rounded } from "./sliders.js";
 
 /** The headline, the models to choose from, the findings, and where the base model is wrong. */
@@ -21,8 +21,9 @@ export function storyParts(story, log, choose) {
   const places = story.places.length
     ? [text("p", "Where the base model is wrong most", "quiet places"), list(story.places.map((one) => item("busy", one)))]
     : [];
-  const models = story.effects.length ? [modelChoice(story, log, choose)] : [];
-  return [head, ...models, gapBars(story), ...found, list(rest), ...places, text("p", story.how, "quiet")];
+  const tried = foldedItem("busy", "Tried", `Score of each effect, and what became of it. ${story.tried.join("; ")}.`);
+  const models = story.effects.length && log.plain ? [modelChoice(story, log, choose)] : [];
+  return [head, ...models, gapBars(story), ...found, list([...rest, tried]), ...places, text("p", story.how, "quiet how")];
 }
 
 /** A box to tick for each effect, and the gains without effects and with those ticked. */
