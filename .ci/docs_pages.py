@@ -255,6 +255,7 @@ def name_headings(html: str) -> tuple[str, list[dict[str, object]]]:
     def name(heading: re.Match[str]) -> str:
         words = unescape(re.sub(r"<[^>]+>", "", heading[2]))
         base = re.sub(r"[^\w\- ]", "", words.lower()).replace(" ", "-")
+        base = re.sub(r"^(?=\d)", "part-", base)  # scripts want no digit first
         own, count = base, 0
         while own in taken:
             count += 1

@@ -1027,7 +1027,7 @@ Table(
 print(f"acceleration R²:       {best.acceleration_r2:.3f}")
 print(f"simulated velocity R²: {best.simulated_velocity_r2:.3f}")
 for doubt in best.doubts:
-    print(f"Warning: {doubt.message}")
+    print(f"Warning: {doubt.text}")
 
 # %% [markdown]
 # In a terminal:

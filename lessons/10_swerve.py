@@ -311,7 +311,7 @@ Table(
 quotient = turning.gains["kV"] / straight.gains["kV"]
 print(f"kV turning / kV straight = {quotient:.3f} m. T/√2 = {distance:.3f} m.")
 for doubt in found["half the trackwidth, T/2"].doubts:
-    print(doubt.message)
+    print(doubt.text)
 
 # %% [markdown]
 # This check also finds an angle in degrees where you need radians: then the "lever" is 7 mm.

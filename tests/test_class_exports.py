@@ -15,7 +15,13 @@ from page_flaws import page_flaws
 
 from grader.check import Check, Result, Status
 from grader.classroom.exports import list_exports
-from grader.classroom.grading import MISSING, GradedStudent, make_grade_record, make_missing_record
+from grader.classroom.grading import (
+    MISSING,
+    GradedStudent,
+    make_grade_record,
+    make_missing_record,
+    make_ungraded_student,
+)
 from grader.classroom.item_analysis import analyze_items, count_misconceptions, summarize_exercises
 from grader.classroom.result_pages import summarize_class, write_pages
 from grader.classroom.results import ClassResults
@@ -324,3 +330,17 @@ def test_what_cannot_be_written_is_one_line(name, results, tmp_path):
 def test_every_format_says_what_it_is():
     assert set(list_exports()) == {"canvas", "github", "gradebook", "gradescope", "junit"}
     assert all(len(one.summary) > 20 for one in list_exports().values())
+
+
+def test_only_students_of_whom_something_was_graded_are_in_the_average_and_the_histogram(tmp_path):
+    absent = make_ungraded_student("Dora", [EMPTY], handed_in=(), reason="")
+    unread = make_ungraded_student("Gus", [EMPTY], handed_in=["exercise1"], reason="a picture")
+    people = (student("Ada", [1.0]), absent, unread)
+    results = ClassResults("Robotics 1", people, ("exercise1",))
+
+    page = write_pages(results, tmp_path).read_text(encoding="utf-8")
+
+    assert "2 of 3 students handed something in; on average they have 50 %" in page
+    assert "Half of the 1 have at least 50 %" in page
+    assert "<h1>Results of the class: Robotics 1</h1>" in page
+    assert page.count("incomplete") == 2  # the cell, and what it means

@@ -163,7 +163,7 @@ def test_what_the_tools_make_of_a_late_velocity_is_said():
     # SysId's measurement delay enters its feedback gains only; its kA stays too large.
     message = doubts_by_code(each(drawn("turret"), lambda run: late(run, by=0.06)))["velocity-lags"]
 
-    assert "`sysid fit` takes this delay into account. WPILib's SysId does not" in message
+    assert "The fit takes this delay into account. WPILib's SysId does not" in message
     assert "changes only the feedback gains" in message
 
 

@@ -23,7 +23,7 @@ FOUND = replace(
     gains={"kS": 0.2, "kV": 2.0, "kA": 0.5},
     errors={"kS": 0.01, "kV": 0.02, "kA": 0.2},
 )
-USABLE = "kV usable (± 1 %), kS usable (± 0.01 V)"
+USABLE = "kS usable (± 0.01 V), kV usable (± 1 %)"
 
 
 def only(*tests):
@@ -60,7 +60,7 @@ def test_gains_with_the_same_advice_stand_together(log, advice):
 
     said = write_gain_verdict(unsure, log)
 
-    start = "kA usable (± 2 %); kV not usable (± 20 %), kS not usable (± 0.3 V): "
+    start = "kA usable (± 2 %); kS not usable (± 0.3 V), kV not usable (± 20 %): "
     assert said.startswith(start + advice)
 
 

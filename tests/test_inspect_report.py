@@ -305,4 +305,4 @@ def test_a_wild_reading_is_not_told_as_a_slip(samples, words):
     assert f"For {words}, the velocity in the log is 70% too low" in damage.evidence
     assert "wild reading" in damage.evidence
     assert "shaft" not in damage.evidence + damage.advice
-    assert f"--median {2 * samples + 1}" in damage.advice
+    assert f"a median of {2 * samples + 1}" in damage.advice

@@ -68,7 +68,7 @@ def test_the_wheel_holds_the_course_and_no_answers(archive):
         "sysid_course/exercises/starters.toml",
         "sysid_course/lessons/00_guess_or_measure.ipynb",
         "sysid_course/pyproject.toml",
-        "sim/report/page.html.jinja",
+        "sim/cli/open/page/index.html",
     } <= names
     assert not {name for name in names if "/data/" in name or name.startswith("solutions")}
 

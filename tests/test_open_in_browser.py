@@ -146,7 +146,7 @@ def wait_until(page, expression):
 
 def error_shown(page):
     """The simulation error on the page, in the log's unit per second."""
-    return float(re.match(r"[\d.]+", page.locator("#meter .big").inner_text())[0])
+    return float(re.search(r"[\d.]+", page.locator("#meter .quiet").inner_text())[0])
 
 
 def write_each(folder):
@@ -207,9 +207,49 @@ def test_what_is_watched_is_shown_live(page, server, tmp_path):
     assert page.complaints == []
 
 
+def test_verdict_gap_faults_and_warnings_are_seen_without_scrolling(browser, server, tmp_path):
+    with opened(browser, server.address, {"width": 1366, "height": 768}) as page:
+        drop(page, write_log(slipped_log(), tmp_path / "slipped.csv"))
+        page.locator("#fault-lines .link", has_text="encoder slip (sure)").wait_for()
+        page.locator("#meter .gap", has_text="× sensor noise").wait_for()
+        page.locator("#doubts summary").nth(2).wait_for()
+
+        assert page.locator("#word").inner_text() == "Check first"
+        assert re.search(r"[\d.]+\s% of top speed", page.locator("#meter .gap").inner_text())
+        assert page.locator("#verdict").inner_text().startswith("kS usable")
+        for line in page.locator("#verdict-card :is(h2, .gap, #verdict, li)").all():
+            assert line.bounding_box()["y"] + line.bounding_box()["height"] < 768
+        warnings = page.locator("#doubts summary").all()
+        assert all(line.bounding_box()["height"] < 30 for line in warnings)  # one line each
+        warnings[0].click()
+        assert page.locator("#doubts details[open] p").count() == 1
+        said = page.locator("#doubts li").all_inner_texts()
+        assert len(said) == len(set(said))
+        assert "--" not in page.locator("body").inner_text()
+
+
+def test_an_advice_is_a_button(page, tmp_path):
+    elevator = simulate(MECHANISMS["elevator"], Routine(), rng=np.random.default_rng(1))
+    drop(page, write_log(replace(elevator, type="", mechanism="lift"), tmp_path / "lift.csv"))
+    page.locator("#doubts summary", has_text="A simulation").or_(
+        page.locator("#verdict", has_text="Choose the type")
+    ).first.wait_for()
+    page.locator("#doubts summary", has_text="A simulation").click()
+    page.get_by_role("button", name="Fit as elevator").click()
+    page.locator("#gain-kG").wait_for()
+
+    assert page.get_by_label("Type").input_value() == "elevator"
+
+
 def test_faults_are_listed_and_marked_and_shown_on_demand(page, tmp_path):
     drop(page, write_log(slipped_log(), tmp_path / "slipped.csv"))
     page.locator("li.fault h3", has_text="encoder slip").wait_for()
+    page.locator("#gain-kV").wait_for()
+    page.get_by_role("button", name="Leave out", exact=True).click()
+    page.get_by_text("Left out: quasistatic-forward, 5.56 to 5.92 s").wait_for()
+    wait_until(page, "[...sysid.logs.values()][0].fit?.doubts.length === 0")
+    page.get_by_role("button", name="Take in again").click()
+    wait_until(page, "[...sysid.logs.values()][0].fit?.doubts.length > 0")
     page.get_by_role("button", name="Show", exact=True).click()
     view = page.evaluate("sysid.chart.view")
 
@@ -275,7 +315,7 @@ def test_a_dragged_gain_moves_the_curve_and_the_error_in_time(page, tmp_path):
     assert pictures > 0
     print(f"{pictures:.0f} pictures a second while a gain is dragged")  # noqa: T201 - for people
     page.get_by_role("button", name="Reset to the fit").click()
-    page.get_by_text("simulation error of the fit").wait_for()
+    page.get_by_text("× that of the fit").wait_for(state="hidden")
     assert error_shown(page) == before
 
 
@@ -375,7 +415,7 @@ def test_another_unit_is_read_anew(page, tmp_path):
     page.locator("#gain-kV").wait_for()
     before = error_shown(page)
     page.get_by_label("Units").select_option("feet")
-    page.locator("#meter .big", has_text="ft/s").wait_for()
+    page.locator("#meter .quiet", has_text="ft/s").wait_for()
 
     assert error_shown(page) == pytest.approx(before, rel=0.01)  # the numbers are feet now
     page.get_by_label("Type").select_option("arm")
@@ -426,6 +466,57 @@ def test_a_search_for_what_is_missing_tells_how_far_it_is_and_ends_in_a_story(pa
     assert page.locator("#story .headline").inner_text().startswith("The model is missing drag")
     assert page.locator("#story .gaps > div").count() == 2
     assert page.complaints == []
+
+
+def kv_shown(page):
+    """The value of kV on the page."""
+    return float(page.get_by_label("kV as a number").input_value())
+
+
+def test_an_effect_that_was_found_is_switched_on_and_off(page, tmp_path):
+    arm = MECHANISMS["arm"].hide("drag", 1.0)
+    for name, seed, step in (("arm", 5, 5.0), ("other", 6, 4.0)):
+        log = simulate(arm, Routine(step=step), rng=np.random.default_rng(seed))
+        drop(page, write_log(log, tmp_path / f"{name}.wpilog"))
+        page.locator(".tab .name", has_text=name).wait_for()
+    page.locator(".tab .name", has_text="arm").click()
+    page.locator("h1#title", has_text="arm").wait_for()
+    page.locator("#gain-kG").wait_for()
+    wrong, far = kv_shown(page), error_shown(page)
+    page.get_by_label("Show the gap on").select_option(label="other.wpilog")
+    page.get_by_role("button", name="Look for what is missing").click()
+    box = page.locator("#story").get_by_label("drag")
+    box.wait_for()
+    wait_until(page, "document.querySelector('#sliders').inert")
+
+    truth = MECHANISMS["arm"].gains["kV"]
+    assert abs(kv_shown(page) - truth) < 0.02 * truth < abs(wrong - truth)
+    assert error_shown(page) < 0.5 * far
+    assert page.evaluate("sysid.chart.without.length") == 4
+    assert "held-out" in page.locator("#story").inner_text()
+    page.locator("#paste").click()
+    page.locator("#code-text", has_text=f"kV = {kv_shown(page):.2f}").wait_for()
+    page.get_by_label("Language").select_option("phoenix6")
+    page.locator("#code-text", has_text="Slot0Configs").wait_for()
+    page.get_by_role("button", name="Close", exact=True).click()
+    box.uncheck()
+    wait_until(page, "!document.querySelector('#sliders').inert")
+    assert kv_shown(page) == wrong
+    assert page.complaints == []
+
+
+def test_a_search_that_is_stopped_says_so_first_and_shows_what_it_has(page, tmp_path):
+    arm = MECHANISMS["arm"].hide("drag", 1.0)
+    log = simulate(arm, Routine(step=5.0), rng=np.random.default_rng(5))
+    drop(page, write_log(log, tmp_path / "arm.wpilog"))
+    page.locator("#gain-kG").wait_for()
+    page.get_by_role("button", name="Look for what is missing").click()
+    page.get_by_role("button", name="Stop").click()
+    page.get_by_role("button", name="Search five times as long").wait_for()
+
+    headline = page.locator("#story .headline").inner_text()
+    assert headline.startswith("The search was stopped before it had tried every effect.")
+    assert page.locator("#story .gaps > div").count() >= 1
 
 
 def test_signals_of_unknown_names_are_chosen_with_a_picture_of_each(page, tmp_path):

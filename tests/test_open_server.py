@@ -186,7 +186,7 @@ def test_the_report_is_that_of_the_fit(tmp_path, drive):
         status, content = ask(server, "logs/1/report.html")
 
     assert status == 200
-    assert b"Gains of drive one.wpilog" in content
+    assert b'"name": "drive one.wpilog"' in content
 
 
 def test_ten_broken_logs_do_not_end_it(tmp_path):

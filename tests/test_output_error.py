@@ -270,7 +270,7 @@ def test_a_model_that_lacks_something_is_doubted_and_reconcile_named(effect, cod
 
     found = fit(simulate(mechanism, GENTLE, rng=rng(1)))
 
-    said = [doubt.message for doubt in found.doubts if doubt.code == code]
+    said = [doubt.text for doubt in found.doubts if doubt.code == code]
     assert said
     assert "sysid reconcile" in said[0]
 
@@ -324,7 +324,7 @@ def test_gravity_that_the_type_leaves_out_is_suggested(kind, seed):
     log = simulate(drawn(kind, seed), GENTLE, rng=rng(seed))
 
     try:
-        said = [doubt.message for doubt in fit(log, type="simple").doubts]
+        said = [doubt.text for doubt in fit(log, type="simple").doubts]
     except NotIdentifiable as refused:
         said = [refused.advice]
 
@@ -335,7 +335,7 @@ def test_gravity_that_the_type_leaves_out_is_suggested(kind, seed):
 def test_gravity_is_not_suggested_where_something_else_is_missing(effect):
     log = simulate(MECHANISMS["turret"].hide(effect, 2.0), GENTLE, rng=rng(1))
 
-    said = [doubt.message for doubt in fit(log).doubts if "sysid reconcile" in doubt.message]
+    said = [doubt.text for doubt in fit(log).doubts if "sysid reconcile" in doubt.text]
 
     assert said
     assert not [one for one in said if "--type" in one]

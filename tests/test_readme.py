@@ -126,5 +126,5 @@ def test_the_readmes_minute_is_made_of_commands_that_work(tmp_path):
     simulated, fitted, opened = minute.partition("```shell\n")[2].partition("\n```")[0].splitlines()
 
     assert "Next: sysid fit swerve.wpilog" in printed(simulated, folder=tmp_path)
-    assert "Verdict: kV usable" in printed(fitted, folder=tmp_path)
+    assert "Verdict: kS usable" in printed(fitted, folder=tmp_path)
     assert opened == "sysid open swerve.wpilog"

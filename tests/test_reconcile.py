@@ -236,10 +236,11 @@ def test_a_single_log_is_split_run_by_run_and_it_is_said():
     assert story.how.startswith("No validation log was given: an effect is accepted if it helps")
 
 
-def test_a_search_that_is_cut_short_claims_nothing_and_says_so():
+@pytest.mark.parametrize("stop", [{"effort": 1e-3}, {"is_stopped": lambda: True}])
+def test_a_search_that_is_cut_short_claims_nothing_and_says_so(stop):
     sessions = logs(*PLAIN[:2], simple=True)
 
-    story = reconcile(sessions["log"], type="simple", effort=1e-3)
+    story = reconcile(sessions["log"], type="simple", **stop)
 
     assert (story.verdict, story.remainder, story.findings) == ("unexplained", True, ())
     assert not story.complete

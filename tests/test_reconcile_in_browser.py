@@ -1,37 +1,53 @@
-"""The page of a story in a real browser: alone, legible in both themes, on every screen."""
+"""The page of a story as one file, in a real browser: legible, and each effect can be switched."""
 
+import numpy as np
 import pytest
-from chromium import LEAST_CONTRAST, least_contrast
-from story_made import STORIES
-from test_report_in_browser import TEXTS
+from chromium import LEAST_CONTRAST
+from open_page import write_log
+from test_open_in_browser import FAINTEST, kv_shown
 
-from sim.reconcile.story_text import write_headline
-from sim.report.story import write_story
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
+from sim.cli import sysid
+from sim.support.command_line import run_command
 
 pytestmark = pytest.mark.browser
 SCREENS = {"phone": {"width": 400, "height": 800}, "desk": {"width": 1100, "height": 900}}
 
 
-@pytest.mark.parametrize("name", ["ambiguous", "unexplained"])
-def test_a_story_is_alone_and_legible_on_every_screen(browser, tmp_path, name):
-    path = tmp_path / "story.html"
-    write_story(STORIES[name], path, title="drive.csv")
+@pytest.fixture(scope="module")
+def told(tmp_path_factory):
+    """The page of an arm with drag."""
+    folder = tmp_path_factory.mktemp("arm")
+    arm = MECHANISMS["arm"].hide("drag", 1.0)
+    log = simulate(arm, Routine(step=5.0), rng=np.random.default_rng(5))
+    path = folder / "arm.html"
+    file = write_log(log, folder / "arm.wpilog")
+    run_command(sysid, name="sysid", arguments=["reconcile", str(file), "--html", str(path)])
+    return path
 
-    for theme in ("light", "dark"):
-        for screen, size in SCREENS.items():
-            asked, complaints = [], []
-            page = browser.new_page(viewport=size, color_scheme=theme)
-            page.on("request", lambda request, asked=asked: asked.append(request.url[:5]))
-            page.on("console", lambda message, all_=complaints: all_.append(message.text))
-            page.goto(path.as_uri())
 
-            assert least_contrast(page, TEXTS) >= LEAST_CONTRAST, (theme, screen)
-            assert page.evaluate("document.documentElement.scrollWidth") <= size["width"]
-            assert page.get_by_text(write_headline(STORIES[name])).is_visible()
-            assert page.locator("#overlays img").last.is_visible()  # open without a click
-            for picture in page.locator("img").all():
-                width = picture.evaluate("image => image.decode().then(() => image.naturalWidth)")
-                assert width > 0
-            assert set(asked) <= {"file:", "data:"}
-            assert complaints == []
-            page.close()
+@pytest.mark.parametrize("theme", ["light", "dark"])
+@pytest.mark.parametrize("screen", SCREENS)
+def test_a_story_is_alone_and_legible_on_every_screen(browser, told, screen, theme):
+    page = browser.new_page(viewport=SCREENS[screen], color_scheme=theme)
+    asked, complaints = [], []
+    page.on("request", lambda request: asked.append(request.url[:5]))
+    page.on("console", lambda message: complaints.append(message.text))
+    page.on("pageerror", lambda error: complaints.append(str(error)))
+    page.goto(told.as_uri())
+    page.locator("#story .headline", has_text="The model is missing drag").wait_for()
+    page.locator("form.fixed").wait_for()
+    page.wait_for_timeout(300)  # until colors have changed
+
+    assert page.evaluate(FAINTEST) >= LEAST_CONTRAST
+    assert page.evaluate("document.documentElement.scrollWidth") <= SCREENS[screen]["width"]
+    assert set(asked) == {"file:"}
+    with_drag = kv_shown(page)
+    page.locator("#story").get_by_label("drag").uncheck()
+    page.locator("form.fixed").wait_for(state="detached")
+    truth = MECHANISMS["arm"].gains["kV"]
+    assert abs(with_drag - truth) < 0.02 * truth < abs(kv_shown(page) - truth)
+    assert complaints == []
+    page.close()

@@ -1,50 +1,47 @@
-"""The page and the picture of a fit: whole, alone, for everybody, and true."""
+"""Pages and pictures: whole, alone, for everybody, and written as a whole or not at all."""
 
-import math
-import re
 from dataclasses import replace
-from html import unescape
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 import pytest
 from page_flaws import page_flaws
+from test_class_exports import student
 
-import sim
+from grader.classroom.result_pages import write_pages
+from grader.classroom.results import ClassResults
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
-from sim.feedback import PRESETS, Feedback
+from sim.feedback import PRESETS
 from sim.fit import fit
-from sim.fit.feedback_trial import OwnGains, try_feedback_gains
-from sim.report import Report, render_page, write_page, write_picture
+from sim.fit.feedback_trial import try_feedback_gains
+from sim.report import write_picture
+from sim.report.page_file import choose_page_path, write_page_file
 
 SHORT = Routine(ramp=0.5, step=3.5, timeout=3.0)
-DEFAULT = PRESETS["default"]
+
+
+@pytest.fixture(scope="module")
+def whole():
+    """The page of a student."""
+    results = ClassResults("Robotics 1", (student("Ada", [1.0]),), ("exercise1",))
+    with TemporaryDirectory() as folder:
+        write_pages(results, Path(folder))
+        return next(Path(folder).glob("students/*.html")).read_text(encoding="utf-8")
 
 
 @pytest.fixture(scope="module")
 def drive():
-    """A report of a drivetrain with the learner's own gains in it."""
+    """A fit of a drivetrain, its log of one run, and a trial of its feedback gains."""
     log = simulate(MECHANISMS["drivetrain"], SHORT, rng=np.random.default_rng(2))
     found = fit(log).in_log_units()
-    own = OwnGains("position", Feedback(300.0, 0.0))
-    return Report("drive.wpilog", found, log, DEFAULT, try_feedback_gains(found, DEFAULT, own=own))
+    return found, replace(log, runs=log.runs[:1]), try_feedback_gains(found, PRESETS["default"])[:1]
 
 
-@pytest.fixture(scope="module")
-def brief(drive):
-    """The same of one run, where the runs are not what matters."""
-    return replace(drive, log=replace(drive.log, runs=drive.log.runs[:1]), tried=drive.tried[:1])
-
-
-@pytest.fixture(scope="module")
-def whole(drive):
-    return render_page(drive)
-
-
-def test_the_page_is_alone_and_for_everybody(whole):
+def test_a_page_is_alone_and_for_everybody(whole):
     assert page_flaws(whole) == []
 
 
@@ -78,127 +75,29 @@ def test_a_page_without_what_a_reader_needs_is_seen(whole, what, seen):
     assert seen in page_flaws(without)
 
 
-def test_every_run_is_there_with_its_numbers(drive, whole):
-    runs = re.findall(r"<h3>Run \d+: (\S+)</h3>", whole)
-
-    assert runs == [run.test for run in drive.log.runs]
-    assert len(re.findall(r"<img ", whole)) == len(runs) + 1  # and the step responses
-    for run in drive.log.runs:
-        assert f"{run.test}: measured and simulated velocity and position" in whole
+def write_page(_drive, path):
+    """Write any page."""
+    write_page_file("<p>a page", choose_page_path(path))
 
 
-def test_the_gains_on_the_page_are_those_of_the_fit(drive, whole):
-    for name in ("kS", "kV", "kA"):
-        value = re.search(rf'<th scope="row">{name}</th><td class="number">([\d.]+)<', whole)[1]
-        assert float(value) == pytest.approx(drive.found.gains[name], rel=1e-4)
+def draw(drive, path):
+    """Write the picture of a fit."""
+    found, log, tried = drive
+    write_picture(found, log, path, tried=tried)
 
 
-def test_every_controller_and_every_snippet_is_there(whole):
-    said = unescape(whole)
-    for preset in PRESETS.values():
-        assert f"{preset.name}<br>" in said
-    for language in ("Java", "Python"):
-        for season in (2026, 2027):
-            assert f"<summary>{language}, WPILib {season}</summary>" in said
-    assert "new SimpleMotorFeedforward(kS, kV, kA)" in said
-    assert "SimpleMotorFeedforwardMeters(kS, kV, kA)" in said
-
-
-def test_the_learners_own_gains_are_told_on_the_page(whole):
-    assert "The position loop with your own gains oscillates" in whole
-
-
-def test_the_same_fit_gives_the_same_page(drive, whole):
-    assert render_page(replace(drive)) == whole
-
-
-def test_what_a_file_is_called_is_no_code(brief):
-    hostile = "<script>alert(1)</script>.wpilog"
-    doubt = Doubt("x", "the motor '<img src=x onerror=alert(1)>' was left out")
-
-    told = render_page(
-        replace(brief, title=hostile, found=replace(brief.found, doubts=(doubt,)), notes=("<b>",))
-    )
-
-    assert page_flaws(told) == []
-    assert "&lt;script&gt;alert(1)" in told
-
-
-def test_doubts_stand_on_the_page_the_gravest_first(brief):
-    doubts = (Doubt("a", "Only a look."), Doubt("b", "It cannot be.", grave=True))
-
-    told = render_page(
-        replace(brief, found=replace(brief.found, doubts=doubts), notes=("All is even.",))
-    )
-
-    assert (
-        0 < told.index("<b>Wrong:</b> It cannot be.") < told.index("<b>Warning:</b> Only a look.")
-    )
-    assert "All is even." in told
-    assert (
-        "no code is printed, because the gains cannot be right" in told
-    )  # in place of each snippet
-
-
-@pytest.mark.parametrize(
-    "changes",
-    [
-        {"errors": {"kS": math.nan, "kV": math.inf, "kA": 0.01}},
-        {"errors": {}},
-        {"simulated_velocity_r2": -math.inf, "simulated_velocity_rmse": math.inf},
-        {"gains": {"kS": 0.1, "kV": 2.5, "kA": -0.2}},
-        {"gains": {"kS": -0.1, "kV": 2.5, "kA": 0.2}},
-    ],
-    ids=["error unknown", "no errors", "ran away", "kA below zero", "kS below zero"],
-)
-def test_what_is_not_known_is_said_in_words(brief, changes):
-    found = replace(brief.found, **changes)
-
-    told = render_page(replace(brief, found=found, tried=try_feedback_gains(found, DEFAULT)))
-
-    assert page_flaws(told) == []
-
-
-def test_an_arm_has_its_angle_and_its_gravity():
-    log = simulate(MECHANISMS["arm"], SHORT, rng=np.random.default_rng(2))
-    found = fit(log).in_log_units()
-
-    told = render_page(
-        Report("arm.wpilog", found, log, DEFAULT, try_feedback_gains(found, DEFAULT))
-    )
-
-    assert page_flaws(told) == []
-    assert "kG·cos(angle from horizontal)" in told
-    assert "new ArmFeedforward(kS, kG, kV, kA)" in unescape(told)
-
-
-@pytest.mark.shared
-def test_a_real_arm_has_a_page_that_says_what_to_doubt(shared):
-    log = sim.read(shared / "data" / "real" / "sciborgs-2023-wrist-arm.json")
-    found = fit(log).in_log_units()
-
-    told = render_page(
-        Report("wrist.json", found, log, DEFAULT, try_feedback_gains(found, DEFAULT))
-    )
-
-    assert page_flaws(told) == []
-    assert told.count("<h3>Run ") == len(log.runs)
-    assert "<b>Warning:</b> A simulation with these gains has a velocity error of" in told
-
-
-def test_a_page_is_written_whole(brief, tmp_path, monkeypatch):
+def test_a_page_is_written_whole(tmp_path):
     there = tmp_path / "drive.html"
     there.write_text("the old one", encoding="utf-8")
-    monkeypatch.setattr("sim.report.render_page", lambda _: "\ud800")  # no file can hold it
 
     with pytest.raises(UnicodeEncodeError):
-        write_page(brief, there)
+        write_page_file("\ud800", there)  # no file can hold it
 
     assert there.read_text(encoding="utf-8") == "the old one"
     assert list(tmp_path.iterdir()) == [there]
 
 
-@pytest.mark.parametrize("write", [write_page, write_picture])
+@pytest.mark.parametrize("write", [write_page, draw])
 @pytest.mark.parametrize(
     ("name", "said"),
     [
@@ -208,12 +107,12 @@ def test_a_page_is_written_whole(brief, tmp_path, monkeypatch):
         ("drive", "End its name in"),
     ],
 )
-def test_what_cannot_be_written_is_refused_in_one_line(brief, tmp_path, write, name, said):
+def test_what_cannot_be_written_is_refused_in_one_line(drive, tmp_path, write, name, said):
     suffix = ".html" if write is write_page else ".svg"
     (tmp_path / f"folder{suffix}").mkdir()
 
     with pytest.raises(BadRequest, match=said):
-        write(brief, tmp_path / name.format(suffix))
+        write(drive, tmp_path / name.format(suffix))
 
     assert [path.name for path in tmp_path.iterdir()] == [f"folder{suffix}"]
 
@@ -221,8 +120,8 @@ def test_what_cannot_be_written_is_refused_in_one_line(brief, tmp_path, write, n
 @pytest.mark.parametrize(
     ("suffix", "begins"), [(".png", b"\x89PNG"), (".svg", b"<?xml"), (".pdf", b"%PDF")]
 )
-def test_the_picture_is_of_the_kind_its_name_says(brief, tmp_path, suffix, begins):
-    write_picture(brief, tmp_path / f"drive{suffix}")
+def test_the_picture_is_of_the_kind_its_name_says(drive, tmp_path, suffix, begins):
+    draw(drive, tmp_path / f"drive{suffix}")
 
     content = (tmp_path / f"drive{suffix}").read_bytes()
     assert content.startswith(begins)
@@ -235,7 +134,7 @@ def test_the_picture_is_of_the_kind_its_name_says(brief, tmp_path, suffix, begin
 
 
 def test_nothing_to_draw_is_refused(drive, tmp_path):
-    found = replace(drive.found, gains={"kS": 0.1, "kV": 2.5, "kA": -0.2})
+    found = replace(drive[0], gains={"kS": 0.1, "kV": 2.5, "kA": -0.2})
 
     with pytest.raises(BadRequest, match="nothing to draw"):
-        write_picture(replace(drive, found=found, tried=()), tmp_path / "drive.png")
+        write_picture(found, drive[1], tmp_path / "drive.png")

@@ -1,46 +1,88 @@
-"""The page of a fit in a real browser: alone, legible in both themes, nothing beside the screen."""
+"""The page of a fit as one file, in a real browser: alone, legible and alive."""
 
-import numpy as np
 import pytest
-from chromium import LEAST_CONTRAST, least_contrast
+from chromium import LEAST_CONTRAST
+from open_page import drive_log, slipped_log, write_log
+from test_open_in_browser import FAINTEST, SET
 
-from sim.bench.mechanisms import MECHANISMS
-from sim.bench.routine import Routine
-from sim.bench.simulate import simulate
-from sim.feedback import PRESETS
-from sim.fit import fit
-from sim.fit.feedback_trial import try_feedback_gains
-from sim.report import Report, write_page
+from sim.cli import sysid
+from sim.cli.open.saved_page import render_saved_page
+from sim.cli.open.session import OpenLog, Reading
+from sim.support.command_line import run_command
 
-PHONE = {"width": 390, "height": 800}
+PHONE, DESKTOP = {"width": 390, "height": 800}, {"width": 1366, "height": 768}
 
 pytestmark = pytest.mark.browser
 
 TEXTS = "h1, h2, h3, p, li, b, a, td, th, caption, summary, pre"
+HOSTILE = "<b>&amp;<script>alert(1)<"
 
 
-def test_a_page_is_alone_and_legible_on_every_screen(browser, tmp_path):
-    log = simulate(MECHANISMS["arm"], Routine(ramp=0.5, step=3.5), rng=np.random.default_rng(1))
-    found, preset = fit(log).in_log_units(), PRESETS["rev-brushless"]
-    path = tmp_path / "arm.html"
-    write_page(Report("arm.wpilog", found, log, preset, try_feedback_gains(found, preset)), path)
+@pytest.fixture
+def saved(browser, tmp_path):
+    """Open the page that `sysid fit --html` writes; what it asks for and complains of is noted."""
+    pages = []
 
-    for theme in ("light", "dark"):
-        asked, complaints = [], []
-        page = browser.new_page(viewport=PHONE, color_scheme=theme)
-        page.on("request", lambda request, asked=asked: asked.append(request.url[:5]))
-        page.on("console", lambda message, all_=complaints: all_.append(message.text))
-        page.goto(path.as_uri())
+    def make(log, *options, viewport=DESKTOP, theme="light"):
+        file, html = write_log(log, tmp_path / "log.csv"), tmp_path / "log.html"
+        arguments = ["fit", str(file), "--html", str(html), *options]
+        run_command(sysid, name="sysid", arguments=arguments)
+        page = browser.new_page(viewport=viewport, color_scheme=theme)
+        pages.append(page)
+        page.asked, page.complaints = [], []
+        page.on("request", lambda request: page.asked.append(request.url[:5]))
+        page.on("console", lambda message: page.complaints.append(message.text))
+        page.on("pageerror", lambda error: page.complaints.append(str(error)))
+        page.goto(html.as_uri())
+        page.locator("#gain-kV").wait_for()
+        return page
 
-        assert least_contrast(page, TEXTS) >= LEAST_CONTRAST, theme
-        assert page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]
-        for picture in page.locator("img").all():
-            assert picture.evaluate("image => image.decode().then(() => image.naturalWidth)") > 0
-        code = page.get_by_label("Python code for WPILib 2027")
-        assert not code.is_visible()
-        page.get_by_text("Python, WPILib 2027").click()
-        assert code.is_visible()  # chosen without a script
-        assert "ArmFeedforward(kS, kG, kV, kA)" in code.inner_text()
-        assert set(asked) <= {"file:", "data:"}
-        assert complaints == []
+    yield make
+    for page in pages:
         page.close()
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+@pytest.mark.parametrize("viewport", [DESKTOP, PHONE], ids=["desktop", "phone"])
+def test_a_page_is_alone_and_legible_on_every_screen(saved, viewport, theme):
+    page = saved(slipped_log(), viewport=viewport, theme=theme)
+
+    page.locator("#fault-lines .link", has_text="encoder slip (sure)").wait_for()
+    assert page.evaluate(FAINTEST) >= LEAST_CONTRAST
+    assert page.evaluate("document.documentElement.scrollWidth") <= viewport["width"]
+    assert set(page.asked) == {"file:"}
+    assert page.complaints == []
+
+
+def test_it_is_as_alive_as_the_page_of_the_server(saved):
+    page = saved(drive_log(), "--own-kp", "300", "--loop", "position")
+
+    page.locator("#paste").click()
+    page.get_by_label("Language").select_option("python")
+    page.locator("#code-text", has_text="SimpleMotorFeedforwardMeters").wait_for()
+    page.get_by_label("Season").select_option("2027")
+    page.locator("#code-text", has_text="import").wait_for()
+    page.get_by_role("button", name="Close", exact=True).click()
+    assert "your own gains" in page.locator("#doubts").inner_text()
+    page.locator("#gain-kV").evaluate(SET, 3.2)
+    page.get_by_text("× that of the fit").wait_for()
+    page.locator("#paste").click()
+    page.locator("#code-text", has_text="this page was saved").wait_for()
+    assert not page.get_by_text("Add log").is_visible()
+    assert page.complaints == []
+
+
+def test_what_a_file_is_called_is_no_code(browser, tmp_path):
+    one = OpenLog(1, HOSTILE, write_log(drive_log(), tmp_path / "log.csv"))
+    html = tmp_path / "log.html"
+    html.write_text(render_saved_page(one, Reading()), encoding="utf-8")
+    page = browser.new_page()
+    complaints = []
+    page.on("dialog", lambda dialog: complaints.append(dialog.message))
+    page.on("pageerror", lambda error: complaints.append(str(error)))
+    page.goto(html.as_uri())
+    page.locator("#gain-kV").wait_for()
+
+    assert page.locator("h1#title").inner_text() == HOSTILE
+    assert complaints == []
+    page.close()

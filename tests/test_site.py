@@ -6,7 +6,10 @@ import re
 import shutil
 import subprocess
 import sys
+import threading
+from functools import partial
 from html.parser import HTMLParser
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from types import SimpleNamespace
 from urllib.parse import unquote, urlparse
@@ -14,6 +17,7 @@ from xml.etree import ElementTree as ET
 
 import nbformat
 import pytest
+from chromium import LEAST_CONTRAST, least_contrast
 from mkdocs.structure.files import Files
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -107,6 +111,88 @@ def test_every_lesson_and_every_exercise_has_a_page_that_the_navigation_leads_to
 
 def test_every_link_within_the_site_leads_to_a_page_and_to_its_anchor(built_site):
     assert list(lost_links(*built_site)) == []
+
+
+class QuietFiles(SimpleHTTPRequestHandler):
+    """Answers with files of a folder, and prints nothing."""
+
+    def log_message(self, *_):
+        """Print nothing."""
+
+
+@pytest.fixture(scope="module")
+def tab(built_site, browser):
+    """A tab on a server of the site, with a function that opens a page; complaints are noted."""
+    folder, _ = built_site
+    server = ThreadingHTTPServer(("127.0.0.1", 0), partial(QuietFiles, directory=str(folder)))
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    page = browser.new_page(color_scheme="light", reduced_motion="reduce")
+    page.complaints = []
+    page.on("pageerror", lambda one: page.complaints.append(f"{page.url}: {one}"))
+    page.on(
+        "console",
+        lambda one: one.type == "error" and page.complaints.append(f"{page.url}: {one.text}"),
+    )
+    page.open = lambda name: page.goto(f"http://127.0.0.1:{server.server_port}/{name}")
+    yield page
+    page.close()
+    server.shutdown()
+    server.server_close()
+
+
+@pytest.mark.browser
+def test_no_page_has_an_error_in_its_console_or_a_faint_link(built_site, tab):
+    texts = '[role="main"] :is(a, p, li, h2), .bs-sidebar a, .navbar a'
+    faint = {}
+    for name in sorted(built_site[1]):
+        tab.open(name)
+        for theme in ("light", "dark"):
+            tab.evaluate(f"setColorMode('{theme}')")
+            if (contrast := least_contrast(tab, texts)) < LEAST_CONTRAST:
+                faint[name, theme] = contrast
+
+    assert tab.complaints == []
+    assert faint == {}
+
+
+@pytest.mark.browser
+def test_the_switch_changes_the_theme_and_it_is_kept(tab):
+    tab.open("index.html")
+    tab.locator("#theme-menu").click()
+    tab.locator('[data-bs-theme-value="dark"]').click()
+    tab.open("guide.html")
+
+    assert tab.evaluate("document.documentElement.dataset.bsTheme") == "dark"
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("gain", ["kS", "kV", "kA", "kG"])
+def test_a_search_finds_gains(gain, tab):
+    with tab.expect_response("**/search_index.json"):
+        tab.open("index.html")
+    tab.locator("[data-bs-target='#mkdocs_search_modal']").click()
+    found = tab.locator("#mkdocs-search-results article").first
+    for _ in range(50):  # the index is read after the page
+        tab.locator("#mkdocs-search-query").fill("")
+        tab.locator("#mkdocs-search-query").press_sequentially(gain)
+        tab.wait_for_timeout(200)
+        if found.is_visible():
+            break
+
+    assert gain in tab.locator("#mkdocs-search-results").inner_text()
+
+
+@pytest.mark.browser
+def test_the_contents_follow_the_reader(tab):
+    lesson = next((ROOT / "lessons").glob("01_*.ipynb")).stem
+    tab.open(f"lessons/{lesson}.html")
+    last = tab.locator('[role="main"] h2').last
+    last.scroll_into_view_if_needed()
+    last.evaluate("heading => heading.scrollIntoView()")
+    active = tab.locator(".bs-sidebar .nav-link.active")
+    active.first.wait_for()
+
+    assert last.inner_text() in active.all_inner_texts()
 
 
 def test_a_lost_link_and_a_lost_anchor_are_seen(tmp_path):

@@ -61,8 +61,8 @@ def test_rows_of_six_have_the_battery_and_no_word_about_units(tmp_path: Path) ->
 
     assert (log.type, log.mechanism, log.units) == ("", "", "meters")
     assert only_doubt(log).code == "units-unknown"
-    assert "taken as meters" in only_doubt(log).message
-    assert "--units" in only_doubt(log).message
+    assert "taken as meters" in only_doubt(log).text
+    assert "--units" in only_doubt(log).text
     (run,) = log.list_runs_of_test("dynamic-forward")
     assert run.voltage[-1] == 6.0
     assert run.velocity[-1] == 3.0
@@ -94,7 +94,7 @@ def test_units_one_says_go_before_those_of_the_file_with_a_doubt(tmp_path: Path)
         3.0 * 0.5 * 0.3048
     )
     assert only_doubt(log).code == "contradicting-units"
-    assert "Meters" in only_doubt(log).message
+    assert "Meters" in only_doubt(log).text
     assert read_json(tmp_path, sysid(4, "Simple"), units="meters").doubts == ()
 
 
@@ -182,7 +182,7 @@ def test_a_mechanism_no_tool_wrote_is_doubted(tmp_path: Path) -> None:
 
     assert (log.type, log.mechanism) == ("", "Catapult")
     assert only_doubt(log).code == "unknown-mechanism"
-    assert "--type" in only_doubt(log).message
+    assert "--type" in only_doubt(log).text
 
 
 def test_repeated_rows_are_dropped_with_a_doubt(tmp_path: Path) -> None:

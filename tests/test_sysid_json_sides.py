@@ -158,7 +158,7 @@ def test_sides_that_move_differently_are_doubted(tmp_path: Path) -> None:
 
     assert doubt.code == "sides-differ"
     assert "dynamic-forward" in doubt.message
-    assert "--motor left and --motor right" in doubt.message
+    assert "Fit each side alone" in doubt.message
 
 
 def test_signs_that_come_and_go_are_doubted(tmp_path: Path) -> None:

@@ -251,8 +251,8 @@ def test_two_motors_count_as_their_mean(tmp_path: Path, reads) -> None:
     np.testing.assert_allclose(run.position, 0.75 * x)
     np.testing.assert_allclose(run.velocity, 0.75 * v)
     assert codes(log) == ["several-motors"]
-    reads(log.doubts[0].message)
-    assert "--motor NAME" in log.doubts[0].message
+    reads(log.doubts[0].text)
+    assert "--motor NAME" in log.doubts[0].text
 
 
 @pytest.mark.parametrize("name", ["drive-right", "RIGHT", "right", "-right"])

@@ -72,13 +72,18 @@ def _name_page(one: GradedStudent) -> str:
 def summarize_class(results: ClassResults) -> str:
     """The class in two sentences."""
     there = [one for one in results.students if has_handed_in(one)]
-    shares = [_compute_share(one, results) for one in there]
+    shares = _list_shares(results)
     handed = f"{len(there)} of {len(results.students)} students handed something in"
-    if not there:
+    if not shares:
         return f"{handed}."
     mean = f"on average they have {100 * sum(shares) / len(shares):.0f} % of all points"
     full = sum(share == 1 for share in shares)
     return f"{handed}; {mean}, and {full or 'nobody'} {'have' if full > 1 else 'has'} full marks."
+
+
+def _list_shares(results: ClassResults) -> list[float]:
+    """The share of all points of each student of whom anything was graded."""
+    return [_compute_share(one, results) for one in results.students if collect_scores(one)]
 
 
 def _compute_share(one: GradedStudent, results: ClassResults) -> float:
@@ -90,7 +95,6 @@ def _fill_class_page(results: ClassResults) -> dict[str, Any]:
     from sim.plot import plot_score_heatmap, plot_score_histogram  # noqa: PLC0415 - matplotlib only where it draws
 
     names = [one.student for one in results.students]
-    shares = [_compute_share(one, results) for one in results.students if has_handed_in(one)]
     table = [[_compute_cell_share(record) for record in one.records] for one in results.students]
     found = sorted(
         analyze_items(results.students), key=lambda one: (one.share, one.exercise, one.check)
@@ -104,7 +108,7 @@ def _fill_class_page(results: ClassResults) -> dict[str, Any]:
         "count": len(results.students),
         "columns": summarize_exercises(results.students),
         "heat": plot_score_heatmap(names, results.exercises, table).html,
-        "spread": plot_score_histogram(shares).html if shares else "",
+        "spread": plot_score_histogram(shares).html if (shares := _list_shares(results)) else "",
         "misconceptions": [
             {"code": code, "count": count, "says": _explain_misconception(code)}
             for code, count in count_misconceptions(results.students)
@@ -158,7 +162,7 @@ def _make_row(one: GradedStudent, results: ClassResults) -> dict[str, Any]:
 def _format_total(one: GradedStudent, results: ClassResults) -> str:
     total = find_total(one, results)
     if total is None:
-        return "not everything was graded" if has_handed_in(one) else "–"
+        return "incomplete" if has_handed_in(one) else "–"
     return f"{total:g} of {sum(results.max_scores.values()):g}"
 
 

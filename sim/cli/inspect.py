@@ -107,7 +107,7 @@ def _show_doubts(doubts: "Iterable[Doubt]", *, lines_left: int, cut: bool) -> No
     ordered = sorted(doubts, key=lambda doubt: (not doubt.grave, doubt.code not in SHOWN_FIRST))
     shown = []
     for doubt in ordered:
-        text = click.wrap_text(f"warning: {doubt.message}", width=WIDTH, subsequent_indent=" " * 9)
+        text = click.wrap_text(f"warning: {doubt.text}", width=WIDTH, subsequent_indent=" " * 9)
         lines = text.splitlines()
         if len(lines) + 1 <= lines_left:
             shown += lines

@@ -27,7 +27,9 @@ if TYPE_CHECKING:
 
     from sim.core.log import Log
     from sim.fit import Fit
+    from sim.physics.model import Part
     from sim.reconcile import DamagedInterval, Story
+    from sim.reconcile.story import ParameterEstimate
 
 DROPOUT = "voltage-dropout"  # an inspection reports many short dropouts as one interval
 UNSURE = ("unexplained", "ambiguous")  # verdicts with exit code 1
@@ -88,7 +90,7 @@ def reconcile(  # noqa: PLR0917 - click passes options by name
     """
     refuse_overwriting(html, inputs=[*files, validation, held_out])
     if html is not None:
-        from sim.report.page_file import choose_page_path  # noqa: PLC0415 - draws, as all of its folder
+        from sim.report.page_file import choose_page_path  # noqa: PLC0415 - --help must not wait for it
 
         choose_page_path(html)  # refuse a wrong name before the search, not after it
 
@@ -102,10 +104,11 @@ def reconcile(  # noqa: PLR0917 - click passes options by name
     with _progress_display(visible=not (as_json or paste)) as progress:
         story = _solve(logs, type_=reader.type, travel=travel, effort=effort, progress=progress)
     if html is not None:
-        from sim.report.story import write_story  # noqa: PLC0415 - draws
+        from sim.cli.open.saved_page import save_page  # noqa: PLC0415 - once it is needed
+        from sim.cli.open.session import OpenLog  # noqa: PLC0415 - the same
 
         names = ", ".join(file.name for file in files)  # a page travels; folders are private
-        write_story(story, html, title=names)
+        save_page(OpenLog(1, names, files[0], finished={"": logs["log"]}), html, story)
     if paste:
         fit = _make_fit(story, logs["log"])
         click.echo(make_paste_text(fit, paste, season=int(season)), nl=False)
@@ -167,20 +170,27 @@ def _solve(
 
 
 def _make_fit(story: "Story", log: "Log") -> "Fit":
-    """The fit of a log, with the gains of a story's last model.
-
-    Warnings about the model without effects do not concern these gains, unless they are grave.
-    """
+    """The fit of a log, with the gains of a story's last model."""
     from sim.fit import fit  # noqa: PLC0415 - --help must not wait for it
 
     plain = fit(log, type=story.model.type).in_log_units()
     if story.gains == story.gains_without:
         return plain
+    return replace_gains(plain, story.gains, story.model.parts)
+
+
+def replace_gains(
+    plain: "Fit", gains: "Mapping[str, ParameterEstimate]", parts: "tuple[Part, ...]"
+) -> "Fit":
+    """A fit with the gains and effects of another model, in the same unit.
+
+    Warnings about the model without effects do not concern these gains, unless they are grave.
+    """
     return replace(
         plain,
-        gains={name: one.value for name, one in story.gains.items()},
-        errors={name: one.error for name, one in story.gains.items() if one.error is not None},
-        parts=story.model.parts,
+        gains={name: one.value for name, one in gains.items()},
+        errors={name: one.error for name, one in gains.items() if one.error is not None},
+        parts=parts,
         doubts=tuple(doubt for doubt in plain.doubts if doubt.grave),
     )
 

@@ -144,7 +144,7 @@ def _echo_written(log: "Log", output: Path, *, after: str) -> None:
     """Print the doubts about a log, what was written, and the command for it."""
     samples = sum(len(part) for part in log.runs)
     for doubt in log.doubts:
-        click.echo(f"warning: {doubt.message}")
+        click.echo(f"warning: {doubt.text}")
     following = f"sysid {after} {quote_path(output)}"
     click.echo(f"{output}: {len(log.runs)} tests, {samples} samples. Next: {following}")
 

@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+from sim.core.advice import Action
+
 SHOWN_FIRST = frozenset({"contradicting-units", "unit-error"})  # all others depend on these
 GAINS = ("kS", "kV", "kA", "kG", "offset_rad")
 
@@ -12,12 +14,19 @@ class Doubt:
 
     Args:
         code: a short fixed name for programs, like ``negative-gain``.
-        message: cause and advice, in one or two sentences for the user.
+        message: the cause, in one or two sentences for the user.
         grave: whether the result cannot be right; if not, it only has to be checked.
+        action: what to do, where each surface says it in its own words.
         gains: gains that may be wrong by more than their errors because of it.
     """
 
     code: str
     message: str
     grave: bool = False
+    action: Action | None = None
     gains: tuple[str, ...] = ()
+
+    @property
+    def text(self) -> str:
+        """Cause and advice, as the command line says it."""
+        return self.message if self.action is None else f"{self.message} {self.action}"

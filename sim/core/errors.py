@@ -13,6 +13,9 @@ A command turns any of them into one line on standard error and exit code 2.
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import Self
+
+from sim.core.advice import Action
 
 
 class Refusal(Exception):  # noqa: N818 - not an error of the program
@@ -21,18 +24,23 @@ class Refusal(Exception):  # noqa: N818 - not an error of the program
     Args:
         what: the problem, with its size: ``velocity is nan``.
         where: the file, and the place in it: ``log.csv, line 17``; may be empty.
-        advice: what to do next, an imperative sentence.
+        advice: what to do next, an imperative sentence, or an action that each surface words.
     """
 
-    def __init__(self, what: str, *, where: str = "", advice: str) -> None:
+    def __init__(self, what: str, *, where: str = "", advice: str | Action) -> None:
         self.what = what
         self.where = where
-        self.advice = advice
-        super().__init__(what, where, advice)
+        self.action = advice if isinstance(advice, Action) else None
+        self.advice = str(advice)
+        super().__init__(what, where, self.advice)
 
     def __reduce__(self) -> tuple[object, ...]:
         """Support for pickling, to send a refusal from one process to another."""
-        return _rebuild, (type(self), self.what, self.where, self.advice)
+        return _rebuild, (type(self), self.what, self.where, self.action or self.advice)
+
+    def move(self, where: str) -> Self:
+        """The same refusal of another place."""
+        return self.__class__(self.what, where=where, advice=self.action or self.advice)
 
     def __str__(self) -> str:
         said = f"{self.where}: {self.what}" if self.where else self.what
@@ -59,7 +67,7 @@ class BadRequest(Refusal):
     """A request that cannot be carried out."""
 
 
-def _rebuild(kind: type[Refusal], what: str, where: str, advice: str) -> Refusal:
+def _rebuild(kind: type[Refusal], what: str, where: str, advice: str | Action) -> Refusal:
     """An unpickled refusal."""
     return kind(what, where=where, advice=advice)
 

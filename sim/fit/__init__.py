@@ -9,6 +9,7 @@ Method ``sysid`` is the recipe of WPILib SysId 2026.2.2 to the last digit. Where
 nonsense, it refuses or warns, and says why.
 """
 
+from sim.core.advice import Action
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
 from sim.core.log import Log
@@ -75,6 +76,6 @@ def _type_from_name(log: Log) -> Doubt:
     """A warning that the type was taken from the name of the mechanism."""
     return Doubt(
         "type-from-name",
-        f"Fitted as of type {log.type}, as the log's mechanism is named {log.mechanism!r}. If "
-        "gravity does not act on it like that, add --type.",
+        f"Fitted as of type {log.type}, as the log's mechanism is named {log.mechanism!r}.",
+        action=Action("other-type"),
     )

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Mapping, Sequence
 
+from sim.core.advice import Action
 from sim.core.doubt import GAINS, Doubt
 from sim.core.units import Unit
 from sim.fit.open_loop_fallback import OpenLoopReplay
@@ -62,7 +63,7 @@ def warn_of_lags(window: float, lag: float) -> tuple[Doubt, ...]:
 
 
 def warn_of_misfit(
-    replay: OpenLoopReplay, gains_only: OpenLoopReplay, *, per: Unit, hint: str = ""
+    replay: OpenLoopReplay, gains_only: OpenLoopReplay, *, per: Unit, hint: Action | None = None
 ) -> tuple[Doubt, ...]:
     """A warning if a simulation differs from the log by more than its noise.
 
@@ -70,7 +71,7 @@ def warn_of_misfit(
         replay: replay of the fitted model, with its small effects.
         gains_only: replay without the small effects, which a feedforward does not have.
         per: the log's unit of position.
-        hint: a sentence that names a better type, or empty.
+        hint: a better type, or None.
     """
     excess, top_speed = gains_only.excess, gains_only.top_speed
     share = excess / top_speed if top_speed > 0.0 else 0.0
@@ -81,9 +82,9 @@ def warn_of_misfit(
                 "model-strays",
                 f"A simulation with these gains has a velocity error of {size}. A controller "
                 "would notice that. The errors above include it, but kS, kV and kA do not "
-                f"describe this log well. {hint}{' Otherwise r' if hint else 'R'}un `sysid "
-                "inspect`, then `sysid reconcile` to find the missing effect.",
+                "describe this log well.",
                 grave=share > FAR,
+                action=hint or Action("inspect-and-reconcile"),
                 gains=GAINS,
             ),
         )
@@ -93,8 +94,8 @@ def warn_of_misfit(
         Doubt(
             "small-misfit",
             f"A simulation with these gains has a velocity error of {size}. That is small, but "
-            "larger than the sensor noise. The errors above include it. `sysid reconcile` looks"
-            " for the cause.",
+            "larger than the sensor noise. The errors above include it.",
+            action=Action("look-for-cause"),
         ),
     )
 
@@ -122,6 +123,7 @@ def warn_of_strong_effects(parts: Sequence[Part], priors: Mapping[str, float]) -
             "strong-effect",
             "There is an effect in this log that kS, kV and kA do not describe: "
             f"{'; '.join(strong)}. It is larger than on a healthy robot. A feedforward with "
-            "these gains does not correct it. `sysid reconcile` checks what it is.",
+            "these gains does not correct it.",
+            action=Action("look-for-cause"),
         ),
     )

@@ -1,5 +1,6 @@
 """Suggest another mechanism type where gravity explains most of the residual."""
 
+from sim.core.advice import Action
 from sim.core.errors import NotIdentifiable
 from sim.core.log import Log
 from sim.core.units import find_unit
@@ -11,10 +12,7 @@ from sim.fit.open_loop_fallback import OpenLoopReplay, replay_open_loop
 from sim.fit.search import fit_tracking, make_fit_problem
 
 IMPROVED = 0.33  # [share of the simple model's RMS error] another type must be below it
-ACTS = {
-    "elevator": "a constant force acts in one direction",
-    "arm": "a force depends on its angle",
-}
+GRAVITY = ("elevator", "arm")  # types with a force that is constant, or depends on the angle
 
 
 def hint_gravity_type(
@@ -23,7 +21,7 @@ def hint_gravity_type(
     replay: OpenLoopReplay,
     *,
     type: str,  # noqa: A002 - the field's own word
-) -> str:
+) -> Action | None:
     """A hint where gravity would explain most of the residual of a simple model.
 
     Args:
@@ -33,20 +31,20 @@ def hint_gravity_type(
         type: the type with which it was fitted.
 
     Returns:
-        A sentence that names the type to try; empty if there is none.
+        The type to try; None if there is none.
     """
     if type != "simple" or not replay.has_misfit:
-        return ""
+        return None
     angular = find_unit(log.units).angular
     left = {
         name: _typical_velocity_error(log, problem, name)
-        for name in ACTS
+        for name in GRAVITY
         if angular or name != "arm"
     }
     best = min(left, key=lambda name: left[name])
     if not left[best] < IMPROVED * replay.rmse:
-        return ""
-    return f"Fit it with --type {best} if gravity acts on it: {ACTS[best]}."
+        return None
+    return Action("gravity-type", best)
 
 
 def _typical_velocity_error(log: Log, problem: PredictionErrorProblem, type: str) -> float:  # noqa: A002 - the field's own word

@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from sim.core.advice import Action
 from sim.core.errors import NotIdentifiable
 from sim.core.log import Log
 from sim.core.units import Unit, convert_gains, find_unit
@@ -41,7 +42,7 @@ def refuse_unidentifiable(
     *,
     log: Log,
     type: str,  # noqa: A002 - the field's own word
-    hint: str = "",
+    hint: Action | None = None,
 ) -> None:
     """Refuse gains that the log does not determine.
 
@@ -50,7 +51,7 @@ def refuse_unidentifiable(
         errors: gain -> one standard error, in SI.
         log: the log.
         type: ``simple``, ``elevator`` or ``arm``.
-        hint: advice that replaces the suggested test, or empty.
+        hint: advice that replaces the suggested test, or None.
 
     Raises:
         NotIdentifiable: the message names the gains and the test that would determine them.
@@ -80,13 +81,13 @@ def refuse_unidentifiable(
     )
 
 
-def refuse_unrelated(replay: OpenLoopReplay, *, log: Log, hint: str = "") -> None:
+def refuse_unrelated(replay: OpenLoopReplay, *, log: Log, hint: Action | None = None) -> None:
     """Refuse gains whose simulation explains too little of the log.
 
     Args:
         replay: open-loop replay of the fit.
         log: the log.
-        hint: advice that replaces that to inspect the log, or empty.
+        hint: advice that replaces that to inspect the log, or None.
 
     Raises:
         NotIdentifiable: R² of the velocity is below ``LEAST_R2``.
@@ -99,9 +100,7 @@ def refuse_unrelated(replay: OpenLoopReplay, *, log: Log, hint: str = "") -> Non
         "no gains describe this log: the velocity error of the best simulation is "
         f"{error}, with a top speed of {top_speed}",
         where=log.source,
-        advice=hint
-        or "Run `sysid inspect` to look for faults, check the type and the units, then run `sysid "
-        "reconcile` to find the missing effect.",
+        advice=hint or Action("inspect-and-reconcile", before="Check the type and the units."),
     )
 
 

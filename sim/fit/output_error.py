@@ -10,6 +10,7 @@ from itertools import product
 
 import numpy as np
 
+from sim.core.advice import Action
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, NotIdentifiable
 from sim.core.log import Array, Log, Run
@@ -86,7 +87,7 @@ def fit_output_error(log: Log, *, type: str) -> Fit:  # noqa: A002 - SysId's wor
         raise BadRequest(
             f"an arm's position must be an angle, and this log is in {per.name}",
             where=log.source,
-            advice="Add --units radians, rotations or degrees, or --type elevator.",
+            advice=Action("angle"),
         )
     _check_times(log)
     try:

@@ -19,6 +19,7 @@ import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 
+from sim.core.advice import Action
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
 from sim.fit.result import Fit
@@ -42,7 +43,7 @@ def pool_fits(fits: Mapping[str, Fit]) -> Fit:
         raise BadRequest(
             f"fits of types {', '.join(dict.fromkeys(one.type for one in fits.values()))} have no "
             "common gains",
-            advice="Add --type, so that all are fitted as the same type.",
+            advice=Action("same-type"),
         )
     if not others:
         return first

@@ -155,7 +155,7 @@ class Fit:
                 loop: {"kP": gains.kp, "kD": gains.kd}
                 for loop, gains in self.feedback(preset).items()
             },
-            "warnings": [{"code": d.code, "message": d.message} for d in self.list_doubts(preset)],
+            "warnings": [{"code": d.code, "message": d.text} for d in self.list_doubts(preset)],
             "small_effects": {
                 part.effect: part.to_json(find_unit(self.units)) for part in self.parts
             },

@@ -1,5 +1,6 @@
 """WPILib SysId's recipe from end to end (method ``sysid``)."""
 
+from sim.core.advice import Action
 from sim.core.errors import BadRequest, NotIdentifiable
 from sim.core.log import DIRECTIONS, FOUR_TESTS, Log
 from sim.core.units import find_unit
@@ -27,14 +28,13 @@ def fit_wpilib_sysid(log: Log, *, type: str, median: int = 1) -> Fit:  # noqa: A
         raise BadRequest(
             f"an arm's position must be an angle, and this log is in {per.name}",
             where=log.source,
-            advice="Add --units radians, rotations or degrees, or --type elevator.",
+            advice=Action("angle"),
         )
     try:
         prepared = prepare_rows(log, median=median)
         found = regress_acceleration(prepared.rows, type=type)
     except NotIdentifiable as refusal:
-        where = refusal.where or log.source
-        raise NotIdentifiable(refusal.what, where=where, advice=refusal.advice) from refusal
+        raise refusal.move(refusal.where or log.source) from refusal
     forward, reverse = (
         score_simulated_velocity(
             [prepared.raw[f"{kind}-{way}"] for kind in ("quasistatic", "dynamic")],

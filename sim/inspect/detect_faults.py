@@ -8,7 +8,7 @@ that explains more of it is kept.
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -77,7 +77,9 @@ class Inspection:
                 for damage in self.faults
             ],
             "clean": self.is_clean,
-            "doubts": [asdict(doubt) for doubt in self.doubts],
+            "doubts": [
+                {"code": one.code, "message": one.text, "grave": one.grave} for one in self.doubts
+            ],
         }
 
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from sim.core.advice import Action
 from sim.core.doubt import Doubt
 from sim.core.log import FOUR_TESTS, Log
 from sim.core.units import find_unit
@@ -53,7 +54,7 @@ class UnitError:
     """
 
     evidence: str
-    advice: str
+    advice: str | Action
     confidence: float
     runs: tuple[int, ...] = ()
     grave: bool = False
@@ -81,8 +82,11 @@ def find_unit_errors(features: LogFeatures) -> Iterator[UnitError]:
         elif said:
             yield UnitError(
                 f"The velocity is {ratio:.4g} times the slope of the position. {said}.",
-                "Make the conversion factors of position and velocity agree. Until then, if the "
-                f"position is right, add --velocity-scale {1.0 / ratio:.3g} or --ignore-velocity.",
+                Action(
+                    "velocity-scale",
+                    f"{1.0 / ratio:.3g}",
+                    before="Make the conversion factors of position and velocity agree.",
+                ),
                 confidence=0.95,
                 runs=(index,),
                 grave=True,
@@ -104,6 +108,8 @@ def doubt_units(log: Log) -> tuple[Doubt, ...]:
         if found is None:
             return doubt_scale(features)
     start = f"{log.source}: {found.evidence[:1].lower()}{found.evidence[1:]}"
+    if isinstance(found.advice, Action):
+        return (Doubt(CODE, start, grave=found.grave, action=found.advice, gains=SCALED),)
     return (Doubt(CODE, f"{start} {found.advice}", grave=found.grave, gains=SCALED),)
 
 
@@ -117,8 +123,8 @@ def doubt_scale(features: LogFeatures) -> tuple[Doubt, ...]:
             "scales-differ",
             f"The velocity is {usual:.3f} times the slope of the position in all runs: one of "
             "the two has a wrong conversion factor. kV and kA depend on the velocity. Move the "
-            "mechanism by a known distance, and check whether the position agrees. If it does, "
-            f"add --velocity-scale {1.0 / usual:.3g} or --ignore-velocity.",
+            "mechanism by a known distance, and check whether the position agrees.",
+            action=Action("velocity-scale", f"{1.0 / usual:.3g}"),
             gains=SCALED,
         ),
     )

@@ -199,8 +199,7 @@ def _readable(given: str) -> Iterator[tuple[Format, Path]]:
             try:
                 yield _reader(made, _head(str(made))), made
             except Refusal as refusal:
-                where = refusal.where.replace(str(made), given)
-                raise refusal.__class__(refusal.what, where=where, advice=refusal.advice) from None
+                raise refusal.move(refusal.where.replace(str(made), given)) from None
 
 
 def _name_source(log: Log, file: Path, given: str) -> Log:
@@ -219,8 +218,7 @@ def _name_file_in_refusals(given: str) -> Iterator[None]:
     except Refusal as refusal:
         if refusal.where.startswith((given, str(Path(given)))):
             raise
-        where = f"{given}, {refusal.where}" if refusal.where else given
-        raise refusal.__class__(refusal.what, where=where, advice=refusal.advice) from None
+        raise refusal.move(f"{given}, {refusal.where}" if refusal.where else given) from None
     except OSError as error:
         raise UnreadableFile(
             f"cannot be read ({error.strerror or error})", where=given, advice="Copy it again."

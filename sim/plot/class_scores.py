@@ -62,7 +62,7 @@ def plot_score_heatmap(
     table = np.array(shares, dtype=float)
     order = np.argsort(-np.nan_to_num(table).sum(axis=1), kind="stable")
     rows = min(len(students), NAMED)
-    figure, ((axes,),) = make_panels(1, 1, height=1.4 + 0.2 * rows)
+    figure, ((axes,),) = make_panels(1, 1, height=max(2.4, 1.4 + 0.2 * rows))
     drawn = axes.imshow(
         np.ma.masked_invalid(100 * table[order]), cmap="cividis", vmin=0, vmax=100, aspect="auto",
         interpolation="nearest",
@@ -74,7 +74,7 @@ def plot_score_heatmap(
         axes.set_yticks(range(len(students)), [students[place] for place in order])
     else:
         axes.set_ylabel(f"{len(students)} students, the best above", color=INK)
-    figure.colorbar(drawn, ax=axes, label="share of the points [%]")
+    figure.colorbar(drawn, ax=axes, label="points [%]")
     means = _means(table)
     alt = (
         "Each row is a student, and each column an exercise. The color shows the share of the "

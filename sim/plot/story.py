@@ -1,20 +1,12 @@
 """A reconcile story in pictures and a table."""
 
 from sim.core.units import find_unit
-from sim.plot.story_bars import plot_candidate_bars, plot_gap_by_round
 from sim.plot.story_gap import plot_residual_maps
-from sim.plot.story_runs import plot_overlays
 from sim.plot.table import Table
 from sim.reconcile.story import Story
 from sim.reconcile.story_text import describe_size, format_gap, format_parameter
 
-__all__ = [
-    "make_findings_table",
-    "plot_candidate_bars",
-    "plot_gap_by_round",
-    "plot_overlays",
-    "plot_residual_maps",
-]
+__all__ = ["make_findings_table", "plot_residual_maps"]
 
 
 def make_findings_table(story: Story) -> Table:

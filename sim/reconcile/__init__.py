@@ -31,6 +31,7 @@ from sim.reconcile.gains import estimate_gains, fit_without_effects
 from sim.reconcile.held_out import HeldOutLog
 from sim.reconcile.input_checks import check_logs
 from sim.reconcile.local_minimum import minimize_fully, scan_process_noise
+from sim.reconcile.model_variant import ModelVariants
 from sim.reconcile.recordings import Recordings
 from sim.reconcile.remarks import list_remarks, select_reported_rounds
 from sim.reconcile.residual_tests.summary import ResidualSummary
@@ -56,6 +57,7 @@ def reconcile(
     damages: Mapping[str, Sequence[DamagedInterval]] | None = None,
     effort: float = 1.0,
     progress: Callable[[str, float], None] = lambda _, __: None,
+    is_stopped: Callable[[], bool] = lambda: False,
 ) -> Story:
     """Compare logs with the model of their mechanism and name the effects that it lacks.
 
@@ -71,19 +73,19 @@ def reconcile(
         effort: [1] how many times ``SEARCH_BUDGET`` samples the search may simulate. Then it stops
             with the best model so far, and the headline says so.
         progress: called with a step's description and the share done [1].
+        is_stopped: asked now and then; if True, the search stops as at the end of its effort.
 
     Raises:
         BadRequest: an unknown type, logs that do not fit together, or a travel far too short.
         NotIdentifiable: nothing moves, or too little was recorded; the message says what to record.
 
     Examples:
-        >>> import numpy as np
+        >>> from numpy.random import default_rng
         >>> from sim.bench.mechanisms import MECHANISMS
         >>> from sim.bench.routine import Routine
         >>> from sim.bench.simulate import simulate
         >>> robot = MECHANISMS["drivetrain"].hide("velocity-filter", 2.0)
-        >>> routine = Routine(ramp=2.0, step=5.0, timeout=2.0)
-        >>> log = simulate(robot, routine, rng=np.random.default_rng(0))
+        >>> log = simulate(robot, Routine(ramp=2.0, step=5.0, timeout=2.0), rng=default_rng(0))
         >>> story = reconcile(log, type="simple")
         >>> story.findings[0].effect
         'velocity-filter'
@@ -94,11 +96,11 @@ def reconcile(
     recordings = Recordings(log, validation, held_out, type=type, damage=damage)
     check_logs(recordings, travel=travel)
     problem = recordings.make_problem()
-    folds = _make_folds(problem, recordings)
+    folds, budget = _make_folds(problem, recordings), effort * SEARCH_BUDGET
     shown = HeldOutLog.choose(recordings)
     progress("base model", 0.05)
     base = _fit_base_model(problem, recordings)
-    data = SelectionData(recordings.fitted_runs, problem, folds, progress, effort * SEARCH_BUDGET)
+    data = SelectionData(recordings.fitted_runs, problem, folds, progress, budget, is_stopped)
     rounds = select_effects(data, base)
     complete = not data.is_budget_spent()  # before the refits that follow
     rounds = remove_needless_effects(data, rounds)
@@ -156,6 +158,7 @@ def _make_story(
         compared=shown.compared_samples,
         judged=judged,
         complete=complete,
+        variants=ModelVariants(recordings, problem, reported[-1].candidate, shown),
     )  # fmt: skip
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.core.errors import NotIdentifiable
-from sim.core.log import Log
+from sim.core.log import Array, Log
 from sim.core.units import find_unit
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
@@ -146,14 +146,18 @@ class HeldOutLog:
         errors = compute_open_loop_errors(self.problem, point, nuisance)
         return compute_rms_gap(errors).velocity / find_unit(self.log.units).si
 
+    def simulate(self, point: Estimate) -> tuple[float, tuple[Array, ...]]:
+        """[log's unit/s] gap of a model, and per run (n, 2) its position and velocity [SI]."""
+        nuisance = self._initial_nuisance(point)
+        model = point.structure.model(point.values)
+        track = self.problem.simulate(model, nuisance).sensor_readings
+        runs = tuple(track[first:last] for first, last in pairwise(self.problem.run_edges.tolist()))
+        return self._gap(point, nuisance), runs
+
     def _chapter(self, one: SelectionRound) -> Chapter:
         point = one.candidate.estimate
         model = point.structure.model(point.values)
-        nuisance = self._initial_nuisance(point)
-        gap = self._gap(point, nuisance)
-        track = self.problem.simulate(model, nuisance).sensor_readings
-        runs = tuple(track[first:last] for first, last in pairwise(self.problem.run_edges.tolist()))
-        return Chapter(one.candidate.effect, model, one.tried, gap, runs)
+        return Chapter(one.candidate.effect, model, one.tried, *self.simulate(point))
 
     def _initial_nuisance(self, point: Estimate) -> RunNuisance:
         """Initial values of its runs: the first samples, and estimated backlash phases."""
@@ -182,4 +186,4 @@ def _describe_repeats(recordings: Recordings) -> dict[str, str]:
 def _collect_doubts(recordings: Recordings) -> tuple[str, ...]:
     """Doubts from reading the logs, each once; those of the least used log first."""
     logs = [recordings.logs_by_name[name] for name in LOG_USES if name in recordings.logs_by_name]
-    return tuple(dict.fromkeys(doubt.message for log in logs for doubt in log.doubts))
+    return tuple(dict.fromkeys(doubt.text for log in logs for doubt in log.doubts))

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from sim.core.advice import Action
 from sim.core.errors import BadRequest, NotIdentifiable
 from sim.core.log import Log
 from sim.core.units import Unit, find_unit
@@ -36,7 +37,7 @@ def check_logs(recordings: Recordings, *, travel: float | None) -> None:
         raise BadRequest(
             f"an arm's position must be an angle, and this log is in {log.units}",
             where=log.source,
-            advice="Add --units radians, rotations or degrees, or --type elevator.",
+            advice=Action("angle"),
         )
     _check_voltage(log)
     guess = recordings.initial_gains

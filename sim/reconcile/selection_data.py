@@ -20,6 +20,7 @@ class SelectionData:
         folds: the cross-validation folds.
         progress: called with a step's description and the share done [1].
         budget: [samples] that may be simulated; after that the best model so far is taken.
+        is_stopped: whether the user has stopped the search, which then ends in the same way.
     """
 
     log: Log
@@ -27,10 +28,11 @@ class SelectionData:
     folds: Sequence[Fold]
     progress: Callable[[str, float], None] = lambda _, __: None
     budget: float = math.inf
+    is_stopped: Callable[[], bool] = lambda: False
 
     def is_budget_spent(self) -> bool:
         """Whether no further search may begin."""
-        return self.problem.simulated.count > self.budget
+        return self.problem.simulated.count > self.budget or self.is_stopped()
 
     def voltage_residual(self, point: Estimate) -> VoltageResidual:
         """The voltage residual of the log under an estimate's base model."""

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from numpy import bool_
 from numpy.typing import NDArray
@@ -12,6 +12,9 @@ from sim.core.log import Array, Log
 from sim.gap.place import Place
 from sim.physics.model import Model
 from sim.reconcile.probability import JudgedEffect
+
+if TYPE_CHECKING:
+    from sim.reconcile.model_variant import ModelVariants
 
 NOTHING_MISSING, EXPLAINED = "nothing-missing", "explained"
 AMBIGUOUS, UNEXPLAINED = "ambiguous", "unexplained"
@@ -126,7 +129,8 @@ class Story:
             those of ``sysid fit``.
         gains_without: the same gains in a model without the effects.
         judged: effects of the last model that may be findings, and how likely each is.
-        complete: whether every effect was tried; False if the search was stopped at its budget.
+        complete: whether every effect was tried; False if the search was stopped.
+        variants: refits the last model with only some of its effects; None for a story by hand.
     """
 
     verdict: str
@@ -146,6 +150,7 @@ class Story:
     compared: tuple[NDArray[bool_], ...] = ()
     judged: tuple[JudgedEffect, ...] = ()
     complete: bool = True
+    variants: "ModelVariants | None" = None
 
     @property
     def model(self) -> Model:

@@ -12,6 +12,7 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
+from sim.core.advice import Action
 from sim.core.errors import BadRequest
 from sim.core.units import find_unit
 from sim.feedback import PRESETS, Feedback, Preset
@@ -153,7 +154,7 @@ def convert_units(found: Fit, unit: str, *, radius: float | None) -> Conversion:
     if radius is None or not (math.isfinite(radius) and radius > 0.0):
         raise BadRequest(
             f"no radius between {given.name} and {wanted.name}",
-            advice="Add --radius: the radius of the wheel or drum, in meters.",
+            advice=Action("radius"),
         )
     between = radius if wanted.angular else 1.0 / radius  # [m/rad], or its inverse
     return Conversion(name, wanted.si * between / given.si, wanted.symbol)

@@ -41,9 +41,9 @@ def show_fit(
     doubts = found.doubts if tried else found.list_doubts(preset)
     for doubt in doubts:
         if doubt.grave:
-            console.print(f"wrong: {doubt.message}", style="bold")
+            console.print(f"wrong: {doubt.text}", style="bold")
         elif doubt.code in SHOWN_FIRST:
-            console.print(f"warning: {doubt.message}", style="bold")
+            console.print(f"warning: {doubt.text}", style="bold")
     console.print(f"Verdict: {write_gain_verdict(found, log)}", style="bold")
     console.print(f"{title}: {found.type} mechanism in {per.name}, method {found.method}")
     rows = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
@@ -70,7 +70,7 @@ def show_fit(
         console.print(note)
     for doubt in doubts:
         if not doubt.grave and doubt.code not in SHOWN_FIRST:
-            console.print(f"warning: {doubt.message}", style="bold")
+            console.print(f"warning: {doubt.text}", style="bold")
 
 
 def format_gains(found: Fit) -> list[tuple[str, str, str, str]]:

@@ -1,6 +1,6 @@
 """A sentence about which gains can be used, their errors, and what to record for the others.
 
-kV usable (± 0.3 %), kS usable (± 0.01 V), kA not usable (± 40 %): add a dynamic test.
+kS usable (± 0.01 V), kV usable (± 0.3 %), kA not usable (± 40 %): add a dynamic test.
 """
 
 import math
@@ -35,7 +35,7 @@ def write_gain_verdict(found: Fit, log: Log | None = None) -> str:
         return "Do not use these gains: something is wrong."
     usable: list[str] = []
     others: dict[str, list[str]] = {}
-    for name in sorted(found.gains, key=lambda name: name != "kV"):  # kV first
+    for name in found.gains:
         error = _format_error(name, found.gains[name], found.errors.get(name, math.nan))
         label = "angle" if name == "offset_rad" else name
         if not _is_usable(name, found.gains[name], found.errors.get(name, math.nan)):
@@ -49,6 +49,22 @@ def write_gain_verdict(found: Fit, log: Log | None = None) -> str:
         ", ".join(several) + (f": {what}" if what else "") for what, several in others.items()
     ]
     return "; ".join([", ".join(usable), *groups] if usable else groups) + "."
+
+
+def judge_gains(found: Fit) -> str:
+    """The verdict in a word or two, for a heading."""
+    sure = [
+        name
+        for name, value in found.gains.items()
+        if _is_usable(name, value, found.errors.get(name, math.nan))
+    ]
+    if any(doubt.grave for doubt in found.doubts):
+        return "Do not use"
+    if any(name in doubt.gains for doubt in found.doubts for name in sure):
+        return "Check first"
+    return (
+        "Not usable" if not sure else "Usable" if len(sure) == len(found.gains) else "Partly usable"
+    )
 
 
 def list_gain_advice(found: Fit, log: Log) -> tuple[str, ...]:

@@ -45,10 +45,10 @@ def advise_next(log: Log, *, found: Fit | None, inspection: Inspection, last: Se
     if missing:
         return f"{_enumerate(missing)} {'is' if len(missing) == 1 else 'are'} missing."
     if found is None:
-        return "All four tests are there, but they give no gains. Run `sysid inspect` on the log."
+        return "All four tests are there, but they give no gains. Look for faults in the log."
     grave = [doubt for doubt in found.doubts if doubt.grave]
     if grave:
-        return grave[0].message
+        return grave[0].text
     advice = list_gain_advice(found, log)
     return f"{_capital('; '.join(advice))}." if advice else ENOUGH
 
@@ -78,7 +78,7 @@ def _judge_run(index: int, log: Log, *, found: Fit | None, inspection: Inspectio
         )
     for doubt in inspection.doubts:
         if doubt.code in TOO_SHORT and f"{run.test} " in doubt.message:
-            return f"Repeat {run.test}: {doubt.message}"
+            return f"Repeat {run.test}: {doubt.text}"
     return ""
 
 

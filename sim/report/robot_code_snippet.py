@@ -183,7 +183,7 @@ def refuse_impossible_gains(found: Fit) -> None:
     for doubt in found.doubts:
         if doubt.grave:
             raise BadRequest(
-                f"no code is printed, because the gains cannot be right: {doubt.message}",
+                f"no code is printed, because the gains cannot be right: {doubt.text}",
                 advice="Fix this first, then fit again.",
             )
     for gain, value in found.gains.items():

@@ -26,13 +26,14 @@ from sim.cli.options import (
     reading_options,
     refuse_overwriting,
 )
+from sim.core.leave_out import LeftOutPart, leave_out
 from sim.core.vocabulary import METHODS
 from sim.feedback import PRESETS, Feedback
 from sim.support.command_line import DONE, NOT_RIGHT
 
 if TYPE_CHECKING:
     from sim.cli.fit.inertia import Turning
-    from sim.cli.fit.parts import Parts
+    from sim.cli.fit.parts import Parts, PooledParts
     from sim.core.log import Log
     from sim.fit import Fit
     from sim.fit.feedback_trial import FeedbackTrial, OwnGains
@@ -94,6 +95,14 @@ feedback_options = combine_options(
 @click.option(
     "--load", type=float, help="Moved mass [kg] or moment of inertia [kg·m²], for --driven-by."
 )
+@click.option(
+    "--leave-out",
+    "left_out",
+    metavar="TEST[:FROM-TO]",
+    multiple=True,
+    callback=lambda _, __, texts: tuple(map(LeftOutPart.parse, texts)),
+    help="Leave out a test, or a part of it in seconds: dynamic-forward:5.5-6; may be repeated.",
+)
 @turning_options
 @paste_options
 @feedback_options
@@ -112,6 +121,7 @@ def fit(  # noqa: PLR0917 - click passes options by name
     ratio: float | None,
     radius: float,
     load: float | None,
+    left_out: tuple[LeftOutPart, ...],
     turning: "Turning | None",
     paste: str | None,
     season: str,
@@ -125,9 +135,9 @@ def fit(  # noqa: PLR0917 - click passes options by name
 ) -> int:
     """Find kS, kV, kA (and kG) in the logs of one mechanism.
 
-    FILES are .wpilog, .csv, or SysId's old .json. Files with one test each are joined. If there are
-    several sides of a drivetrain, modules or recordings, each is fitted, and the gains are compared
-    and averaged. Forward and reverse are compared, too, but not with --json or --paste.
+    FILES are .wpilog, .csv, or SysId's old .json. Files with one test each are joined. Several
+    sides, modules or recordings are fitted one by one, and the gains are compared and averaged.
+    Forward and reverse are compared, too, but not with --json or --paste.
 
     For example: sysid fit drive.wpilog --html drive.html
     """
@@ -137,20 +147,20 @@ def fit(  # noqa: PLR0917 - click passes options by name
 
     own = _read_own_gains(ctx, loop, kp=own_kp, kd=own_kd)
     built = read_motor_parts(driven_by, count=count, ratio=ratio, radius=radius, load=load)
-    parts = reader.read_parts(files)
+    parts = leave_out(reader.read_parts(files), left_out)
     log = join_parts(parts)
     find = partial(find_gains, type=reader.type or "", method=method, median=median)
     pooled = fit_parts(parts, find, files=len(files))
-    found, notes = check_against_physics(pooled.found, log, parts=built, notes=pooled.notes)
+    notes = (*pooled.notes, *(f"Left out: {part}." for part in left_out))
+    found, notes = check_against_physics(pooled.found, log, parts=built, notes=notes)
     if not (as_json or paste):
-        found, more = compare_directions_alone(found, log, include_long=html is not None)
-        notes = (*more, *notes)
+        found, notes = compare_directions_alone(found, log, notes, include_long=html is not None)
     found, notes, turned = add_inertia(found, notes, log, turning, method=method)
     if len(files) == 1 and (said := describe_next_recording(found)):
         notes = (*notes, said)
     tried = try_feedback_gains(found := found.in_log_units(), PRESETS[preset], own=own)
     found = replace(found, doubts=(*found.doubts, *warn_of_bad_suggestions(found, tried)))
-    output = _FitOutput(files, found, log, preset, tried, notes, pooled.to_json(), turned)
+    output = _FitOutput(files, found, log, preset, tried, notes, pooled, turned)
     _write_files(output, html=html, plot=plot, wpilog=wpilog, parts=parts)
     return output.echo(as_json=as_json, paste=paste, season=int(season))
 
@@ -165,7 +175,7 @@ class _FitOutput:
     preset: str
     tried: "tuple[FeedbackTrial, ...]"
     notes: tuple[str, ...]
-    parts: dict[str, dict[str, object]]
+    pooled: "PooledParts"
     turned: "MomentOfInertia | None" = None
 
     def echo(self, *, as_json: bool, paste: str | None, season: int) -> int:
@@ -190,7 +200,8 @@ class _FitOutput:
         data = self.found.to_json(PRESETS[self.preset])
         data |= {"own_feedback": own[0]} if own else {}
         data |= {"moment_of_inertia": self.turned.to_json()} if self.turned else {}
-        return data | ({"parts": self.parts} if self.parts else {})
+        parts = self.pooled.to_json()
+        return data | ({"parts": parts} if parts else {})
 
     def print_result(self) -> None:
         """Print the fit on the terminal."""
@@ -212,18 +223,29 @@ def _write_files(
         from sim.cli.fit.wpilog import write_replay  # noqa: PLC0415 - only with --wpilog
 
         write_replay(output.found, parts, wpilog)
-    if html is None and plot is None:
-        return
-    from sim.report import Report, write_page, write_picture  # noqa: PLC0415 - draws
+    if html is not None:
+        _write_page(output, html, parts)
+    if plot is not None:
+        from sim.report import write_picture  # noqa: PLC0415 - draws
+
+        write_picture(output.found, output.log, plot, tried=output.tried)
+
+
+def _write_page(output: _FitOutput, html: Path, parts: "Parts") -> None:
+    """Write the page of ``sysid open`` as one file."""
+    from sim.cli.open.saved_page import save_page  # noqa: PLC0415 - once it is needed
+    from sim.cli.open.session import OpenLog  # noqa: PLC0415 - the same
+    from sim.fit.feedback_trial import OWN, format_gain_pair  # noqa: PLC0415 - the same
 
     title = ", ".join(file.name for file in output.files)  # a page travels; folders are private
-    report = Report(
-        title, output.found, output.log, PRESETS[output.preset], output.tried, output.notes
-    )
-    if html is not None:
-        write_page(report, html)
-    if plot is not None:
-        write_picture(report, plot)
+    one = OpenLog(1, title, output.files[0], finished=parts)
+    trials = [
+        f"With {'your own' if trial.owner == OWN else 'the suggested'} gains "
+        f"({format_gain_pair(trial.gains)}), the {trial.loop} loop {trial.verdict.description}."
+        for trial in output.tried
+    ]
+    one.keep_fit(replace(output.pooled, found=output.found, notes=(*output.notes, *trials)))
+    save_page(one, html)
 
 
 def _refuse_conflicting_options(ctx: click.Context) -> None:

@@ -144,7 +144,7 @@ def _add_unit_advice(refusal: Refusal, log: "Log") -> Refusal:
     """The refusal; if the log has a doubt about its units or velocity, with that advice."""
     for doubt in log.doubts:
         if doubt.code in {"unit-error", "contradicting-units"}:
-            advice = doubt.message.removeprefix(f"{log.source}: ")
+            advice = doubt.text.removeprefix(f"{log.source}: ")
             return refusal.__class__(
                 refusal.what, where=refusal.where, advice=f"{advice[:1].upper()}{advice[1:]}"
             )

@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from sim.fit import Fit
 
 LANGUAGES = ("java", "python")  # WPILib's feedforward, in the robot program
+SEASONS = ("2026", "2027")
 CONTROLLERS = ("phoenix6", "revlib", "yagsl")  # gains in a vendor's units, in Java
 
 paste_options = combine_options(
@@ -20,7 +21,7 @@ paste_options = combine_options(
     ),
     click.option(
         "--season",
-        type=click.Choice(("2026", "2027")),
+        type=click.Choice(SEASONS),
         default="2026",
         show_default=True,
         help="WPILib season, for --paste.",
@@ -41,13 +42,29 @@ def make_paste_text(found: "Fit", target: str, *, season: int) -> str:
     Raises:
         BadRequest: no code can be written for these gains.
     """
+    ctx = click.get_current_context()
+    given = ctx.get_parameter_source("radius") is not click.core.ParameterSource.DEFAULT
+    return write_snippet(
+        found, target, season=season, radius=ctx.params["radius"] if given else None
+    )
+
+
+def write_snippet(found: "Fit", target: str, *, season: int, radius: float | None) -> str:
+    """The code for one of ``LANGUAGES`` or ``CONTROLLERS``.
+
+    Args:
+        found: the fit, in the unit of its log.
+        target: one of ``LANGUAGES`` or ``CONTROLLERS``.
+        season: 2026 or 2027.
+        radius: radius of wheel or drum [m], which some controllers need.
+
+    Raises:
+        BadRequest: no code can be written for these gains.
+    """
     if target in LANGUAGES:
-        from sim.report.robot_code_snippet import write_robot_code  # noqa: PLC0415 - only with --paste
+        from sim.report.robot_code_snippet import write_robot_code  # noqa: PLC0415 - once needed
 
         return write_robot_code(found, language=target, season=season)
     from sim.report.controller_snippet import write_controller_code  # noqa: PLC0415 - the same
 
-    ctx = click.get_current_context()
-    given = ctx.get_parameter_source("radius") is not click.core.ParameterSource.DEFAULT
-    radius = ctx.params["radius"] if given else None
     return write_controller_code(found, target=target, radius=radius, season=season)

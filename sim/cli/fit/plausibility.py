@@ -65,22 +65,23 @@ def check_against_physics(
 
 
 def compare_directions_alone(
-    found: "Fit", log: "Log", *, include_long: bool
+    found: "Fit", log: "Log", notes: tuple[str, ...] = (), *, include_long: bool
 ) -> "tuple[Fit, tuple[str, ...]]":
     """The fit, with a doubt if forward and reverse runs disagree when fitted alone; and notes.
 
     Args:
         found: the fit; only fits by simulation are compared.
         log: what it was fitted to.
+        notes: sentences about other checks.
         include_long: also compare the directions of a log of more than 20 000 samples.
     """
     from sim.fit.physics import compare_directions  # noqa: PLC0415 - --help must not wait for it
 
     if found.method != METHODS[0]:
-        return found, ()
+        return found, notes
     if include_long or sum(map(len, log.runs)) <= LONG:
-        return _add_doubts(found, *compare_directions(log, found.type)), ()
-    return found, ("Forward and reverse were not compared: this log is long. --html does it.",)
+        return _add_doubts(found, *compare_directions(log, found.type)), notes
+    return found, ("Forward and reverse were not compared, because this log is long.", *notes)
 
 
 def _add_doubts(found: "Fit", *doubts: "Doubt", first: bool = False) -> "Fit":

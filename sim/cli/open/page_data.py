@@ -10,8 +10,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from sim.cli.fit.paste import SEASONS, write_snippet
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, Refusal
+from sim.core.leave_out import LeftOutPart, leave_out
 from sim.core.units import find_unit
 from sim.io.entries.entry import NUMBERS, STRING
 
@@ -21,11 +23,19 @@ if TYPE_CHECKING:
     from sim.fit import Fit
     from sim.inspect.detect_faults import Inspection
     from sim.io.entries.entry import Entry
+    from sim.reconcile.model_variant import ModelVariant
 
 SIGNALS = ("time", "voltage", "position", "velocity")
 MOST_ENTRIES = 400  # entries listed to choose from
 PICTURE = 120  # [points] of an entry's small plot
 LONGEST_UNIT = 40  # [characters] longer metadata is not a unit
+MEANS = {
+    "kS": "friction: the volts before the mechanism moves",
+    "kV": "the volts for a steady speed, for each unit of speed",
+    "kA": "the volts for acceleration, for each unit of acceleration",
+    "kG": "gravity: the volts that hold it where gravity pulls most",
+    "offset_rad": "what to add to the sensor's angle, to count from horizontal",
+}
 LAGS = 1e-5  # [s] a shorter lag is shown as 0
 FEWEST = 4  # [samples] shorter runs are not simulated
 
@@ -101,43 +111,62 @@ def describe_faults(found: "Inspection", one: "OpenLog") -> dict[str, Any]:
     return {"faults": data["faults"], "doubts": _doubts(found.doubts, one), "clean": data["clean"]}
 
 
-def describe_fit(one: "OpenLog", reading: "Reading") -> dict[str, Any]:
+def describe_fit(
+    one: "OpenLog", reading: "Reading", chosen: "ModelVariant | None" = None
+) -> dict[str, Any]:
     """The gains with verdict and doubts, and the simulated initial state of each run.
+
+    Args:
+        one: the log.
+        reading: how to read it.
+        chosen: a model with effects, whose gains and simulated velocities are shown instead.
 
     Raises:
         Refusal: the log cannot be read or fitted.
     """
-    from sim.report.gain_verdicts import write_gain_verdict  # noqa: PLC0415 - only for people
-    from sim.report.rows import make_gain_rows  # noqa: PLC0415 - the same
+    from sim.report.gain_verdicts import judge_gains, write_gain_verdict  # noqa: PLC0415 - only for people
 
     pooled, log = one.fit(reading), one.combine_runs(reading)
-    found = pooled.found.in_log_units()
+    found = _apply_model(pooled.found.in_log_units(), chosen)
     gains = [
         {
             "name": name,
             "value": value,
             "error": _finite(found.errors.get(name, math.nan)),
-            "error_text": row.error,
-            "unit": row.unit,
-            "means": row.means,
+            "unit": found.format_gain_unit(name),
+            "means": MEANS[name],
         }
-        for (name, value), row in zip(found.gains.items(), make_gain_rows(found), strict=True)
+        for name, value in found.gains.items()
     ]
     return {
         "type": found.type,
         "gains": gains,
+        "word": judge_gains(found),
         "verdict": write_gain_verdict(found, log),
         "doubts": _doubts(found.list_doubts(), one),
-        "notes": list(pooled.notes),
-        "parts": sorted(part.effect for part in found.parts),
+        "notes": [] if chosen else list(pooled.notes),
+        "tracks": _list_tracks(chosen, log) if chosen else None,
+        "parts": [] if chosen else sorted(part.effect for part in found.parts),
         "lag": found.position_delay if found.position_delay > LAGS else 0.0,
         "window": max(2.0 * (found.velocity_delay - found.position_delay), 0.0),
         "r2": _finite(found.simulated_velocity_r2),
         "feedback": {
             loop: {"kP": gains.kp, "kD": gains.kd} for loop, gains in found.feedback().items()
         },
-        **_describe_starts(found, log),
+        **({} if chosen else _describe_starts(found, log)),
     }
+
+
+def _list_tracks(chosen: "ModelVariant", log: "Log") -> list[list[float]]:
+    """The simulated velocity [SI] of each run; empty if motors were averaged."""
+    tracks = [run[:, 1].tolist() for run in chosen.tracks]
+    return tracks if list(map(len, tracks)) == list(map(len, log.runs)) else []
+
+
+def _apply_model(found: "Fit", chosen: "ModelVariant | None") -> "Fit":
+    from sim.cli.reconcile import replace_gains  # noqa: PLC0415 - once it is needed
+
+    return found if chosen is None else replace_gains(found, chosen.gains, chosen.parts)
 
 
 def describe_directions(one: "OpenLog", reading: "Reading") -> dict[str, Any]:
@@ -148,8 +177,9 @@ def describe_directions(one: "OpenLog", reading: "Reading") -> dict[str, Any]:
     """
     from sim.cli.fit.plausibility import compare_directions_alone  # noqa: PLC0415 - once it is needed
 
-    found = one.fit(reading).found
-    doubted, notes = compare_directions_alone(found, one.combine_runs(reading), include_long=False)
+    found, log = one.fit(reading).found, one.combine_runs(reading)
+    log = leave_out({"": log}, map(LeftOutPart.parse, reading.left_out))[""]
+    doubted, notes = compare_directions_alone(found, log, include_long=False)
     more = [doubt for doubt in doubted.doubts if doubt not in found.doubts]
     return {"doubts": _doubts(more, one), "notes": list(notes)}
 
@@ -182,27 +212,36 @@ def _describe_starts(found: "Fit", log: "Log") -> dict[str, Any]:
     return {"starts": starts, "noise": noise}
 
 
-def write_code(one: "OpenLog", reading: "Reading", query: Mapping[str, str]) -> dict[str, str]:
+def write_code(
+    one: "OpenLog",
+    reading: "Reading",
+    query: Mapping[str, str],
+    chosen: "ModelVariant | None" = None,
+) -> dict[str, str]:
     """Robot code for the gains of a log, or for values that the user set with the sliders.
+
+    Args:
+        one: the log.
+        reading: how to read it.
+        query: language or motor controller, season, radius, and gains that were set by hand.
+        chosen: a model with effects, whose gains are written instead.
 
     Raises:
         Refusal: the log cannot be fitted, or its gains cannot be written as code.
     """
-    from sim.report.robot_code_snippet import LANGUAGES, SEASONS, write_robot_code  # noqa: PLC0415 - once needed
-
     language, season = query.get("language", "java"), query.get("season", "2026")
-    if language not in LANGUAGES or season not in map(str, SEASONS):
-        raise BadRequest("there is no such language or season", advice="Choose java and 2026.")
-    found = one.fit(reading).found.in_log_units()
+    if season not in SEASONS:
+        raise BadRequest("there is no such season", advice="Choose 2026.")
+    found = _apply_model(one.fit(reading).found.in_log_units(), chosen)
     moved = {name: float(query[name]) for name in found.gains if _is_number(query.get(name, ""))}
     errors = {name: error for name, error in found.errors.items() if name not in moved}
     # A value set by hand has no standard error
     found = replace(found, gains={**found.gains, **moved}, errors=errors)
-    code = write_robot_code(found, language=language, season=int(season))
+    radius = float(query["radius"]) if _is_number(query.get("radius", "")) else None
+    code = write_snippet(found, language, season=int(season), radius=radius)
     if moved:
-        code = (
-            f"{LANGUAGES[language].comment} Moved by hand, not measured: {', '.join(moved)}\n{code}"
-        )
+        comment = "#" if language == "python" else "//"
+        code = f"{comment} Moved by hand, not measured: {', '.join(moved)}\n{code}"
     return {"code": code}
 
 
@@ -212,24 +251,6 @@ def _is_number(text: str) -> bool:
         return math.isfinite(float(text))
     except ValueError:
         return False
-
-
-def write_report(one: "OpenLog", reading: "Reading") -> str:
-    """The page that ``sysid fit --html`` writes.
-
-    Raises:
-        Refusal: the log cannot be fitted.
-    """
-    from sim.feedback import PRESETS  # noqa: PLC0415 - once it is needed
-    from sim.fit.feedback_trial import try_feedback_gains  # noqa: PLC0415 - the same
-    from sim.report import Report, render_page  # noqa: PLC0415 - draws
-
-    pooled, preset = one.fit(reading), PRESETS["default"]
-    found = pooled.found.in_log_units()
-    tried = try_feedback_gains(found, preset)
-    return render_page(
-        Report(one.name, found, one.combine_runs(reading), preset, tried, pooled.notes)
-    )
 
 
 def describe_entries(entries: "Sequence[Entry]") -> list[dict[str, Any]]:
@@ -262,19 +283,29 @@ def describe_refusal(refusal: Refusal, folder: str) -> dict[str, str]:
     where = refusal.where.partition(folder)[2] or refusal.where
     place = where.replace("\\", "/").rpartition("/")[2]
     kind = type(refusal).__name__
-    return {"what": refusal.what, "where": place, "advice": refusal.advice, "kind": kind}
+    advice = refusal.action.on_page if refusal.action else refusal.advice
+    return {"what": refusal.what, "where": place, "advice": advice, "kind": kind}
 
 
 def _doubts(doubts: Sequence[Doubt], one: "OpenLog") -> list[dict[str, Any]]:
     return [
-        {"code": doubt.code, "message": _without_path(doubt.message, one), "grave": doubt.grave}
+        {
+            "message": _without_path(doubt.message, one),
+            "grave": doubt.grave,
+            "advice": doubt.action.on_page if doubt.action else "",
+            "type": doubt.action.argument
+            if doubt.action and doubt.action.name == "gravity-type"
+            else "",
+        }
         for doubt in doubts
     ]
 
 
 def _without_path(text: str, one: "OpenLog") -> str:
-    """A message in which the file's path is replaced by the name that the page shows."""
-    return text.replace(str(one.path), one.name)
+    """A message without the file's path: the page shows its name."""
+    short = text.removeprefix(f"{one.path}: ")
+    start = short[:1].upper() if short != text else short[:1]
+    return f"{start}{short[1:]}".replace(str(one.path), one.name)
 
 
 def _finite(value: float) -> float | None:

@@ -4,13 +4,14 @@ import math
 import threading
 from typing import TYPE_CHECKING, Any
 
-from sim.core.errors import Refusal
+from sim.core.errors import BadRequest, Refusal
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Collection, Mapping
 
     from sim.core.log import Log
     from sim.reconcile import Story
+    from sim.reconcile.model_variant import ModelVariant
 
 PLACES = 5  # places listed where the base model's residual is largest
 
@@ -19,16 +20,26 @@ class ReconcileJob:
     """One search, in a thread of its own.
 
     Args:
-        read: reads the log.
+        read: reads the logs: ``log``, and ``validation`` and ``held_out`` if they are given.
         name: name of its file, as the page shows it.
         type: type of the mechanism; None takes the one in the file.
+        effort: [1] as of ``reconcile``.
     """
 
-    def __init__(self, read: "Callable[[], Log]", *, name: str, type: str | None) -> None:  # noqa: A002 - the field's own word
-        self._read, self._name, self._type = read, name, type
+    def __init__(
+        self,
+        read: "Callable[[], Mapping[str, Log]]",
+        *,
+        name: str,
+        type: str | None,  # noqa: A002 - the field's own word
+        effort: float,
+    ) -> None:
+        self._read, self._name, self._type, self._effort = read, name, type, effort
         self._words, self._share = "looking for damage", 0.0
-        self._story: dict[str, Any] | None = None
+        self._said: set[str] = set()  # warnings about the logs, which the page shows anyhow
+        self._stopped = threading.Event()
         self._refusal: Refusal | None = None
+        self.story: Story | None = None
         threading.Thread(target=self._run, daemon=True).start()
 
     def to_json(self) -> dict[str, Any]:
@@ -39,7 +50,22 @@ class ReconcileJob:
         """
         if self._refusal is not None:
             raise self._refusal
-        return {"words": self._words, "share": self._share, "story": self._story}
+        story = None if self.story is None else describe_story(self.story, self._said)
+        return {"words": self._words, "share": self._share, "story": story}
+
+    def stop(self) -> None:
+        """Let the search end soon, with the best model so far."""
+        self._stopped.set()
+
+    def refit(self, effects: "Collection[str]") -> "ModelVariant":
+        """The model of the story with some of its effects.
+
+        Raises:
+            BadRequest: the search has not ended.
+        """
+        if self.story is None or self.story.variants is None:
+            raise BadRequest("the search has not ended", advice="Wait for it, or stop it.")
+        return self.story.variants.refit(effects)
 
     def _run(self) -> None:
         """Run the search; an error is reported when the page asks for its progress."""
@@ -47,14 +73,20 @@ class ReconcileJob:
         from sim.reconcile import reconcile  # noqa: PLC0415 - the same
 
         try:
-            log = self._read()
-            story = reconcile(
+            logs = self._read()
+            self._said = {doubt.text for log in logs.values() for doubt in log.doubts}
+            damages = {name: inspect_damage(log) for name, log in logs.items()}
+            log = logs["log"]
+            self.story = reconcile(
                 log,
+                validation=logs.get("validation"),
+                held_out=logs.get("held_out"),
                 type=self._type or log.type or "simple",
-                damages={"log": inspect_damage(log)},
+                damages=damages,
+                effort=self._effort,
                 progress=self._note,
+                is_stopped=self._stopped.is_set,
             )
-            self._story = describe_story(story)
         except Refusal as refusal:
             self._refusal = refusal
         except Exception as error:  # noqa: BLE001 - a bug must not leave the page waiting
@@ -68,17 +100,24 @@ class ReconcileJob:
         self._words, self._share = words, share
 
 
-def describe_story(story: "Story") -> dict[str, Any]:
-    """A story as plain data: sentences, and gaps in times the noise of the velocity."""
+def describe_story(story: "Story", said: "Collection[str]" = ()) -> dict[str, Any]:
+    """A story as plain data: sentences, and gaps in times the noise of the velocity.
+
+    Args:
+        story: the result of reconcile.
+        said: remarks to leave out.
+    """
     from sim.reconcile.story_text import (  # noqa: PLC0415 - once it is needed
         format_gap,
         format_parameter,
         list_inspections,
         list_next_tests,
         list_remarks,
+        write_gain_caution,
         write_headline,
     )
 
+    remarks = list_remarks(story) if story.complete else story.notes
     names = ["base model", *(f"+ {one.added}" for one in story.chapters[1:])]
     findings = [
         {
@@ -104,10 +143,17 @@ def describe_story(story: "Story") -> dict[str, Any]:
     return {
         "headline": write_headline(story),
         "verdict": story.verdict,
+        "complete": story.complete,
+        "effects": [one.added for one in story.chapters[1:]] if story.variants else [],
+        "tried": [
+            f"{one.effect}: {one.improvement:.0f}, {one.why or 'could be added'}"
+            for one in story.chapters[0].tried
+        ],
         "findings": findings,
         "gaps": gaps,
         "places": [place.sentence for place in story.where[:PLACES]],
         "next": list(list_next_tests(story)),
-        "remarks": list(list_remarks(story)),
+        "caution": write_gain_caution(story),
+        "remarks": [one for one in remarks if one not in said],
         "how": story.how,
     }

@@ -10,21 +10,23 @@ Python's own ``http.server`` is enough for one person's browser, and adds nothin
 import json
 import secrets
 from collections.abc import Callable, Mapping
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 from urllib.parse import parse_qs, urlsplit
 
 from sim.cli.open import page_data
+from sim.cli.open.reconcile_job import ReconcileJob
+from sim.cli.open.saved_page import ENGINE, PAGE, render_saved_page
 from sim.cli.open.session import OpenLog, Reading, Session
 from sim.core.errors import BadRequest, Refusal
-from sim.io.entries.entry import NEEDED
 from sim.io.format import LARGEST_FILE
 
-PAGE = Path(__file__).with_name("page")
-ENGINE = Path(__file__).parents[2] / "physics" / "engine" / "simulate.js"  # the page uses it, too
+if TYPE_CHECKING:
+    from sim.reconcile.model_variant import ModelVariant
+
 KINDS = {
     ".html": "text/html; charset=utf-8",
     ".css": "text/css; charset=utf-8",
@@ -40,6 +42,7 @@ HEADERS = {
     "X-Content-Type-Options": "nosniff",
 }
 RAW = ("summary", "entries", "samples")  # requests allowed with --raw, which shows the data alone
+ROLES = ("validation", "held_out")  # of other logs in a search
 PIECE = 2**20  # [bytes] read at a time
 TIMEOUT = 30.0  # [s] to wait for the rest of a request
 
@@ -168,11 +171,14 @@ class PageRequest(BaseHTTPRequestHandler):
             case _:
                 self._refuse(HTTPStatus.NOT_FOUND, "there is nothing here")
 
-    def _delete(self, steps: list[str], _query: Mapping[str, str]) -> None:
+    def _delete(self, steps: list[str], query: Mapping[str, str]) -> None:
         self._drain()
         match steps:
             case ["logs", number]:
                 self.server.session.close(self._log(number).number)
+                self._send_json({})
+            case ["logs", number, "reconcile"]:
+                self._search(self._log(number), query).stop()
                 self._send_json({})
             case _:
                 self._refuse(HTTPStatus.NOT_FOUND, "there is nothing here")
@@ -186,9 +192,7 @@ class PageRequest(BaseHTTPRequestHandler):
         Raises:
             Refusal: the log cannot be read or fitted, or the page shows the data alone.
         """
-        session = self.server.session
-        chosen = tuple((one, query[one]) for one in (*NEEDED, "state") if query.get(one))
-        reading = Reading(query.get("units") or None, query.get("type") or None, chosen)
+        session, reading = self.server.session, Reading.from_query(query)
         if what in RAW:
             session.import_reading()
             self._send_data(one, reading, what)
@@ -220,17 +224,32 @@ class PageRequest(BaseHTTPRequestHandler):
                 found = page_data.describe_faults(one.inspect(reading), one)
                 self._send_json(found)
             case "fit":
-                self._send_json(page_data.describe_fit(one, reading))
+                self._send_json(
+                    page_data.describe_fit(one, reading, self._choose_model(one, query))
+                )
             case "directions":
                 self._send_json(page_data.describe_directions(one, reading))
             case "reconcile":
-                self._send_json(one.reconcile(reading).to_json())
+                self._send_json(self._search(one, query).to_json())
             case "code":
-                self._send_json(page_data.write_code(one, reading, query))
+                chosen = self._choose_model(one, query)
+                self._send_json(page_data.write_code(one, reading, query, chosen))
             case "report.html":
-                self._send(page_data.write_report(one, reading).encode(), KINDS[".html"], page=True)
+                self._send(render_saved_page(one, reading).encode(), KINDS[".html"], page=True)
             case _:
                 self._refuse(HTTPStatus.NOT_FOUND, "there is nothing here")
+
+    def _search(self, one: OpenLog, query: Mapping[str, str]) -> ReconcileJob:
+        """The search that a request names; it begins if there is none yet."""
+        others = {role: self._log(query[role]) for role in ROLES if query.get(role)}
+        effort = 5.0 if query.get("longer") else 1.0
+        reading = replace(Reading.from_query(query), left_out=())  # it excludes damage itself
+        return one.reconcile(reading, others, effort)
+
+    def _choose_model(self, one: OpenLog, query: Mapping[str, str]) -> "ModelVariant | None":
+        """The model with the effects that a request names; None for the fit, which has none."""
+        effects = query.get("effects", "")
+        return self._search(one, query).refit(effects.split(",")) if effects else None
 
     def _receive(self, path: Path) -> None:
         """Write the body of a request into a file.
@@ -291,7 +310,7 @@ class PageRequest(BaseHTTPRequestHandler):
     def _send(
         self, content: bytes, kind: str, *, status: HTTPStatus = HTTPStatus.OK, page: bool = False
     ) -> None:
-        """Send a whole answer; a report (``page``) has a Content-Security-Policy of its own."""
+        """Send a whole answer; a saved page (``page``) has a Content-Security-Policy of its own."""
         self.send_response(status)
         self.send_header("Content-Type", kind)
         self.send_header("Content-Length", str(len(content)))

@@ -4,7 +4,7 @@ import re
 import shutil
 import threading
 from collections.abc import Callable, Hashable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from itertools import count
 from pathlib import Path
@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from sim.cli.open.view import PageView
 from sim.core.errors import BadRequest, Refusal
+from sim.io.entries.entry import NEEDED
 
 if TYPE_CHECKING:
     from sim.cli.fit.parts import PooledParts
@@ -34,11 +35,20 @@ class Reading:
         units: unit of its positions; None takes the one in the file.
         type: type of the mechanism; None takes the one in the file.
         entries: (signal, entry) for each entry that the user chose; the others are found by name.
+        left_out: parts that the fit does not use, as ``--leave-out`` names them.
     """
 
     units: str | None = None
     type: str | None = None
     entries: tuple[tuple[str, str], ...] = ()
+    left_out: tuple[str, ...] = ()
+
+    @classmethod
+    def from_query(cls, query: Mapping[str, str]) -> "Reading":
+        """The options that a request of the page names."""
+        chosen = tuple((one, query[one]) for one in (*NEEDED, "state") if query.get(one))
+        left_out = tuple(filter(None, query.get("left_out", "").split(",")))
+        return cls(query.get("units") or None, query.get("type") or None, chosen, left_out)
 
 
 @dataclass(frozen=True)
@@ -105,6 +115,19 @@ class OpenLog:
 
         return self._compute_once(("log", reading), lambda: join_parts(self.read_parts(reading)))
 
+    def read_mechanism(self, reading: Reading) -> "Log":
+        """The log of one mechanism; several motors in the file are averaged.
+
+        Raises:
+            Refusal: as ``read_parts``.
+        """
+        if len(self.read_parts(reading)) == 1:
+            return self.combine_runs(reading)
+        from sim.cli.options import LogReader  # noqa: PLC0415 - reads formats
+
+        reader = LogReader(reading.units, reading.type, entries=dict(reading.entries))
+        return reader.read_joined([self.path])
+
     def list_entries(self) -> "list[Entry]":
         """The entries of the file, for choosing signals.
 
@@ -134,25 +157,40 @@ class OpenLog:
 
         def find() -> "PooledParts":
             from sim.cli.fit.parts import fit_parts  # noqa: PLC0415 - once it is needed
+            from sim.core.leave_out import LeftOutPart, leave_out  # noqa: PLC0415 - the same
             from sim.fit import fit  # noqa: PLC0415 - the same
 
-            return fit_parts(self.read_parts(reading), partial(fit, type=reading.type or ""))
+            logs = self.read_parts(replace(reading, left_out=()))
+            logs = leave_out(logs, map(LeftOutPart.parse, reading.left_out))
+            return fit_parts(logs, partial(fit, type=reading.type or ""))
 
         return self._compute_once(("fit", reading), find)
 
-    def reconcile(self, reading: Reading) -> "ReconcileJob":
-        """The search for missing effects; the first call starts it."""
+    def keep_fit(self, pooled: "PooledParts") -> None:
+        """Take a fit that was already computed, of the log as it is."""
+        self._results[self.revision, ("fit", Reading())] = pooled
+
+    def reconcile(
+        self, reading: Reading, others: "Mapping[str, OpenLog]", effort: float
+    ) -> "ReconcileJob":
+        """The search for missing effects; the first call starts it.
+
+        Args:
+            reading: how to read the log.
+            others: ``validation`` and ``held_out`` -> another open log, where one is chosen.
+            effort: [1] as of ``reconcile``.
+        """
         from sim.cli.open.reconcile_job import ReconcileJob  # noqa: PLC0415 - once it is needed
 
-        def read_file() -> "Log":
-            from sim.cli.options import LogReader  # noqa: PLC0415 - reads formats
+        def read_logs() -> "dict[str, Log]":
+            alike = Reading(reading.units, reading.type)
+            more = {role: one.read_mechanism(alike) for role, one in others.items()}
+            return {"log": self.read_mechanism(reading), **more}
 
-            reader = LogReader(reading.units, reading.type, entries=dict(reading.entries))
-            return reader.read_joined([self.path])
-
+        numbers = tuple((role, one.number, one.revision) for role, one in others.items())
         return self._compute_once(
-            ("reconcile", reading),
-            lambda: ReconcileJob(read_file, name=self.name, type=reading.type),
+            ("reconcile", reading, numbers, effort),
+            lambda: ReconcileJob(read_logs, name=self.name, type=reading.type, effort=effort),
         )
 
     def renew(self, finished: "Mapping[str, Log]", path: Path) -> None:

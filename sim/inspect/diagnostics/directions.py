@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from sim.core.advice import Action
 from sim.core.doubt import Doubt
 from sim.core.log import DIRECTIONS, Array, Run
 from sim.core.units import find_unit
@@ -42,8 +43,8 @@ def check_directions(features: LogFeatures) -> list[Doubt]:
                 "friction-differs",
                 f"It needs {forward.ks:.2f} V to start moving forward but {reverse.ks:.2f} V in "
                 "reverse. Friction differs between the directions, or the type of mechanism "
-                "leaves out a weight. One kS cannot describe both, and the error ends up in kA."
-                " Look for a part that rubs, or choose another --type.",
+                "leaves out a weight. One kS cannot describe both, and the error ends up in kA.",
+                action=Action("rubs-or-type"),
             )
         )
     apart, per = abs(forward.kv - reverse.kv), find_unit(features.log.units)

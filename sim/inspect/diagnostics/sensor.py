@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from sim.core.advice import Action
 from sim.core.doubt import Doubt
 from sim.core.units import find_unit
 from sim.fit.sysid_rows import estimate_noise_floor
@@ -40,7 +41,7 @@ def check_velocity_lag(features: LogFeatures) -> list[Doubt]:
         Doubt(
             "velocity-lags",
             f"The velocity is about {rounded * 1000.0:.0f} ms later than the "
-            f"position: most likely the motor controller averages it{likely}. `sysid fit` "
+            f"position: most likely the motor controller averages it{likely}. The fit "
             "takes this delay into account. WPILib's SysId does not: its kA is wrong, and the "
             "measurement delay that you enter there changes only the feedback gains. Shorten the "
             "filter of the motor controller.",
@@ -62,8 +63,8 @@ def check_plausible_speed(features: LogFeatures) -> list[Doubt]:
         Doubt(
             "too-fast",
             f"At {FULL:g} V the mechanism would move at {FULL / features.baseline.kv:.3g} m/s, so "
-            f"its position is probably not in {per.name}. Add --units radians, rotations or "
-            "degrees, whichever is right.",
+            f"its position is probably not in {per.name}.",
+            action=Action("angle-units"),
         )
     ]
 

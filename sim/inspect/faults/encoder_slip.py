@@ -101,8 +101,8 @@ def _explain(loss: float, *, low: bool, samples: int, lasts: float) -> tuple[str
                 "right. This is a wild reading of the sensor, not a slip."
             ),
             (
-                f"Cut this reading out, or add --method sysid --median {window} to the fit. If it "
-                "happens often, check the sensor and its cable."
+                f"Leave this reading out, or fit by SysId's method with a median of {window}. If "
+                "it happens often, check the sensor and its cable."
             ),
         )
     return (

@@ -52,7 +52,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
                 else LogInterval.of_samples(index, features.log.runs[index]),
                 confidence=error.confidence,
                 evidence=error.evidence,
-                advice=error.advice,
+                advice=str(error.advice),
             )
 
 

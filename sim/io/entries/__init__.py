@@ -10,6 +10,7 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from sim.core.advice import Action
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, MissingSignal, Refusal
 from sim.core.log import Log
@@ -181,8 +182,11 @@ def _find_state(entries: Sequence[Entry], *, options: ReadOptions, where: str) -
     raise BadRequest(
         f"it contains the tests of several mechanisms: {number_names(names)}",
         where=where,
-        advice="Choose one by its number, such as --pick 1, or by its name, such as --state "
-        f"{found[0].entry.name}. Next time, record one routine per log.",
+        advice=Action(
+            "option",
+            f"by number, such as --pick 1, or by name, such as --state {found[0].entry.name}",
+            before="Next time, record one routine per log.",
+        ),
     )
 
 

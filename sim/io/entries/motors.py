@@ -10,6 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
+from sim.core.advice import Action
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, MissingSignal
 from sim.io.entries.discovery import (
@@ -171,7 +172,7 @@ def _choose_group(groups: Sequence[DeviceGroup], search: _Search) -> DeviceGroup
     raise BadRequest(
         f"its tests drive several mechanisms, one after another: {number_names(names)}",
         where=search.where,
-        advice="Choose one by its number, such as --pick 1.",
+        advice=Action("option", "by its number, such as --pick 1"),
     )
 
 
@@ -230,7 +231,7 @@ def _find_named_motors(search: _Search) -> list[MotorEntries]:
             raise BadRequest(
                 f"several entries could be the {signal}: {quote_names(names)}",
                 where=search.where,
-                advice=f"Choose one with --{signal} ENTRY.",
+                advice=Action("option", f"with --{signal} ENTRY"),
             )
         usable = sorted(paths[path], key=lambda entry: NUMBERS.index(entry.type))
         motors.setdefault(motor, {})[signal] = usable[0]

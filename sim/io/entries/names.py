@@ -9,6 +9,7 @@ from collections.abc import Collection, Sequence
 from difflib import get_close_matches
 from typing import NamedTuple
 
+from sim.core.advice import Action
 from sim.core.errors import MissingSignal
 from sim.core.vocabulary import DIRECTIONS, KINDS, TESTS
 from sim.io.entries.entry import Entry
@@ -92,7 +93,7 @@ def find_requested_entry(
         raise MissingSignal(
             f"the {role} entry {name!r} {explain_unfit_entry(same[0], kinds=kinds)}",
             where=where,
-            advice=f"Name an entry of type {' or '.join(kinds)} with --{role}.",
+            advice=Action("entry-type", " or ".join(kinds)),
         )
     near = get_close_matches(name, [entry.name for entry in entries], n=MOST_LISTED, cutoff=0.5)
     raise MissingSignal(

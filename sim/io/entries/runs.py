@@ -7,6 +7,7 @@ from typing import TypeAlias
 
 import numpy as np
 
+from sim.core.advice import Action
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
 from sim.core.log import Array, Run
@@ -120,7 +121,7 @@ def _choose_scales(
                 f"motor {motors[0].name!r} is logged in {first.units}, {motor.name!r} in "
                 f"{scale.units}: an angle and a length",
                 where=where,
-                advice=f"Choose one with --motor {motors[0].name}, or add --units.",
+                advice=Action("option", f"with --motor {motors[0].name}"),
             )
         ratio = UNITS[scale.units].si / UNITS[first.units].si
         factors = {
@@ -255,10 +256,14 @@ def _doubt_combined_motors(
                     f"the {signal} has opposite signs for the motors {names[i]!r} and "
                     f"{names[j]!r}, so their mean says nothing",
                     where=where,
-                    advice=f"Choose one with --motor {names[i]}, or invert one in the robot code.",
+                    advice=Action(
+                        "option",
+                        f"with --motor {names[i]}",
+                        before="If one is inverted, say so in the robot code.",
+                    ),
                 )
     yield Doubt(
         "several-motors",
-        f"{where}: the signals are the mean of motors {', '.join(map(repr, names))}. Choose one "
-        f"with --motor NAME, for instance --motor {names[0]}.",
+        f"{where}: the signals are the mean of motors {', '.join(map(repr, names))}.",
+        action=Action("option", f"with --motor NAME, for instance --motor {names[0]}"),
     )

@@ -7,6 +7,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from sim.core.advice import Action
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, MissingSignal
 from sim.core.log import TESTS
@@ -149,7 +150,7 @@ def _choose_entry(naming: Sequence[StateEntry], mechanism: str, *, where: str) -
         f"several entries name the tests of {mechanism!r}: "
         f"{quote_names([state.entry.name for state in own])}",
         where=where,
-        advice="Choose one with --state ENTRY.",
+        advice=Action("option", "with --state ENTRY"),
     )
 
 
@@ -174,8 +175,10 @@ def _make_no_state_error(*, where: str) -> MissingSignal:
     return MissingSignal(
         f"no entry says which test runs: expected '{WORD}-<mechanism>' (string)",
         where=where,
-        advice="SysIdRoutine writes this entry while a test runs. Run the tests with the robot "
-        "enabled, and use the log of these tests. If the file contains only one test, put the "
-        "name of the test into the file name: dynamic-forward.wpilog. Or name another logger's "
-        "entries with --state ENTRY --voltage ENTRY --position ENTRY --velocity ENTRY.",
+        advice=Action(
+            "name-entries",
+            before="SysIdRoutine writes this entry while a test runs. Run the tests with the robot "
+            "enabled, and use the log of these tests. If the file contains only one test, put the "
+            "name of the test into the file name: dynamic-forward.wpilog.",
+        ),
     )

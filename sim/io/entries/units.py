@@ -12,6 +12,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from sim.core.advice import Action
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
 from sim.core.units import UNITS
@@ -177,7 +178,7 @@ def choose_scale(signals: Mapping[str, Entry], *, options: ReadOptions, where: s
             f"the position is in {texts['position']!r} and the velocity in {texts['velocity']!r}, "
             "an angle and a length",
             where=where,
-            advice="Give the right one with --units, and let the robot log both in one.",
+            advice=Action("units", before="Let the robot log both in the same unit."),
         )
     units = options.units or (stated[0] if stated else options.units_or_default)
     factors, doubts = {}, []
@@ -188,7 +189,8 @@ def choose_scale(signals: Mapping[str, Entry], *, options: ReadOptions, where: s
         if problem:
             code, what = problem
             name = signals[signal].name
-            doubts.append(Doubt(code, f"{where}: the unit of {name!r} {what}"))
+            action = Action("units") if code == "units-assumed" else None
+            doubts.append(Doubt(code, f"{where}: the unit of {name!r} {what}", action=action))
     others = [
         (found.units, signals[name].name)
         for name in ("position", "velocity")
@@ -199,9 +201,8 @@ def choose_scale(signals: Mapping[str, Entry], *, options: ReadOptions, where: s
         doubts.append(
             Doubt(
                 "contradicting-units",
-                f"{where}: the file says {other} for {name!r}, but --units says {units}, and "
-                "--units does not convert. If the file is right, the gains are wrong: "
-                "leave out --units.",
+                f"{where}: the file says {other} for {name!r}, but you chose {units}.",
+                action=Action("own-units"),
             )
         )
     if _RATE.search(signals["voltage"].name):
@@ -215,8 +216,8 @@ def _rate_doubt(name: str, where: str) -> Doubt:
         "rate-as-voltage",
         f"{where}: {name!r} is not a voltage but the rate, in rad/s, that CTRE's rotation "
         "routine asks for. The gains describe how the modules follow it: kV is about 1 for "
-        "each rad/s, and you cannot compute a moment of inertia from this kA. For that, name "
-        "the MotorVoltage of a drive motor with --voltage.",
+        "each rad/s, and you cannot compute a moment of inertia from this kA. For that, take "
+        "the MotorVoltage of a drive motor as the voltage.",
     )
 
 
@@ -234,9 +235,7 @@ def _problem(
     if stated_unit is None and text:
         return "unknown-unit", f"is {text!r}, which is not understood; it was taken as {units}."
     if stated_unit is None and units != VOLTS and not ordered:
-        return "units-assumed", (
-            f"is not stated and was taken as {units}; if that is wrong, add --units."
-        )
+        return "units-assumed", (f"is not stated and was taken as {units}.")
     if stated_unit is None or (stated_unit.units == units and stated_unit.factor == 1.0):
         return None
     if stated_unit.units != units and ordered and units != VOLTS:

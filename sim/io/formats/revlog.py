@@ -15,6 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from sim.core.advice import Action
 from sim.core.doubt import Doubt
 from sim.core.errors import UnreadableFile
 from sim.core.log import Log
@@ -182,9 +183,9 @@ def _doubts(found: _Frames, options: ReadOptions, path: Path) -> Iterator[Doubt]
     if options.units is None:
         yield Doubt(
             "conversion-factor",
-            f"{path}: REV's log does not contain its units, so rotations and RPM were assumed. If "
-            "your program sets conversion factors, say --units: the velocity is then in that unit "
-            "per second.",
+            f"{path}: REV's log does not contain its units, so rotations and RPM were assumed. "
+            "Conversion factors in your program change them, and the velocity is then per second.",
+            action=Action("units"),
         )
     if found.unread:
         yield Doubt(

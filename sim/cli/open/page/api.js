@@ -11,6 +11,9 @@ export class Refused extends Error {
   }
 }
 
+/** The answers of a page that was saved as one file: address -> answer; null if a server answers. */
+export const saved = JSON.parse(document.getElementById("saved")?.textContent ?? "null");
+
 /** Open a dropped file; returns its number and its name. */
 export function openFile(file) {
   return ask(`logs?name=${encodeURIComponent(file.name)}`, { method: "POST", body: file });
@@ -41,6 +44,11 @@ export function closeLog(id) {
   return ask(`logs/${id}`, { method: "DELETE" });
 }
 
+/** Let a search for missing effects end with what it has. */
+export function stopSearch(id, query) {
+  return ask(addressOf(id, "reconcile", query), { method: "DELETE" });
+}
+
 /** Data about a log: summary, faults, fit, directions or code. */
 export function askLog(id, what, query = {}) {
   return ask(addressOf(id, what, query));
@@ -63,6 +71,7 @@ async function ask(address, options) {
 }
 
 async function fetchOrRefuse(address, options) {
+  if (saved) return readSaved(address);
   let answer;
   try {
     answer = await fetch(address, options);
@@ -75,4 +84,11 @@ async function fetchOrRefuse(address, options) {
   }
   if (!answer.ok) throw new Refused((await answer.json()).refusal);
   return answer;
+}
+
+function readSaved(address) {
+  const answer = saved[address];
+  if (answer === undefined) throw new Refused({ what: "this page was saved, and computes nothing new", where: "", advice: "Open the log itself with `sysid open`." });
+  if (answer.refusal) throw new Refused(answer.refusal);
+  return new Response(typeof answer === "string" ? Uint8Array.from(atob(answer), (one) => one.charCodeAt(0)) : JSON.stringify(answer));
 }

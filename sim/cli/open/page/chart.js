@@ -28,7 +28,7 @@ export class Chart {
     this.runs = [];
     this.faults = [];
     this.others = [];
-    this.simulated = [];
+    this.simulated = this.without = [];
     this.noise = null;
     this.cursor = null;
     new ResizeObserver(() => this.resize()).observe(still.parentElement);
@@ -40,7 +40,7 @@ export class Chart {
     this.runs = runs;
     this.faults = faults;
     this.symbol = symbol;
-    this.simulated = [];
+    this.simulated = this.without = [];
     this.noise = null;
     this.cursor = null;
     this.timeline = new Timeline(runs);
@@ -101,9 +101,13 @@ export class Chart {
     this.redraw();
   }
 
-  /** Set the simulated curves, {first, velocity} or null for each run, and draw them at once. */
-  setSimulation(simulated, noise) {
+  /** Set the simulated curves, {first, velocity} or null for each run, and draw them at once.
+   *
+   * A model with effects is drawn over the one without them.
+   */
+  setSimulation(simulated, noise, without = []) {
     this.simulated = simulated;
+    this.without = without;
     this.noise = noise;
     this.requestMoving();
   }

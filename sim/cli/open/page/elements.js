@@ -1,11 +1,8 @@
 // Functions that make elements of the page.
 
-/** A sentence of the command line as nodes: options get the page's words, and code is marked. */
+/** A sentence as nodes: code is marked, and a number stays with its unit. */
 export function prose(words) {
-  const here = words.replaceAll("± ", "±\u00a0").replaceAll(" %", "\u00a0%").replace(/(\d) (V|rad)\b/g, "$1\u00a0$2")
-    .replace(/([Ss])ay --(type|units)\b/g, (_, s, what) => `${s === "S" ? "Choose" : "choose"} the ${what} above`)
-    .replace(/--(type|units)\b/g, "$1")
-    .replace(/(^|\. )`sysid reconcile`/g, "$1The search below").replaceAll("`sysid reconcile`", "the search below");
+  const here = words.replaceAll("± ", "±\u00a0").replaceAll(" %", "\u00a0%").replace(/(\d) (V|rad)\b/g, "$1\u00a0$2");
   return here.split("`").map((part, k) => (k % 2 ? text("code", part) : part));
 }
 
@@ -18,6 +15,24 @@ export function text(tag, words, kind = "") {
 
 export function item(kind, words = "") {
   return text("li", words, kind);
+}
+
+/** An item of which only the first sentence is seen until it is opened. */
+export function foldedItem(kind, title, words) {
+  const made = item(kind);
+  const folded = document.createElement("details");
+  const [, first, rest] = words.trim().match(/^(.*?[.:!?](?=\s+[A-Z`]|$)|.*)\s*(.*)$/s);
+  const head = text("summary", "");
+  head.append(text("b", title), " ", ...prose(first));
+  folded.append(head, ...(rest ? [paragraph(rest)] : []));
+  made.append(folded);
+  return made;
+}
+
+function paragraph(words) {
+  const made = text("p", "");
+  made.append(...prose(words));
+  return made;
 }
 
 export function button(kind, words, press) {

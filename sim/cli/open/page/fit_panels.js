@@ -17,13 +17,13 @@ export function drawFit(chart, to) {
       to.fillStyle = chart.colors.band;
       to.fillRect(chart.left, height(2 * chart.noise), chart.right - chart.left, height(-2 * chart.noise) - height(2 * chart.noise));
     }
-    for (const [k, one] of chart.simulated.entries()) {
+    const { quiet, simulated } = chart.colors;
+    const curves = [...chart.without.entries()].map(([k, one]) => [k, one, quiet]);
+    for (const [k, one, color] of [...curves, ...[...chart.simulated.entries()].map(([k, one]) => [k, one, simulated])]) {
       if (!one) continue;
       const left = one.velocity.map((value, i) => chart.runs[k].velocity[one.first + i] - value);
-      chart.curve(to, k, one.first, left, height, { color: chart.colors.simulated, width: 1.2, alpha: 0.9 });
-      chart.clip(to, () => {
-        chart.curve(to, k, one.first, one.velocity, y, { color: chart.colors.simulated, width: 1.8 });
-      }, "velocity");
+      chart.curve(to, k, one.first, left, height, { color, width: 1.2, alpha: 0.9 });
+      chart.clip(to, () => chart.curve(to, k, one.first, one.velocity, y, { color, width: 1.8 }), "velocity");
     }
   });
 }
@@ -31,7 +31,7 @@ export function drawFit(chart, to) {
 /** Limit of the residual's axis, in round steps so that it does not flicker. */
 export function errorRange(chart) {
   let most = 6 * (chart.noise ?? 0);
-  for (const [k, one] of chart.simulated.entries()) {
+  for (const [k, one] of [...chart.simulated.entries(), ...chart.without.entries()]) {
     if (!one) continue;
     const { velocity } = chart.runs[k];
     for (let i = 0; i < one.velocity.length; i++) {

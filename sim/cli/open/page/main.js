@@ -1,17 +1,19 @@
 // The page: the open logs, the selected log, and its results.
 
 import {
-  Refused, addressOf, askLive, askLog, askSamples, askView, closeLog, listLogs, openExample, openFile,
+  Refused, addressOf, askLive, askLog, askSamples, askView, closeLog, listLogs, openExample, openFile, saved, stopSearch,
 } from "./api.js";
 import { Chart } from "./chart.js";
 import { makeSignalRows } from "./choices.js";
-import { button, figure, item, prose, sentence, text } from "./elements.js";
+import { button, figure, foldedItem, item, prose, sentence, text } from "./elements.js";
 import { makeModel, rms, simulateRun } from "./simulate.js";
 import { Sliders } from "./sliders.js";
 import { writeSpans } from "./spans.js";
-import { storyParts } from "./story.js";
+import { searchForm, storyParts } from "./story.js";
 
 const MOST_SHOWN = 12; // faults in the list; further ones are collapsed
+const MOST_LINES = 3; // faults named under the verdict
+const FINEST = 1000; // times of a part to leave out are rounded to 1/FINEST s
 const SIGNALS = 4; // arrays of a run: time, voltage, position, velocity
 
 const at = (id) => document.getElementById(id);
@@ -39,7 +41,7 @@ async function openAll(files) {
 async function begin({ id, name, revision = 0 }) {
   if (begun.has(id)) return;
   begun.add(id);
-  const log = { id, name, revision, query: {}, others: false };
+  const log = { id, name, revision, query: {}, others: false, leftOut: [] };
   logs.set(id, log);
   if (active === null) activate(id);
   showTabs();
@@ -49,6 +51,7 @@ async function begin({ id, name, revision = 0 }) {
 async function load(log) {
   log.failed = null;
   log.faults = log.fit = log.fitRefused = log.search = null;
+  log.effects = [];
   const asked = (log.asked = {});
   setLoading(log, true);
   try {
@@ -69,6 +72,7 @@ async function load(log) {
   showTabs();
   if (!view.raw) await Promise.all([askFaults(log, asked), askFit(log, asked)]);
   setLoading(log, false);
+  if (saved && `logs/${log.id}/reconcile` in saved) await reconcile(log, {});
 }
 
 /** Split the samples into runs; positions and velocities in the log's unit, times in seconds. */
@@ -81,6 +85,7 @@ function take(log, summary, samples) {
     const part = summary.runs.some((one) => one.part !== run.part) ? run.part : "";
     return { ...run, part, time, voltage, position: per(position, summary), velocity: per(velocity, summary) };
   });
+  log.top = log.runs.reduce((top, run) => run.velocity.reduce((most, one) => Math.max(most, Math.abs(one)), top), 0);
 }
 
 function per(values, { units }) {
@@ -98,10 +103,11 @@ async function askFaults(log, asked) {
 
 async function askFit(log, asked) {
   try {
-    const fit = await askLog(log.id, "fit", log.query);
+    const fit = await askLog(log.id, "fit", modelQuery(log));
     if (log.asked !== asked) return;
-    log.fit = fit;
-    log.gains = Object.fromEntries(fit.gains.map((gain) => [gain.name, gain.value]));
+    log.plain = fit;
+    takeFit(log, fit);
+    log.plainSimulated = log.simulated;
     log.fitError = simulate(log, log.gains);
   } catch (problem) {
     if (!(problem instanceof Refused)) throw problem;
@@ -109,11 +115,41 @@ async function askFit(log, asked) {
   }
   if (active === log.id) showFit();
   if (!log.fit) return;
-  const more = await askLog(log.id, "directions", log.query).catch(() => null);
+  const more = await askLog(log.id, "directions", modelQuery(log)).catch(() => null);
   if (more === null || log.asked !== asked) return;
-  log.fit.doubts.push(...more.doubts);
-  log.fit.notes.push(...more.notes);
+  log.plain.doubts.push(...more.doubts);
+  log.plain.notes.push(...more.notes);
   if (active === log.id) showDoubts();
+}
+
+/** Fit again without these parts: {test, start, end}, in the log's time. */
+function leaveOut(log, parts) {
+  Object.assign(log, { leftOut: parts, effects: [], fit: null, fitRefused: null, asked: {} });
+  setLoading(log, true);
+  showFaults();
+  showFit();
+  guarded(log.name, () => askFit(log, log.asked)).then(() => setLoading(log, false));
+}
+
+function nameOfPart({ test, start, end }) {
+  return `${test}:${Math.floor(FINEST * start) / FINEST}-${Math.ceil(FINEST * end) / FINEST}`;
+}
+
+/** A line for each part that was left out, with a button to take it in again. */
+function leftOutLines(log) {
+  return log.leftOut.map((part) => {
+    const line = item("busy", `Left out: ${part.test}, ${part.start.toFixed(2)} to ${part.end.toFixed(2)} s `);
+    line.append(button("link", "Take in again", () => leaveOut(log, log.leftOut.filter((one) => one !== part))));
+    return line;
+  });
+}
+
+/** Show the gains of a fit, or of a model with effects. */
+function takeFit(log, fit) {
+  log.fit = fit;
+  log.moved = false;
+  log.gains = Object.fromEntries(fit.gains.map((gain) => [gain.name, gain.value]));
+  simulate(log, log.gains);
 }
 
 /** Do something for one file; an error is shown, and the rest of the page keeps working. */
@@ -208,14 +244,15 @@ at("signals").addEventListener("submit", (event) => {
 /** Simulate every run of a log with gains in its unit; returns the error, sets curves in `log`. */
 function simulate(log, gains) {
   const { si } = log.summary.units;
+  const { tracks } = log.fit; // of a model with effects, which only the server simulates
   const inSi = { ...gains, kV: gains.kV / si, kA: gains.kA / si };
   const model = makeModel(log.fit.type, inSi, log.fit);
   let [sum, count] = [0, 0];
   log.simulated = log.runs.map((run, k) => {
     const start = log.fit.starts[k];
-    if (!start || !model) return null;
+    if (!start || !(tracks ? tracks[k] : model)) return null;
     const cut = { time: run.time.subarray(start.first), voltage: run.voltage.subarray(start.first) };
-    const { velocity } = simulateRun(cut, model, start);
+    const velocity = tracks ? Float64Array.from(tracks[k].slice(start.first)) : simulateRun(cut, model, start).velocity;
     if (si !== 1) velocity.forEach((value, i) => { velocity[i] = value / si; });
     const error = rms(run.velocity.subarray(start.first), velocity);
     sum += error * error * velocity.length;
@@ -240,7 +277,9 @@ function moveGains(values) {
 function showSimulation(log) {
   if (active !== log.id) return;
   const error = simulate(log, log.gains);
-  chart.setSimulation(log.simulated, log.fit.noise === null ? null : log.fit.noise / log.summary.units.si);
+  const without = log.fit.tracks ? log.plainSimulated : [];
+  chart.setSimulation(log.simulated, log.fit.noise === null ? null : log.fit.noise / log.summary.units.si, without);
+  document.querySelector(".legend .without").hidden = !without.length;
   showMeter(log, error);
   showCursor(chart.cursor);
   at("reset").hidden = !sliders.isMoved;
@@ -265,7 +304,7 @@ function activate(id) {
 function clear(log) {
   at("title").textContent = log?.name ?? "";
   at("facts").textContent = "Reading…";
-  for (const id of ["runs", "faults", "doubts", "feedback", "sliders", "meter", "readout", "story"]) at(id).replaceChildren();
+  for (const id of ["runs", "faults", "fault-lines", "doubts", "feedback", "sliders", "word", "meter", "readout", "story"]) at(id).replaceChildren();
   at("verdict").textContent = "";
 }
 
@@ -314,12 +353,19 @@ function showSpans(spans) {
   const words = writeSpans(view.span_text, log, spans);
   at("span-text").textContent = words;
   at("span-text").hidden = at("span-copy").hidden = at("span-clear").hidden = !words;
+  at("span-leave").hidden = !words || view.raw;
   at("span-hint").textContent = words ? view.span_text.hint : "Drag across a test to mark a part of it. Its times then stand here, ready to copy.";
 }
 
 at("views").addEventListener("click", ({ target }) => { if (target.value) showSignals(target.value === "signals"); });
 at("drag").addEventListener("click", ({ target }) => { if (target.value) setDrag(target.value === "mark"); });
 at("span-copy").addEventListener("click", () => copy(at("span-text")));
+at("span-leave").addEventListener("click", () => {
+  const log = logs.get(active);
+  const marked = [...chart.spans].map(([run, [first, last]]) => ({ test: log.runs[run].test, start: log.runs[run].time[first], end: log.runs[run].time[last] }));
+  leaveOut(log, [...log.leftOut, ...marked]);
+  say("Left out. The gains are those of the rest.");
+});
 at("span-clear").addEventListener("click", () => { for (const run of [...chart.spans.keys()]) chart.setSpan(run, null); });
 
 function showRuns(log) {
@@ -343,7 +389,7 @@ function showFaults() {
   const log = logs.get(active);
   const place = at("faults");
   if (!log.faults) {
-    place.replaceChildren(item("busy", "Looking for faults…"));
+    for (const one of [place, at("fault-lines")]) one.replaceChildren(item("busy", "Looking for faults…"));
     return;
   }
   chart.setFaults(marks(log));
@@ -351,17 +397,33 @@ function showFaults() {
   const faults = log.faults.faults.filter(({ fault }) => !(growing && fault === "missing-test"));
   const rows = faults.slice(0, MOST_SHOWN).map((one) => faultCard(one));
   if (faults.length > MOST_SHOWN) rows.push(item("busy", `${faults.length - MOST_SHOWN} more are marked on the time axis.`));
-  if (!faults.length) {
-    rows.push(item("well", `No fault in ${log.runs.length === 1 ? "this run" : `these ${log.runs.length} runs`}.`));
-  }
-  rows.push(...log.faults.doubts.map((one) => doubtItem(one)));
-  place.replaceChildren(...rows);
+  const none = `No fault in ${log.runs.length === 1 ? "this run" : `these ${log.runs.length} runs`}.`;
+  place.replaceChildren(...rows.length ? rows : [item("well", none)]);
+  const lines = faults.slice(0, MOST_LINES).map((one) => {
+    const line = item("grave");
+    line.append(button("link", `${one.fault.replaceAll("-", " ")} (${surenessOf(one)})${one.test ? `: ${one.test}` : ""}`, () => showFault(one)));
+    return line;
+  });
+  if (faults.length > MOST_LINES) lines.push(item("busy", `${faults.length - MOST_LINES} more faults below`));
+  at("fault-lines").replaceChildren(...lines.length ? lines : [item("well", none)], ...leftOutLines(log));
+  showDoubts();
+}
+
+function surenessOf({ confidence }) {
+  return confidence >= 0.9 ? "sure" : confidence >= 0.7 ? "likely" : "perhaps";
+}
+
+/** Show where a fault is on the time axis; one without a place, its card. */
+function showFault(one) {
+  const placed = one.run !== null && one.test;
+  if (placed) chart.showFault({ run: one.run, start: one.start_s, end: one.end_s });
+  at(placed ? "plot" : "faults").scrollIntoView({ block: "center", behavior: "smooth" });
 }
 
 function faultCard(one) {
   const card = item("fault");
   const name = text("h3", one.fault.replaceAll("-", " "));
-  name.append(text("span", one.confidence >= 0.9 ? "sure" : one.confidence >= 0.7 ? "likely" : "perhaps", "badge"));
+  name.append(text("span", surenessOf(one), "badge"));
   card.append(name);
   if (one.test) {
     const where = one.run === null ? one.test : `${one.test}, ${one.start_s.toFixed(2)} to ${one.end_s.toFixed(2)} s`;
@@ -371,10 +433,11 @@ function faultCard(one) {
   advice.append(...prose(one.advice));
   card.append(text("p", one.evidence), advice);
   if (one.run !== null && one.test) {
-    card.append(button("button small", "Show", () => {
-      chart.showFault({ run: one.run, start: one.start_s, end: one.end_s });
-      at("plot").scrollIntoView({ block: "center", behavior: "smooth" });
-    }));
+    const log = logs.get(active);
+    const part = { test: one.test, start: one.start_s, end: one.end_s };
+    const leave = button("button small leave", "Leave out", () => leaveOut(log, [...log.leftOut, part]));
+    leave.disabled = log.leftOut.some((other) => nameOfPart(other) === nameOfPart(part));
+    card.append(button("button small", "Show", () => showFault(one)), " ", leave);
   }
   return card;
 }
@@ -387,24 +450,18 @@ function showFit() {
   const report = at("report");
   report.toggleAttribute("href", false);
   report.setAttribute("aria-disabled", String(!fit));
-  at("verdict-card").classList.toggle("wrong", Boolean(fitRefused));
+  showDoubts();
   if (!fit) {
-    at("sliders").replaceChildren();
-    const said = fitRefused ? [text("p", "No gains", "big"), text("p", "The reason stands under Verdict.", "quiet")] : [text("p", "Fitting…", "quiet")];
-    at("meter").replaceChildren(...said);
-    const waits = log.summary.compiles
-      ? "The simulation is compiled first. That is done once, and takes about twenty seconds."
-      : "Fitting…";
-    at("verdict").textContent = fitRefused ? sentence(fitRefused) : waits;
-    at("doubts").replaceChildren();
-    at("feedback").replaceChildren();
+    for (const id of ["sliders", "meter", "feedback"]) at(id).replaceChildren();
+    at("verdict").textContent = fitRefused ? sentence(fitRefused) : log.summary.compiles
+      ? "The simulation is compiled first. That is done once, and takes about twenty seconds." : "";
     return;
   }
-  report.href = addressOf(log.id, "report.html", log.query);
-  sliders.show(fit.gains, log.gains);
+  report.href = addressOf(log.id, "report.html", modelQuery(log));
+  report.download = `${log.name}.html`;
+  sliders.show(fit.gains, log.gains, { fixed: Boolean(fit.tracks) });
   at("verdict").replaceChildren(...prose(fit.verdict));
   showFeedback(fit);
-  showDoubts();
   showSimulation(log);
 }
 
@@ -419,20 +476,26 @@ function showFeedback({ feedback }) {
   at("feedback").replaceChildren(...rows);
 }
 
+/** The verdict in a word, and the warnings of fit and inspection, each once, the worst first. */
 function showDoubts() {
-  const { fit } = logs.get(active);
-  at("verdict-card").classList.toggle("wrong", fit.doubts.some((one) => one.grave));
-  const known = fit.doubts.toSorted((a, b) => Number(b.grave) - Number(a.grave));
-  const notes = fit.notes.map((note) => item("well", note));
-  const parts = fit.parts.length
-    ? [item("busy", `The fit also allows for ${fit.parts.map((one) => one.replaceAll("-", " ")).join(", ")}; the curve here leaves them out.`)]
+  const { fit, fitRefused, faults } = logs.get(active);
+  const sure = faults?.faults.some((one) => one.confidence >= 0.9);
+  const word = fitRefused ? "No gains" : !fit ? "Fitting…" : sure && fit.word !== "Do not use" ? "Check first" : fit.word;
+  at("word").textContent = word;
+  at("verdict-card").classList.toggle("wrong", Boolean(fitRefused) || word === "Do not use");
+  at("verdict-card").classList.toggle("well", word === "Usable");
+  const said = new Map([...fit?.doubts ?? [], ...faults?.doubts ?? []].map((one) => [one.message, one]));
+  const known = [...said.values()].sort((a, b) => Number(b.grave) - Number(a.grave));
+  const notes = (fit?.notes ?? []).map((note) => foldedItem("well", "Note", note));
+  const parts = fit?.parts.length
+    ? [foldedItem("busy", "Note", `The fit also allows for ${fit.parts.map((one) => one.replaceAll("-", " ")).join(", ")}; the curve here leaves them out.`)]
     : [];
   at("doubts").replaceChildren(...known.map((one) => doubtItem(one)), ...parts, ...notes);
 }
 
-function doubtItem({ message, grave }) {
-  const made = item(grave ? "grave" : "look");
-  made.append(text("b", grave ? "Wrong" : "Warning"), " ", ...prose(message));
+function doubtItem({ message, grave, advice, type }) {
+  const made = foldedItem(grave ? "grave" : "look", grave ? "Wrong" : "Warning", `${message} ${advice ?? ""}`);
+  if (type) made.firstChild.append(button("button small", `Fit as ${type}`, () => choose("type", type)));
   return made;
 }
 
@@ -440,67 +503,92 @@ function doubtItem({ message, grave }) {
 
 const POLL = 250; // [ms] between two requests for the progress of a search
 
-async function reconcile(log) {
+/** Search with these settings: {validation, held_out}: numbers of other logs; longer: try harder. */
+async function reconcile(log, settings) {
   const { asked } = log;
+  const search = (log.search = { words: "begins", share: 0, settings });
+  if (log.effects.length) await chooseEffects(log, []);
+  showStory();
   try {
-    for (;;) {
-      log.search = await askLog(log.id, "reconcile", log.query);
+    while (!search.story) {
+      Object.assign(search, await askLog(log.id, "reconcile", { ...log.query, ...settings }));
       if (log.asked !== asked) return;
       if (active === log.id) showStory();
-      if (log.search.story) return;
-      await new Promise((done) => setTimeout(done, POLL));
+      if (!search.story) await new Promise((done) => setTimeout(done, POLL));
     }
+    if (search.story.effects.length && log.plain) await chooseEffects(log, search.story.effects);
   } catch (problem) {
     if (log.asked !== asked) return;
-    log.search = { refused: sentence(problem) };
+    search.refused = sentence(problem);
     if (active === log.id) showStory();
   }
+}
+
+/** The query for data about the chosen model. */
+function modelQuery(log) {
+  return { ...log.query, ...log.search?.settings, effects: log.effects.join(), left_out: log.leftOut.map(nameOfPart).join() };
+}
+
+/** Show gains and curves of the model with these effects; without any, those of the fit. */
+async function chooseEffects(log, effects) {
+  const { asked, effects: before } = log;
+  log.effects = effects;
+  try {
+    const fit = effects.length ? { ...log.plain, ...await askLog(log.id, "fit", modelQuery(log)) } : log.plain;
+    if (log.asked !== asked || log.effects !== effects) return;
+    takeFit(log, fit);
+  } catch (problem) {
+    log.effects = before;
+    showStory();
+    throw problem;
+  }
+  if (active !== log.id) return;
+  showFit();
+  showStory();
+  showOthers();
 }
 
 function showStory() {
   const log = logs.get(active);
   const { search } = log;
   const place = at("story");
-  if (!search) {
-    const start = button("button", "Look for what is missing", () => {
-      log.search = { words: "begins", share: 0 };
-      showStory();
-      reconcile(log);
-    });
-    place.replaceChildren(
-      text("p", "Tries every effect of the catalogue, drag to backlash, and names those that explain the simulation error. " + (log.summary.compiled
-        ? "This takes some seconds." : "This takes minutes: Numba is not installed. With the extra fast it takes seconds."), "quiet"),
-      start,
-    );
-    return;
-  }
-  if (search.refused) {
-    place.replaceChildren(item("grave", search.refused));
-    return;
-  }
-  if (!search.story) {
+  if (search && !search.story && !search.refused) {
     const bar = place.querySelector("progress") ?? Object.assign(document.createElement("progress"), { max: 1 });
     bar.value = search.share;
     bar.setAttribute("aria-label", "How far the search is");
-    place.replaceChildren(text("p", `${search.words}…`, "quiet"), bar);
+    const stop = place.querySelector(".stop") ?? button("button stop", "Stop", () => {
+      search.stopped = true;
+      stopSearch(log.id, { ...log.query, ...search.settings });
+      showStory();
+    });
+    stop.disabled = search.stopped;
+    place.replaceChildren(text("p", `${search.stopped ? "stopping after" : ""} ${search.words}…`, "quiet"), bar, stop);
     return;
   }
-  place.replaceChildren(...storyParts(search.story));
+  const others = [...logs.values()].filter((one) => one !== log && one.runs);
+  const parts = !search
+    ? [text("p", "Tries every effect of the catalogue, drag to backlash, and names those that explain the simulation error. " + (log.summary.compiled
+        ? "This takes some seconds." : "This takes minutes: Numba is not installed. With the extra fast it takes seconds."), "quiet")]
+    : search.refused ? [item("grave", search.refused)]
+      : storyParts(search.story, log, (effects) => guarded(log.name, () => chooseEffects(log, effects)));
+  place.replaceChildren(...parts, searchForm(search, others, (settings) => guarded(log.name, () => reconcile(log, settings))));
 }
 
 function showMeter(log, error) {
-  const unit = `${log.summary.units.symbol}/s`;
-  const number = text("p", error === null ? "–" : figure(error), "big");
-  number.append(text("span", unit, "unit"));
-  const ratio = error === null || !log.fitError ? null : error / log.fitError;
-  const said = error === null
-    ? "Nothing moves with these gains: kV and kA have to be above zero."
-    : !log.moved || ratio === null ? "simulation error of the fit"
-      : `simulation error, ${ratio >= 10 ? Math.round(ratio) : ratio.toFixed(2)} × that of the fit`;
+  if (error === null) {
+    at("meter").replaceChildren(text("p", "Nothing moves with these gains: kV and kA have to be above zero.", "quiet"));
+    return;
+  }
+  const { si, symbol } = log.summary.units;
+  const floors = (error * si) / log.fit.noise;
+  const gap = text("p", "", "gap");
+  gap.append(text("b", floors.toPrecision(floors < 10 ? 2 : 3)), " × sensor noise, ", text("b", (100 * error / log.top).toPrecision(2)), "\u00a0% of top speed");
+  const ratio = error / log.fitError;
+  const moved = log.moved ? `, ${ratio >= 10 ? Math.round(ratio) : ratio.toFixed(2)} × that of the fit` : "";
   const bar = text("div", "", "bar-of-error");
-  bar.style.setProperty("--share", ratio === null ? 1 : Math.min(1, Math.max(0.04, 1 / ratio)));
-  bar.classList.toggle("far", ratio !== null && ratio > 2);
-  at("meter").replaceChildren(number, text("p", said, "quiet"), bar);
+  bar.style.setProperty("--share", Math.min(1, Math.max(0.04, 1 / floors)));
+  bar.classList.toggle("far", floors > 2);
+  at("meter").replaceChildren(gap, text("p", `simulation error ${figure(error)} ${symbol}/s${moved}`, "quiet"), bar);
 }
 
 function showCursor(cursor) {
@@ -564,6 +652,7 @@ function showTabs() {
   });
   at("logs").replaceChildren(...tabs);
   showOthers();
+  if (logs.get(active)?.runs && !view.raw) showStory(); // it lists the other logs
 }
 
 /** Draw the runs of other logs over those of the same test, in their order. */
@@ -584,7 +673,7 @@ function showOthers() {
     }
   }
   chart.setOthers(laid);
-  document.querySelector(".legend .other").hidden = !laid.length;
+  document.querySelector(".legend .other").hidden = !others.length;
 }
 
 function showRefusal(name, problem) {
@@ -619,7 +708,9 @@ function movedGains({ fit, gains }) {
 
 async function showCode() {
   const log = logs.get(active);
-  const query = { ...log.query, ...movedGains(log), language: at("language").value, season: at("season").value };
+  const [language, season] = [at("language").value, at("season").value];
+  at("radius-row").hidden = ["java", "python"].includes(language);
+  const query = { ...modelQuery(log), ...movedGains(log), language, season, radius: at("radius").value.replace(",", ".") };
   try {
     at("code-text").textContent = (await askLog(log.id, "code", query)).code;
   } catch (problem) {
@@ -647,23 +738,23 @@ at("example").addEventListener("click", () => guarded("example", async () => beg
 at("reset").addEventListener("click", () => sliders.reset());
 at("paste").addEventListener("click", async () => { await showCode(); at("code").showModal(); });
 at("copy").addEventListener("click", () => copy(at("code-text")));
-for (const id of ["language", "season"]) at(id).addEventListener("change", showCode);
-for (const id of ["type", "units"]) {
-  at(id).addEventListener("change", () => {
-    const log = logs.get(active);
-    const before = { ...log.query };
-    log.query = { ...log.query, [id]: at(id).value };
-    guarded(log.name, async () => {
-      try {
-        await askLog(log.id, "summary", log.query);
-      } catch (problem) {
-        log.query = before;
-        showLog();
-        throw problem;
-      }
-      log.moved = false;
-      await load(log);
-    });
+for (const id of ["language", "season", "radius"]) at(id).addEventListener("change", showCode);
+for (const id of ["type", "units"]) at(id).addEventListener("change", () => choose(id, at(id).value));
+
+/** Read the log that is shown again, with another type or unit. */
+function choose(what, value) {
+  const log = logs.get(active);
+  const before = log.query;
+  log.query = { ...log.query, [what]: value };
+  guarded(log.name, async () => {
+    try {
+      await askLog(log.id, "summary", log.query);
+    } catch (problem) {
+      log.query = before;
+      showLog();
+      throw problem;
+    }
+    await load(log);
   });
 }
 
@@ -700,34 +791,11 @@ at("theme").addEventListener("click", () => {
 });
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => chart.readColors());
 
-/** Draw samples of a step with noise, on the first screen. */
-function drawHero() {
-  const svg = "http://www.w3.org/2000/svg";
-  const dots = Array.from({ length: 46 }, (_, k) => {
-    const x = 40 + k * 12.7;
-    const wave = Math.sin(12.9 * k) * 2.6 + Math.sin(4.1 * k) * 1.7;
-    const dot = document.createElementNS(svg, "circle");
-    dot.setAttribute("cx", String(x));
-    dot.setAttribute("cy", String(60 + 130 * Math.exp(-(x - 40) / 82) + wave));
-    dot.setAttribute("r", "2.6");
-    return dot;
-  });
-  at("hero-dots").replaceChildren(...dots);
-  for (const [id, slow, end] of [["hero-fit", 82, 60], ["hero-ghost", 150, 44]]) {
-    const points = Array.from({ length: 59 }, (_, k) => {
-      const x = 40 + 10 * k;
-      return `${x} ${(end + (190 - end) * Math.exp(-(x - 40) / slow)).toFixed(1)}`;
-    });
-    at(id).setAttribute("d", `M${points.join("L")}`);
-  }
-}
-
 /** Keep the gains visible while scrolling; of a column taller than the screen, its end. */
 new ResizeObserver(([{ target }]) => {
   target.style.setProperty("--top", `${Math.min(12, innerHeight - target.offsetHeight - 12)}px`);
 }).observe(document.querySelector(".side"));
 
-drawHero();
 let kept = "";
 try {
   kept = localStorage.getItem("theme") ?? "";
@@ -736,6 +804,8 @@ setTheme(kept);
 guarded("logs", async () => {
   view = await askView();
   document.body.classList.toggle("raw", view.raw);
+  document.body.classList.toggle("saved", Boolean(saved));
+  document.body.classList.toggle("untold", saved && !Object.keys(saved).some((one) => one.endsWith("/reconcile")));
   showSignals(view.raw);
   const named = await listLogs();
   await Promise.all(named.map((one) => guarded(one.name, () => begin(one))));

@@ -14,9 +14,14 @@ export class Sliders {
     form.addEventListener("submit", (event) => event.preventDefault());
   }
 
-  /** Show the gains of a fit: {name, value, error, error_text, unit, means}, at these values. */
-  show(gains, values) {
+  /** Show the gains of a fit: {name, value, error, unit, means}, at these values.
+   *
+   * Fixed gains are those of a model that the page cannot simulate.
+   */
+  show(gains, values, { fixed = false } = {}) {
     this.rows = gains.map((gain) => this.makeRow(gain, values[gain.name]));
+    this.form.inert = fixed;
+    this.form.classList.toggle("fixed", fixed);
     this.form.replaceChildren(...this.rows.map((row) => row.place));
   }
 
@@ -97,16 +102,17 @@ function endsOf({ name, value }) {
 }
 
 /** A gain rounded to the precision of its error, and to the width of the field. */
-function rounded(value, error) {
+export function rounded(value, error) {
   const digits = Math.abs(value) < 0.01 ? DIGITS - 2 : DIGITS;
-  const kept = error > 0 ? Math.min(Math.max(1 - Math.floor(Math.log10(error)), 0), MOST_DECIMALS) : MOST_DECIMALS;
-  return String(Number(Number(value.toPrecision(digits)).toFixed(kept))).replace("-", "−");
+  const most = value ? digits - 1 - Math.floor(Math.log10(Math.abs(value))) : digits;
+  const needed = error > 0 ? 1 - Math.floor(Math.log10(error)) : MOST_DECIMALS;
+  return value.toFixed(Math.min(Math.max(needed, 0), Math.max(most, 0), MOST_DECIMALS)).replace("-", "−");
 }
 
 /** A standard error with two digits; a negligible one as an upper bound. */
-function errorText({ error, error_text: words }) {
-  if (error === null) return words;
-  return error < TINY ? `< ${TINY}` : String(Number(error.toPrecision(2)));
+export function errorText({ error }) {
+  if (error === null) return "not known";
+  return error < TINY ? `< ${TINY}` : error >= 100 ? String(Math.round(error)) : error.toPrecision(2);
 }
 
 function element(tag, kind, text) {

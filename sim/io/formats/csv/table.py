@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from sim.core.advice import Action
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, BadSample, MissingSignal, UnreadableFile
 from sim.core.log import LARGEST, Array
@@ -249,8 +250,7 @@ def _find_columns(
         raise MissingSignal(
             f"no column {' or '.join(missing)}; the first line is {','.join(header)[:80]!r}",
             where=where,
-            advice=f"Name the columns {','.join(NEEDED)} in the first line, or say what they are "
-            "called with --state, --voltage, --position and --velocity.",
+            advice=Action("columns", ",".join(NEEDED)),
         )
     doubt = Doubt(
         "unknown-column",

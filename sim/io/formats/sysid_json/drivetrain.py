@@ -15,6 +15,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from sim.core.advice import Action
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, MissingSignal
 from sim.io.formats.sysid_json.side import Side, align_signs, find_test_sign, make_doubt
@@ -93,7 +94,7 @@ def _doubt_sides_differ(halves: list[dict[str, Side]], *, where: str) -> list[Do
             raise MissingSignal(
                 f"the {name} encoder of the drivetrain stands still while the other side moves",
                 where=where,
-                advice=f"Read the other side alone: --motor {SIDES[1 - index]}.",
+                advice=Action("option", f"with --motor {SIDES[1 - index]}"),
             )
     apart = []
     for test in left:

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from sim.core.advice import Action
 from sim.core.doubt import Doubt
 from sim.core.errors import UnreadableFile
 from sim.core.log import LARGEST
@@ -68,8 +69,8 @@ def read_header(document: Mapping[str, object], options: ReadOptions, *, where: 
         doubts.append(
             Doubt(
                 "unknown-mechanism",
-                f"{where} is of a mechanism named {mechanism!r}, which no tool wrote. Say what it "
-                "is with --type simple, elevator or arm.",
+                f"{where} is of a mechanism named {mechanism!r}, which no tool wrote.",
+                action=Action("state-type"),
             )
         )
     units, unsure = _units(document, options, type_=type_, where=where)
@@ -98,8 +99,8 @@ def _units(
     if options.units:
         doubt = Doubt(
             "contradicting-units",
-            f"{where}: the file says {found}, but --units says {options.units}, and --units does "
-            "not convert. If the file is right, the gains are wrong: leave out --units.",
+            f"{where}: the file says {found}, but you chose {options.units}.",
+            action=Action("own-units"),
         )
         return options.units, (doubt,) if found is not None and known != options.units else ()
     if found is None:
@@ -107,13 +108,14 @@ def _units(
         doubt = Doubt(
             "units-unknown",
             f"{where} does not say in which units it is, as no file of 2019 and 2020 does: taken "
-            f"as {default}. If they are others, say so with --units.",
+            f"as {default}.",
+            action=Action("units"),
         )
         return default, (doubt,)
     if known not in UNITS:
         raise UnreadableFile(
             f"its units are {found!r}, which are not known here",
             where=where,
-            advice=f"Say what they are with --units, one of: {', '.join(UNITS)}.",
+            advice=Action("which-units", ", ".join(UNITS)),
         )
     return known, ()

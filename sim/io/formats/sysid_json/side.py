@@ -41,7 +41,7 @@ _DOUBTS = {
     ),
     "sides-differ": (
         "their velocities are far apart, and their mean stands for both",
-        "Read each side alone, --motor left and --motor right, and compare.",
+        "Fit each side alone, and compare.",
     ),
 }
 

@@ -1,0 +1,124 @@
+"""The page of ``sysid open`` as one file: it needs no server."""
+
+import base64
+import json
+import re
+from collections.abc import Callable
+from dataclasses import asdict
+from itertools import combinations, product
+from pathlib import Path
+from typing import Any
+from urllib.parse import urlencode
+
+from sim.cli.fit.paste import CONTROLLERS, LANGUAGES, SEASONS
+from sim.cli.open import page_data
+from sim.cli.open.reconcile_job import describe_story
+from sim.cli.open.session import OpenLog, Reading
+from sim.cli.open.view import PageView
+from sim.core.errors import Refusal
+from sim.reconcile.model_variant import ModelVariant
+from sim.reconcile.story import Story
+from sim.report.page_file import choose_page_path, write_page_file
+
+PAGE = Path(__file__).with_name("page")
+ENGINE = Path(__file__).parents[2] / "physics" / "engine" / "simulate.js"  # the page uses it, too
+MOST_SWITCHED = 3  # effects of which each combination is fitted; of more, only all together
+POLICY = """<meta http-equiv="Content-Security-Policy" content="default-src 'none';
+script-src 'unsafe-inline' data:; style-src 'unsafe-inline'; img-src data:">"""
+SCRIPTS = """<script type="application/json" id="saved">{}</script>
+<script type="importmap">{{"imports": {}}}</script>
+<script"""
+
+
+def save_page(one: OpenLog, target: Path, story: Story | None = None) -> None:
+    """Write the page of one log; if that fails, an existing file stays as it was.
+
+    Args:
+        one: the log.
+        target: path of the page.
+        story: a result of reconcile to show with it.
+
+    Raises:
+        Refusal: the log cannot be read, the name does not end in .html, or it cannot be written.
+    """
+    write_page_file(render_saved_page(one, Reading(), story), choose_page_path(target))
+
+
+def render_saved_page(one: OpenLog, reading: Reading, story: Story | None = None) -> str:
+    """The page of one log as HTML.
+
+    Raises:
+        Refusal: the log cannot be read.
+    """
+    text = (PAGE / "index.html").read_text(encoding="utf-8")
+    style = re.sub(
+        r'url\("(\w+\.svg)"\)',
+        lambda found: f'url("{_make_address(PAGE / found[1])}")',
+        (PAGE / "style.css").read_text(encoding="utf-8"),
+    )
+    answers = json.dumps(_collect_answers(one, reading, story), allow_nan=False)
+    modules = {path.name: _make_address(path) for path in (*PAGE.glob("*.js"), ENGINE)}
+    return (
+        text.replace("<head>", f"<head>{POLICY}")
+        .replace("mark.svg", _make_address(PAGE / "mark.svg"))
+        .replace('<link rel="stylesheet" href="style.css">', f"<style>{style}</style>")
+        .replace("<script", SCRIPTS.format(answers.replace("<", "\\u003c"), json.dumps(modules)), 1)
+        .replace(' src="main.js">', '>import "main.js";')
+    )
+
+
+def _make_address(path: Path) -> str:
+    """A file of the page as a data address; a module's imports name modules, not files."""
+    text = re.sub(r'from "\./(\w+\.js)"', r'from "\1"', path.read_text(encoding="utf-8"))
+    kind = "text/javascript" if path.suffix == ".js" else "image/svg+xml"
+    return f"data:{kind};base64,{base64.b64encode(text.encode()).decode()}"
+
+
+def _collect_answers(one: OpenLog, reading: Reading, story: Story | None) -> dict[str, Any]:
+    """The address of each request that the page can make -> its answer."""
+    of_log, log = f"logs/{one.number}", one.combine_runs(reading)
+    answers = {
+        "view": asdict(PageView()),
+        "live": {"follows": False},
+        "logs": [{"id": one.number, "name": one.name}],
+        f"{of_log}/summary": page_data.describe_log(one, reading),
+        f"{of_log}/samples": base64.b64encode(page_data.pack_samples(log)).decode(),
+        f"{of_log}/faults": page_data.describe_faults(one.inspect(reading), one),
+        f"{of_log}/directions": _answer(one, page_data.describe_directions, one, reading),
+        **_collect_model(one, reading, "", None),
+    }
+    if story is None:
+        return answers
+    said = {doubt.text for doubt in log.doubts}
+    told = describe_story(story, said)
+    answers[f"{of_log}/reconcile"] = {"words": "", "share": 1.0, "story": told}
+    effects = told["effects"]
+    counts = range(1, len(effects) + 1) if len(effects) <= MOST_SWITCHED else [len(effects)]
+    for chosen in (some for count in counts for some in combinations(effects, count)):
+        if story.variants is not None:
+            answers |= _collect_model(one, reading, ",".join(chosen), story.variants.refit(chosen))
+    return answers
+
+
+def _collect_model(
+    one: OpenLog, reading: Reading, effects: str, chosen: ModelVariant | None
+) -> dict[str, Any]:
+    """The answers about a model: its gains and curves, and its robot code."""
+    of_model = {"effects": effects} if effects else {}
+    address = f"logs/{one.number}/"
+    what = "?".join(filter(None, ("fit", urlencode(of_model))))
+    answers = {address + what: _answer(one, page_data.describe_fit, one, reading, chosen)}
+    for language, season in product((*LANGUAGES, *CONTROLLERS), SEASONS):
+        query = of_model | {"language": language, "season": season}
+        answers[f"{address}code?{urlencode(query)}"] = _answer(
+            one, page_data.write_code, one, reading, query, chosen
+        )
+    return answers
+
+
+def _answer(one: OpenLog, describe: Callable[..., Any], *arguments: object) -> Any:  # noqa: ANN401 - JSON
+    """The answer, or the refusal as the page shows it."""
+    try:
+        return describe(*arguments)
+    except Refusal as refusal:
+        return {"refusal": page_data.describe_refusal(refusal, str(one.path.parent))}

@@ -1,0 +1,103 @@
+"""Advice as data: what to do, which each surface words in its own way."""
+
+from dataclasses import dataclass
+
+ANGLES = "radians, rotations or degrees"
+NAMES = "--state ENTRY --voltage ENTRY --position ENTRY --velocity ENTRY"
+
+# name -> the sentence on the command line, and on the page of `sysid open`
+WORDS = {
+    "angle": (
+        f"Add --units {ANGLES}, or --type elevator.",
+        f"Choose {ANGLES} above, or the type elevator.",
+    ),
+    "angle-units": (
+        f"Add --units {ANGLES}, whichever is right.",
+        f"Choose {ANGLES} above, whichever is right.",
+    ),
+    "gravity-type": (
+        "Fit it with --type {} if gravity acts on it.",
+        "Choose the type {} above if gravity acts on it.",
+    ),
+    "other-type": (
+        "If gravity does not act on it like that, add --type.",
+        "If gravity does not act on it like that, choose another type above.",
+    ),
+    "rubs-or-type": (
+        "Look for a part that rubs, or choose another --type.",
+        "Look for a part that rubs, or choose another type above.",
+    ),
+    "state-type": (
+        "Say what it is with --type simple, elevator or arm.",
+        "Choose its type above.",
+    ),
+    "same-type": (
+        "Add --type, so that all are fitted as the same type.",
+        "Choose a type above, so that all are fitted as the same type.",
+    ),
+    "units": ("If they are others, add --units.", "If they are others, choose them above."),
+    "which-units": (
+        "Say what they are with --units, one of: {}.",
+        "Write its units into the file, one of: {}.",
+    ),
+    "own-units": (
+        "--units does not convert. If the file is right, the gains are wrong: leave out --units.",
+        "That does not convert. If the file is right, the gains are wrong: choose its units.",
+    ),
+    "velocity-scale": (
+        "If the position is right, add --velocity-scale {} or --ignore-velocity.",
+        "If the position is right, correct the log with `sysid fit --velocity-scale {}`.",
+    ),
+    "option": (
+        "Choose one {}.",
+        "This page cannot choose one. In a terminal, `sysid fit` can, {}.",
+    ),
+    "entry-type": ("Name an entry of type {} with its option.", "Choose an entry of type {}."),
+    "columns": (
+        f"Name the columns {{}} in the first line, or say what they are called: {NAMES}.",
+        "Name the columns {} in the first line of the file.",
+    ),
+    "radius": (
+        "Add --radius: the radius of the wheel or drum, in meters.",
+        "Type the radius of the wheel or drum, in meters, above.",
+    ),
+    "look-for-cause": (
+        "`sysid reconcile` looks for the cause.",
+        "The search for what the model lacks looks for the cause.",
+    ),
+    "inspect-and-reconcile": (
+        "Run `sysid inspect`, then `sysid reconcile` to find the missing effect.",
+        "Look at the faults, then search for what the model lacks.",
+    ),
+    "name-entries": (
+        f"Or name another logger's entries with {NAMES}.",
+        "Or choose another logger's entries by hand.",
+    ),
+}
+
+
+@dataclass(frozen=True)
+class Action:
+    """What the user can do about a warning or a refusal.
+
+    Args:
+        name: one of ``WORDS``.
+        argument: what its sentence names.
+        before: sentences of advice that stand before it, and need no option.
+    """
+
+    name: str
+    argument: str = ""
+    before: str = ""
+
+    def __str__(self) -> str:
+        """The advice on the command line."""
+        return self._word(0)
+
+    @property
+    def on_page(self) -> str:
+        """The advice on the page of ``sysid open``."""
+        return self._word(1)
+
+    def _word(self, surface: int) -> str:
+        return f"{self.before} {WORDS[self.name][surface].format(self.argument)}".strip()

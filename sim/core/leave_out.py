@@ -1,0 +1,111 @@
+"""Leave a part of a test, or a whole test, out of a log."""
+
+import math
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.core.errors import BadRequest
+from sim.core.log import Log, Run
+from sim.core.vocabulary import TESTS
+
+FEWEST = 5  # [samples] shorter pieces of a run are left out, too
+SPELLING = re.compile(r"(?P<test>[\w-]+?)(:(?P<start>[\d.]+)-(?P<end>[\d.]+))?")
+SIGNALS = ("time", "voltage", "position", "velocity", "current", "bus_voltage")
+
+
+@dataclass(frozen=True)
+class LeftOutPart:
+    """A part of a log that is not used.
+
+    Args:
+        test: name of the test.
+        start: [s] time in the log at which the part begins.
+        end: [s] at which it ends.
+    """
+
+    test: str
+    start: float = -math.inf
+    end: float = math.inf
+
+    @classmethod
+    def parse(cls, text: str) -> "LeftOutPart":
+        """The part that a text such as ``dynamic-forward:5.5-6`` names; a test alone is a whole.
+
+        Raises:
+            BadRequest: it names no test, or its times are not two numbers in order.
+        """
+        found = SPELLING.fullmatch(text.strip())
+        if found is None or found["test"] not in TESTS:
+            raise BadRequest(
+                f"{text!r} names no part of a log",
+                advice="Write a test and two times in seconds, as `sysid inspect` prints them: "
+                "dynamic-forward:5.5-6, or the name of a test alone.",
+            )
+        if found["start"] is None:
+            return cls(found["test"])
+        try:
+            start, end = float(found["start"]), float(found["end"])
+        except ValueError:
+            start, end = 1.0, 0.0
+        if not start < end:
+            raise BadRequest(
+                f"{text!r} does not begin before it ends",
+                advice="Write two times in seconds, the earlier one first: dynamic-forward:5.5-6.",
+            )
+        return cls(found["test"], start, end)
+
+    def __str__(self) -> str:
+        """The part in words."""
+        if math.isinf(self.start):
+            return self.test
+        return f"{self.test}, {self.start:.2f} to {self.end:.2f} s"
+
+    def find(self, run: Run) -> NDArray[np.bool_]:
+        """(n,) which samples of a run belong to the part."""
+        return (run.time >= self.start) & (run.time <= self.end) & (run.test == self.test)
+
+
+def leave_out(logs: Mapping[str, Log], parts: Iterable[LeftOutPart]) -> dict[str, Log]:
+    """The logs without some parts; a run is split where a part of its middle is missing.
+
+    Args:
+        logs: name -> log.
+        parts: what to leave out.
+
+    Raises:
+        BadRequest: no log has such a part, or nothing would remain of a log.
+    """
+    left = dict(logs)
+    for part in parts:
+        if not any(part.find(run).any() for log in logs.values() for run in log.runs):
+            raise BadRequest(
+                f"the log has no samples of {part}, so they cannot be left out",
+                advice="Take test and times from the output of `sysid inspect`.",
+            )
+        left = {
+            name: replace(log, runs=tuple(piece for run in log.runs for piece in _split(run, part)))
+            for name, log in left.items()
+        }
+    if not all(log.runs for log in left.values()):
+        raise BadRequest("nothing of the log is left", advice="Leave out less of it.")
+    return left
+
+
+def _split(run: Run, part: LeftOutPart) -> list[Run]:
+    """The run without the part: itself, or the pieces before and after it."""
+    gone = part.find(run).nonzero()[0]
+    if not gone.size:
+        return [run]
+    pieces = (slice(0, gone[0]), slice(gone[-1] + 1, len(run)))
+    return [one for one in (_cut(run, piece) for piece in pieces) if len(one) >= FEWEST]
+
+
+def _cut(run: Run, piece: slice) -> Run:
+    """A piece of a run."""
+    signals: dict[str, Any] = {name: getattr(run, name) for name in SIGNALS}
+    return replace(run, **{name: one[piece] for name, one in signals.items() if one is not None})
