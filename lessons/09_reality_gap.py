@@ -73,7 +73,7 @@ from sim.plot import (
 )
 from sim.plot.animation import Choice, Gain, Knob, Motion, Panel, Scene, Score, animate_mechanism
 from sim.plot.effect_search import EffectSearch
-from sim.plot.story import make_findings_table, plot_residual_maps
+from sim.plot.story import make_findings_table, plot_remaining_gap
 from sim.reconcile import reconcile
 from sim.reconcile.by_hand import HandSearch
 from sim.teaching.prediction import Prediction
@@ -445,12 +445,11 @@ story = reconcile(log, validation=validation, held_out=held_out, type="simple")
 make_findings_table(story)
 
 # %% [markdown]
-# The next maps show where simulation and log differ, with gains alone (left) and with both effects
-# (right). Where a map is blue, the robot is slower than the model. Where it is orange, the robot is
-# faster.
+# The next pictures are those of section 3, for the held-out log: with gains alone, and with all
+# effects that reconcile found.
 
 # %%
-plot_residual_maps(story)
+display(*plot_remaining_gap(story))
 
 # %% [markdown]
 # ### Compare its numbers with your numbers

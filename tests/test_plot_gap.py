@@ -74,7 +74,10 @@ def test_what_no_plot_shows_is_said():
         replace(log, runs=(replace(log.runs[0], velocity=pushed), *log.runs[1:])), TRUTH
     )
     assert found.unexplained > 0.3
-    assert f"{100 * found.unexplained:.0f} % is explained by none" in found.headline
+    assert (
+        f"{100 * found.unexplained:.0f} % of the gap beyond noise shows in no plot"
+        in found.headline
+    )
 
 
 def test_missing_volts_are_the_volts_of_the_friction_that_is_hidden():

@@ -43,7 +43,7 @@ from sim.plot.story import (
     plot_candidate_bars,
     plot_gap_by_round,
     plot_overlays,
-    plot_residual_maps,
+    plot_remaining_gap,
 )
 from sim.reconcile.story_text import (
     format_estimate,
@@ -281,8 +281,8 @@ def test_damage_is_told_as_surely_as_it_is_known(sure, unsure, said):
 
 
 def test_a_round_that_explains_nothing_has_no_empty_picture(pages):
-    # the gap, the map, one lineup and one overlay; the second round is a table only
-    assert pages["explained"].count("<img ") == 4
+    # the gap, what two models leave, one lineup and one overlay; the second round is a table only
+    assert pages["explained"].count("<img ") == 5
 
 
 def test_the_same_story_gives_the_same_page(pages):
@@ -353,30 +353,26 @@ def test_the_base_has_no_before():
     assert picture.table.header == ("run", "base model, error [times the noise]")
 
 
-def test_the_map_shows_where_before_and_nowhere_after():
-    picture = plot_residual_maps(EXPLAINED)
+def test_the_pictures_show_a_gap_before_and_only_noise_after():
+    before, after = plot_remaining_gap(EXPLAINED)
 
-    models = [row[-1] for row in picture.table.rows]
-    assert set(models) == {"base"}
-    assert all(row[1].startswith("−") for row in picture.table.rows)  # the robot is slower
-    assert "with drag: nowhere clearly more than the noise." in picture.alt
+    assert "of the gap beyond noise shows in no plot" in before.alt
+    assert "with drag: Only noise remains." in after.alt
 
 
-def test_samples_that_do_not_count_are_not_on_the_map():
+def test_samples_that_do_not_count_are_in_no_picture():
     ramp_only = tuple(np.full(150, test.startswith("quasistatic")) for test in TESTS)
 
-    picture = plot_residual_maps(replace(EXPLAINED, compared=ramp_only))
-
-    assert "quasistatic-forward" in picture.alt
-    assert "dynamic" not in picture.alt
-    assert "dynamic" in plot_residual_maps(EXPLAINED).alt
+    assert plot_remaining_gap(replace(EXPLAINED, compared=ramp_only))[0].table.rows != (
+        plot_remaining_gap(EXPLAINED)[0].table.rows
+    )
 
 
-def test_a_map_of_nothing_is_refused_and_said_on_the_page():
+def test_a_picture_of_nothing_is_refused_and_said_on_the_page():
     none = replace(EXPLAINED, compared=tuple(np.zeros(150, dtype=bool) for _ in TESTS))
 
     with pytest.raises(BadRequest, match="Give longer runs"):
-        plot_residual_maps(none)
+        plot_remaining_gap(none)
     assert "there is too little to compare" in render_story(none, title="drive.csv")
 
 

@@ -15,6 +15,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
+from sim.core.errors import BadRequest
 from sim.core.log import Array, Log, Run
 from sim.core.units import find_unit
 from sim.estimation.measurements import estimate_noise, measure_runs
@@ -110,7 +111,7 @@ class ResidualViews:
         if self.is_noise:
             return "Only noise remains."
         share = _percent(self.unexplained)
-        return f"Of the gap beyond noise, {share} is explained by none of these plots."
+        return f"{share} of the gap beyond noise shows in no plot."
 
 
 def compute_missing_volts(
@@ -131,7 +132,8 @@ def compute_missing_volts(
     for run, velocity in zip(log.runs, simulated, strict=True):
         off = run.velocity - velocity
         kept = np.exp(-gains["kV"] / gains["kA"] * np.diff(run.time))
-        missing = gains["kV"] * (off[1:] - kept * off[:-1]) / (1.0 - kept)
+        with np.errstate(over="ignore", invalid="ignore"):  # a simulation that diverged
+            missing = gains["kV"] * (off[1:] - kept * off[:-1]) / (1.0 - kept)
         volts.append(np.append(missing, np.nan))
     return volts
 
@@ -141,7 +143,13 @@ def simulate_velocity(log: Log, model: Model) -> list[Array]:
     return [track.seen for track in replay_log(model, log)]
 
 
-def make_residual_views(log: Log, model: Model) -> ResidualViews:
+def make_residual_views(
+    log: Log,
+    model: Model,
+    *,
+    simulated: Sequence[Array] = (),
+    compared: Sequence[NDArray[np.bool_]] = (),
+) -> ResidualViews:
     """The voltage residual over five variables.
 
     Friction and drag act along the motion, an effect after a jump acts along the jump, and a
@@ -151,14 +159,19 @@ def make_residual_views(log: Log, model: Model) -> ResidualViews:
     Args:
         log: the measured runs.
         model: the model that is simulated.
+        simulated: for each run, (n,) its velocity [m/s or rad/s]; empty: it is simulated here.
+        compared: for each run, (n,) whether a sample counts; empty: all do.
+
+    Raises:
+        BadRequest: no sample can be compared.
     """
-    simulated, gains = simulate_velocity(log, model), model.gains
+    simulated, gains = simulated or simulate_velocity(log, model), model.gains
+    counts = compared or [np.ones(len(run), dtype=bool) for run in log.runs]
+    volts = compute_missing_volts(log, simulated, gains)
     columns: dict[str, list[Array]] = {name: [] for name in _COLUMNS}
-    for run, velocity, missing in zip(
-        log.runs, simulated, compute_missing_volts(log, simulated, gains), strict=True
-    ):
+    for run, velocity, missing, counted in zip(log.runs, simulated, volts, counts, strict=True):
         ahead = np.sign(np.where(velocity == 0.0, run.voltage, velocity))
-        inside = (ahead != 0.0) & np.isfinite(missing)
+        inside = counted & (ahead != 0.0) & np.isfinite(missing)
         since, upward = _find_last_jump(run)
         bus = np.full(len(run), np.nan) if run.bus_voltage is None else run.bus_voltage
         samples = (
@@ -168,6 +181,11 @@ def make_residual_views(log: Log, model: Model) -> ResidualViews:
         for name, values in zip(columns, samples, strict=True):
             columns[name].append(values[inside])
     joined = {name: np.concatenate(values) for name, values in columns.items()}
+    if not joined["missing"].size:
+        raise BadRequest(
+            "there is too little to compare, or the simulated motion grew without limit",
+            advice="Give longer runs, or read the warnings of the fit.",
+        )
     measured = measure_runs(log, friction=None, rest_by_position=False)
     variance = joined["noise"] * estimate_noise(measured).velocity ** 2
     return _make_views(joined, variance, log)
@@ -217,6 +235,8 @@ def _make_columns(view: ResidualView) -> Array:
 
 def _explain(table: Array, missing: Array, variance: Array, *, beyond: float) -> float:
     """Share of the squared residual beyond noise that regressors explain; noise fits a little."""
+    if not table.shape[1]:
+        return 0.0
     basis, sizes, _ = np.linalg.svd(table, full_matrices=False)
     basis = basis[:, sizes > RANK * sizes[0]]
     by_chance = float(np.sum(basis**2 * variance[:, None]))
@@ -230,14 +250,28 @@ def _noise_of_missing(run: Run, gains: Mapping[str, float]) -> Array:
     return np.append(gains["kV"] ** 2 * (1.0 + kept**2) / (1.0 - kept) ** 2, np.nan)
 
 
-def plot_voltage_residual(log: Log, model: Model) -> Picture:
+def plot_voltage_residual(
+    log: Log,
+    model: Model,
+    *,
+    title: str = "",
+    simulated: Sequence[Array] = (),
+    compared: Sequence[NDArray[np.bool_]] = (),
+) -> Picture:
     """The voltage residual over five variables, with the share that each explains, and a run.
 
     Args:
         log: the measured runs.
         model: the model that is simulated.
+        title: what the model is called; may be empty.
+        simulated: as for ``make_residual_views``.
+        compared: the same.
+
+    Raises:
+        BadRequest: no sample can be compared.
     """
-    made = make_residual_views(log, model)
+    simulated = simulated or simulate_velocity(log, model)
+    made = make_residual_views(log, model, simulated=simulated, compared=compared)
     found = made.views
     missing = found[SPEED].volts
     figure, grid = make_panels(2, 3, width=10.0, height=5.4)
@@ -259,8 +293,9 @@ def plot_voltage_residual(log: Log, model: Model) -> Picture:
         row[0].set_ylabel("voltage residual [V]", color=INK)
     for axes in places[len(found) : -1]:
         axes.set_axis_off()
-    _draw_worst_run(places[-1], log, simulate_velocity(log, model))
-    figure.suptitle(made.headline, fontsize=11, color=INK)
+    _draw_worst_run(places[-1], log, simulated)
+    headline = f"{title}: {made.headline}" if title else made.headline
+    figure.suptitle(headline, fontsize=11, color=INK)
     add_legend(figure, (places[0], places[-1]), columns=4)
     typical = float(np.sqrt(np.mean(missing**2)))
     shares = ", ".join(f"{name} {_percent(view.explains)}" for name, view in found.items())
@@ -268,7 +303,7 @@ def plot_voltage_residual(log: Log, model: Model) -> Picture:
         f"{NUMBERS[len(found)]} views of the voltage residual, which is {to_text(typical)} V "
         "typically. Each sample is a pale dot. A line connects the means of nearby samples, with "
         f"their errors. The means explain this share of the squared residual: {shares}. "
-        f"{made.headline} The last plot shows the measured and the simulated velocity of one run."
+        f"{headline} The last plot shows the measured and the simulated velocity of one run."
     )
     return Picture(figure, alt, Table(("plotted over", "explains", "means [V]"), tuple(
         (name, _percent(view.explains), _format_means(view)) for name, view in found.items()
@@ -277,7 +312,8 @@ def plot_voltage_residual(log: Log, model: Model) -> Picture:
 
 def _draw_worst_run(axes: Axes, log: Log, simulated: Sequence[Array]) -> None:
     """The measured and the simulated velocity of the run that differ most."""
-    errors = [np.mean((r.velocity - v) ** 2) for r, v in zip(log.runs, simulated, strict=True)]
+    with np.errstate(over="ignore"):  # a simulation that diverged
+        errors = [np.mean((r.velocity - v) ** 2) for r, v in zip(log.runs, simulated, strict=True)]
     worst = int(np.argmax(errors))
     run, per = log.runs[worst], find_unit(log.units)
     curves = (("measured", run.velocity, 4, 3.0), ("simulated", simulated[worst], 1, 1.2))
@@ -354,7 +390,7 @@ def _format_means(view: ResidualView) -> str:
     known = view.mean[np.isfinite(view.mean)]
     if known.size > FINE:
         return f"from {_signed(known.min())} to {_signed(known.max())}"
-    return ",\N{NO-BREAK SPACE}".join("none" if np.isnan(m) else _signed(m) for m in view.mean)
+    return ",\N{NO-BREAK SPACE}".join("–" if np.isnan(m) else _signed(m) for m in view.mean)
 
 
 def _signed(volts: float) -> str:

@@ -16,7 +16,7 @@ from sim.plot.story import (
     plot_candidate_bars,
     plot_gap_by_round,
     plot_overlays,
-    plot_residual_maps,
+    plot_remaining_gap,
 )
 from sim.plot.story_bars import make_candidate_table
 from sim.plot.table import Table
@@ -110,17 +110,17 @@ def render_story(story: Story, *, title: str) -> str:
             tests=list_next_tests(story),
             shrinking=_html(plot_gap_by_round(story)),
             places=[(place.sentence, f"{place.sure:.0f}") for place in story.where],
-            gaps=_draw_maps(story),
+            gaps=_draw_gap(story),
             rounds=[(_name_model(story, n), _draw_candidates(story, n)) for n in tried],
             overlays=[(_name_model(story, n), _html(plot_overlays(story, n))) for n in overlaid],
         )
     )  # fmt: skip
 
 
-def _draw_maps(story: Story) -> Markup:
-    """The residual maps, or the reason why there are none."""
+def _draw_gap(story: Story) -> Markup:
+    """What the first and the last model leave, or the reason why there are none."""
     try:
-        return _html(plot_residual_maps(story))
+        return Markup().join(map(_html, plot_remaining_gap(story)))
     except BadRequest as refusal:
         return Markup("<p>{}</p>").format(str(refusal))
 
