@@ -12,7 +12,7 @@ from grader.isolation import find_isolation_level
 from sim.support.extras import format_install_command
 
 OLDEST = (3, 11)
-NEEDED = ("numpy", "scipy", "matplotlib", "jupyterlab", "ipywidgets", "tree-sitter")
+NEEDED = ("numpy", "matplotlib", "jupyterlab", "ipywidgets", "tree-sitter")
 ROBOT = ("wpilib", "robotpy-commands-v2")
 
 

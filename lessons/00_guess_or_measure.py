@@ -233,7 +233,7 @@ def side_by_side(driven: Mechanism, racers: dict[str, dict[str, float]]) -> Scen
     return Scene(TIME, (asked, *motions))
 
 
-print(guess_race.reveal("the three lines"))
+print(guess_race.reveal("lesson0.race"))
 animate_mechanism(
     "drivetrain",
     side_by_side(robot, {YOU: guessed, "three lines": measured}),
@@ -367,7 +367,7 @@ def off(gains: dict[str, float], name: str) -> str:
     return f"{100 * (gains[name] / truth[name] - 1):+.1f} %".replace("-", "−")
 
 
-print(guess_pencil.reveal("1 % or less"))
+print(guess_pencil.reveal("lesson0.pencil"))
 Table(
     ("who", "kS off by", "kV off by", "kA off by"),
     (
@@ -496,8 +496,8 @@ heavy, again = with_brace(BRACE)
 before = measure_tracking_error(TARGET, drive(robot, guessed)).typical
 after = measure_tracking_error(TARGET, drive(heavy, guessed)).typical
 
-print(guess_gain.reveal("kA"))
-print(guess_worse.reveal("hardly"))
+print(guess_gain.reveal("lesson0.gain"))
+print(guess_worse.reveal("lesson0.worse"))
 print(f"Typical error of {YOU}: {before:.3f} m/s before the brace, {after:.3f} m/s with it.")
 Table(
     ("gain", "true before", "true with the brace", "measured before", "measured again", "unit"),
@@ -713,19 +713,9 @@ else:
 
 # %%
 from grader import QuickCheck
+from sim.teaching.answers import read_answer
 
-quick = QuickCheck(
-    "Which gain changed when the 4 kg brace was added?",
-    {
-        "kS": "Most friction is in gears and bearings. Four kilograms more hardly change it.",
-        "kV": (
-            "kV is the voltage for a steady speed. At a steady speed nothing accelerates, "
-            "so mass does not matter."
-        ),
-        "kA": "A heavier robot needs more volts for the same acceleration.",
-    },
-    right="kA",
-)
+quick = QuickCheck(**read_answer("lesson0.quick"))
 quick
 
 # %% [markdown]

@@ -129,7 +129,7 @@ guess_seven
 
 # %%
 left = 7.0 - sum(bill(2.0, 0.0).values())
-print(guess_seven.reveal("into acceleration: the speed is not steady"))
+print(guess_seven.reveal("lesson1.seven"))
 print(
     f"7 V − {gains['kS']:.2f} V (friction) − {gains['kV'] * 2:.2f} V (speed) = {left:.2f} V "
     "are left."
@@ -226,8 +226,8 @@ animate_mechanism(
 # %%
 time, terms, _ = spent("slow ramp", 60.0, 0.15)
 halfway = float(terms["kA·a"][round(3.0 / FINE)])
-print("After the step:", guess_step.reveal("kA·a"))
-print("In the ramp:", guess_ramp.reveal("kV·v"))
+print("After the step:", guess_step.reveal("lesson1.step"))
+print("In the ramp:", guess_ramp.reveal("lesson1.ramp"))
 print(f"Halfway through the ramp, kA·a takes {halfway:.2f} V.")
 
 # %% [markdown]
@@ -364,7 +364,7 @@ other_parts(mass=60.0, ratio=8.14, motors=4, wheel=4.0)
 
 # %%
 geared = built(60.0, 8.14, 4, 4.0)
-print(guess_gears.reveal("kV grows, kA shrinks"))
+print(guess_gears.reveal("lesson1.gears"))
 print(f"kV is now {geared['kV'] / gains['kV']:.2f} times as large as before,", end=" ")
 print(f"and kA is {geared['kA'] / gains['kA']:.2f} times as large.")
 
@@ -502,7 +502,7 @@ def above(story: str) -> float:
     return 100 * (found(STORIES[story])["kV"] / THEORY - 1)
 
 
-print(guess_cause.reveal("thick grease, which brakes more at higher speed"))
+print(guess_cause.reveal("lesson1.cause"))
 SHORT = {"no fault": "no fault", "thick grease in the gears": "grease"}
 SHORT |= {"diameter used as radius": "wrong wheel"}
 marks = {name: above(story) for story, name in SHORT.items()}
@@ -681,7 +681,7 @@ guess_unit = Prediction(
 guess_unit
 
 # %%
-print(guess_unit.reveal("6.28 times smaller"))
+print(guess_unit.reveal("lesson1.unit"))
 rows = [
     (name, f"{speed:.0f}", per_rotation * 50.0 / speed, per_rotation * 50.0)
     for name, speed in (
@@ -736,14 +736,9 @@ print(f"4 inch wheel: kV = 0.8 V·s/rot is the same as {0.8 / (math.pi * wheel):
 
 # %%
 from grader import QuickNumberCheck
+from sim.teaching.answers import read_answer
 
-quick = QuickNumberCheck(
-    "A shooter's kV is 0.12 V·s/rot. How much is it per radian, in V·s/rad?",
-    0.12 / (2 * math.pi),
-    "V·s/rad",
-    gain="kV",
-    angular=True,
-)
+quick = QuickNumberCheck(**read_answer("lesson1.quick"))
 quick
 
 # %% [markdown]

@@ -115,7 +115,7 @@ guess_load
 TIMES = 1.5
 UNITS = {"kS": "V", "kV": "V·s/m", "kA": "V·s²/m", "kG": "V"}
 heavy = replace(elevator, load=TIMES * elevator.load).gains
-print(guess_load.reveal("kG and kA"))
+print(guess_load.reveal("lesson2.load"))
 Table(
     ("gain", f"at {elevator.load:.0f} kg", f"at {TIMES * elevator.load:.0f} kg", "factor", "unit"),
     tuple((one, truth[one], heavy[one], heavy[one] / truth[one], UNITS[one]) for one in truth),
@@ -201,7 +201,7 @@ guess_hold
 
 # %%
 little_less = let_go(truth["kG"] - 0.15)
-print(guess_hold.reveal("it stays"))
+print(guess_hold.reveal("lesson2.hold"))
 print(f"{truth['kG'] - 0.15:.2f} V: after 0.4 s the carriage moves at {little_less:.3f} m/s.")
 
 # %% [markdown]
@@ -335,7 +335,7 @@ guess_angle = Prediction(
 guess_angle
 
 # %%
-print(guess_angle.reveal("half"))
+print(guess_angle.reveal("lesson2.angle"))
 print(f"np.cos(60) = {np.cos(60):.3f}, not 0.5: NumPy, Java and C++ need angles in radians.")
 for angle in (0, 60, 120):
     print(f"At {angle}° the motor needs {np.cos(np.radians(angle)):g} · kG.".replace("-", "−"))
@@ -540,7 +540,7 @@ for name, (one, types) in cases.items():
         found = (got.get(gain, "–") for gain in ("kS", "kV", "kA", "kG"))
         rows.append((f"{name}, fitted as {kind}", *found))
 
-print(guess_type.reveal("nonsense"))
+print(guess_type.reveal("lesson2.type"))
 Table(
     ("log", "kS [V]", "kV", "kA", "kG [V]"),
     tuple(rows),
@@ -601,7 +601,7 @@ guess_up
 
 # %%
 up_only = replace(log, runs=tuple(run for run in log.runs if run.direction == "forward"))
-print(guess_up.reveal("neither kS nor kG, only their sum"))
+print(guess_up.reveal("lesson2.up"))
 try:
     fit(up_only)
 except sim.Refusal as refusal:
@@ -765,7 +765,7 @@ guess_order
 
 # %%
 wrong = truth["kV"]  # at rest, an ElevatorFeedforward gives its second argument
-print(guess_order.reveal("it goes up"))
+print(guess_order.reveal("lesson2.order"))
 print(f"At rest the motor gets {wrong:.2f} V instead of {truth['kG']:.2f} V, ", end="")
 print(f"and the carriage moves at {let_go(wrong, height=0.3):.2f} m/s.")
 
@@ -804,16 +804,9 @@ print(f"and the carriage moves at {let_go(wrong, height=0.3):.2f} m/s.")
 
 # %%
 from grader import QuickCheck
+from sim.teaching.answers import read_answer
 
-quick = QuickCheck(
-    "You raise the voltage until the elevator no longer drops. Which voltage have you found?",
-    {
-        "kG − kS": "Friction helps you to hold the elevator, so less than kG is enough.",
-        "kG": "kG is the middle of the window. But friction helps you to hold the elevator.",
-        "kG + kS": "At this voltage the elevator begins to rise, against gravity and friction.",
-    },
-    right="kG − kS",
-)
+quick = QuickCheck(**read_answer("lesson2.quick"))
 quick
 
 # %% [markdown]

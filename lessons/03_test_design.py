@@ -121,7 +121,7 @@ top = (2.0 - truth["kS"]) / truth["kV"]
 tau = truth["kA"] / truth["kV"]
 at_tau = float(np.interp(tau, since, speed))
 
-print(guess_rise.reveal("quickly first, then slower and slower"))
+print(guess_rise.reveal("lesson3.rise"))
 print(
     f"The star shows the time kA/kV = {1000 * tau:.0f} ms. Then the robot has "
     f"{100 * at_tau / top:.0f} % of its final speed."
@@ -241,7 +241,7 @@ show_interactive(
 display(*drift_picture("flywheel", 1.0))
 
 # %%
-print(guess_drift.reveal("the flywheel's"))
+print(guess_drift.reveal("lesson3.drift"))
 rows = []
 for name, mechanism in SHOWN.items():
     gains = mechanism.gains
@@ -397,8 +397,8 @@ for name, tests in SETS.items():
     ).errors
     shares = (100 * errors[gain] / truth[gain] for gain in ("kS", "kV", "kA"))
     rows.append((name, *(share if share < 100 else "unknown" for share in shares)))
-print("1.", guess_drop.reveal("nothing, the errors grow a little"))
-print("2.", guess_ramps.reveal("all three gains"))
+print("1.", guess_drop.reveal("lesson3.drop"))
+print("2.", guess_ramps.reveal("lesson3.ramps"))
 Table(
     ("runs", "kS ± [%]", "kV ± [%]", "kA ± [%]"),
     tuple(rows),
@@ -476,7 +476,7 @@ both = fit(uneven_log, method="sysid")
 gains = (both.gains[name] for name in truth)
 rows.append(("all four, SysId's recipe", *gains, both.simulated_velocity_r2))
 rows.append(("truth", f"{0.30 + LEAN:.2f} and {0.30 - LEAN:.2f}", truth["kV"], truth["kA"], "–"))
-print(guess_lean.reveal("kA"))
+print(guess_lean.reveal("lesson3.lean"))
 Table(("runs", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "simulated velocity R²"), tuple(rows))
 
 # %% [markdown]
@@ -543,7 +543,7 @@ for ramp in (0.25, 0.5, 1.0, 2.0):
     volts = ramp * float(np.interp(TEN_FEET, place, time))
     ten_seconds = float(np.interp(10.0, time, place)) if time[-1] >= 9.9 else "–"
     rows.append((ramp, float(np.interp(1.0, speed, place)), rule, volts, ten_seconds))
-print(guess_way.reveal("twice as far"))
+print(guess_way.reveal("lesson3.way"))
 Table(
     (
         "ramp [V/s]",
@@ -793,16 +793,9 @@ animate_mechanism(
 
 # %%
 from grader import QuickCheck
+from sim.teaching.answers import read_answer
 
-quick = QuickCheck(
-    "You halve the voltage ramp. How far does the mechanism move to reach the same speed?",
-    {
-        "half as far": "It needs more time to reach the speed, and it moves all the time.",
-        "just as far": "The final speed is the same, but it needs more time to reach this speed.",
-        "twice as far": "It moves for twice the time, with the same average speed.",
-    },
-    right="twice as far",
-)
+quick = QuickCheck(**read_answer("lesson3.quick"))
 quick
 
 # %% [markdown]

@@ -667,15 +667,15 @@ asked, arrived = (fit(programs[name][0], method="sysid") for name in list(progra
 off = {gain: 100 * (asked.gains[gain] / truth[gain] - 1) for gain in truth}
 turns = fit(programs["turns called meters"][0], method="sysid").gains["kV"] / truth["kV"]
 worst = min(fit(log, method="sysid").simulated_velocity_r2 for log, _ in programs.values())
-print("1.", guess_gain.reveal("kA"))
+print("1.", guess_gain.reveal("lesson4.gain"))
 print("   Errors with the commanded volts:", end=" ")
 print(f"kS {off['kS']:+.0f} %, kV {off['kV']:+.0f} %, kA {off['kA']:+.0f} %.")
-print("2.", guess_factor.reveal("3.1 times too small"))
+print("2.", guess_factor.reveal("lesson4.factor"))
 print(
     f"   kV is {1 / turns:.2f} times too small, because the wheel's circumference is "
     f"1/{1 / CIRCUMFERENCE:.2f} m."
 )
-print("3.", guess_score.reveal("for none"))
+print("3.", guess_score.reveal("lesson4.score"))
 print(f"   The lowest simulated velocity R² of all seven programs is {worst:.3f}.")
 
 # %% [markdown]
@@ -808,22 +808,9 @@ print(f"   The lowest simulated velocity R² of all seven programs is {worst:.3f
 
 # %%
 from grader import QuickCheck
+from sim.teaching.answers import read_answer
 
-quick = QuickCheck(
-    (
-        "A drive callback calls motor.set(volts / 12), and the log contains the commanded "
-        "volts. Which gains are wrong when the battery gives 11 V all the time?"
-    ),
-    {
-        "none": "The motors get a fraction of 11 V, but the log says the same fraction of 12 V.",
-        "only kA": (
-            "Only kA is wrong if the battery voltage drops just for a moment. Here the logged "
-            "voltage is wrong in every row, also at a steady speed."
-        ),
-        "all three": "In every row, the log says more volts than the motors got.",
-    },
-    right="all three",
-)
+quick = QuickCheck(**read_answer("lesson4.quick"))
 quick
 
 # %% [markdown]

@@ -139,8 +139,8 @@ for ramp in (0.25, 0.5, 1.0, 2.0):
     rows.append((ramp, time, way, TRUTH["kV"] * 2.0**2 / (2 * ramp)))
 
 slow = drive_test(ROBOT, sim.Routine(ramp=0.5, timeout=10.0), test=RAMP, floor=HALL)
-print(guess_room.reveal("more room"))
-print(guess_ten.reveal("about 9 m (30 feet)"))
+print(guess_room.reveal("lesson5.room"))
+print(guess_ten.reveal("lesson5.ten"))
 gone = slow.final_position
 print(f"With 0.5 V/s for 10 s, the robot drives {gone:.1f} m, or {gone / FOOT:.0f} feet.")
 Table(
@@ -262,7 +262,7 @@ run_it(RAMP, tape=7.0, thumb=0.3, moment=0.7)
 # %%
 went = drive_test(ROBOT, routine, test=RAMP, floor=Floor(wall=WALL, tape=7.0))
 top = float(went.velocity.max())
-print(guess_stop.reveal("about 1 m past it"))
+print(guess_stop.reveal("lesson5.stop"))
 let_go = float(np.interp(went.released, went.time, went.position))
 print(f"The robot stops {went.final_position - 7.0:.2f} m past the tape:")
 print(f"  {let_go - 7.0:.2f} m until you react, and {went.final_position - let_go:.2f} m to brake.")
@@ -369,7 +369,7 @@ for name, log in logs.items():
     names = {damage.fault for damage in seen.damages} | {doubt.code for doubt in log.doubts}
     ratios = [found.gains[gain] / TRUTH[gain] for gain in ("kS", "kV", "kA")]
     rows.append((name, ", ".join(sorted(names)) or "nothing", *ratios))
-print(guess_check.reveal("encoder"))
+print(guess_check.reveal("lesson5.check"))
 Table(("skipped", "found in the log", "kS ÷ true", "kV ÷ true", "kA ÷ true"), tuple(rows))
 
 # %% [markdown]
@@ -862,19 +862,9 @@ Table(
 
 # %%
 from grader import QuickCheck
+from sim.teaching.answers import read_answer
 
-quick = QuickCheck(
-    "Which soft limits (limits in software) do not work during a SysId test?",
-    {
-        "all": "A limit inside the motor controller still works.",
-        "none": "Your own commands do not run during a test, so the limits in them do not work.",
-        "those in your own commands": (
-            "No other command can use the subsystem during a test. But a limit in the motor "
-            "controller still works."
-        ),
-    },
-    right="those in your own commands",
-)
+quick = QuickCheck(**read_answer("lesson5.quick"))
 quick
 
 # %% [markdown]

@@ -144,7 +144,7 @@ plot_acceleration_velocity(sound)
 rise = sound.list_runs_of_test("dynamic-forward")[0]
 slope = np.gradient(rise.velocity, rise.time)
 early, later = (int(np.searchsorted(rise.time, rise.time[0] + wait)) for wait in (0.02, 0.02 + TAU))
-print(guess_rise.reveal("largest at the start, then less and less"))
+print(guess_rise.reveal("lesson6.rise"))
 print(f"Acceleration after  20 ms: {slope[early]:.1f} m/s²")
 print(f"Acceleration {1000 * TAU:.0f} ms later: {slope[later]:.1f} m/s²", end="")
 print(f", {slope[later] / slope[early]:.0%} of it")
@@ -409,8 +409,8 @@ for share, longest in ((0.0, 0.05), (0.05, 0.1), (0.2, 0.1), (0.2, 0.3)):
     name = f"{100 * share:.0f} % of the loops, up to {1000 * longest:.0f} ms" if share else "none"
     rows.append((name, float(np.mean(kv)), float(np.mean(ka)), float(ka.min()), float(ka.max())))
 
-print(guess_late.reveal("the velocity next to the slope of the position"))
-print(guess_gap.reveal("kA"))
+print(guess_late.reveal("lesson6.late"))
+print(guess_gap.reveal("lesson6.gap"))
 Table(("gaps", "kV ÷ true", "kA ÷ true, mean of ten", "smallest", "largest"), tuple(rows))
 
 # %% [markdown]
@@ -677,8 +677,8 @@ typical = {
     gain: float(np.median([abs(case.compute_gain_error(gain)) for case in damage])) for gain in OFF
 }
 best = max(wrong, key=lambda case: case.fit.acceleration_r2)
-print(guess_count.reveal("nearly all"))
-print(guess_robust.reveal("kA"))
+print(guess_count.reveal("lesson6.count"))
+print(guess_robust.reveal("lesson6.robust"))
 print(f"{len(passing)} of {len(wrong)} wrong logs have a {SIM} above {GOOD:g}.")
 print(
     f"In half of the {len(damage)} wrong logs without a changed unit, the errors are larger than",
@@ -803,16 +803,9 @@ plot_time_series(gallery["encoder slip"], dynamic_seconds=0.6, damages=seen.dama
 
 # %%
 from grader import QuickCheck
+from sim.teaching.answers import read_answer
 
-quick = QuickCheck(
-    "Some samples come 100 ms late. Which plot shows this best?",
-    {
-        "voltage against velocity": "Neither axis shows the time.",
-        "time steps over time": "Every late sample is a point above the line.",
-        "the simulated velocity R²": "It may be high although the log is wrong.",
-    },
-    right="time steps over time",
-)
+quick = QuickCheck(**read_answer("lesson6.quick"))
 quick
 
 # %% [markdown]

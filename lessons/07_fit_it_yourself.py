@@ -156,8 +156,8 @@ for ramp in RAMPS:
     rule = truth["kS"] + timescale * ramp
     rows.append((ramp, read_off, rule, rule + 0.010 * ramp))
 
-print(guess_line.reveal("larger"))
-print(guess_ramp.reveal("larger"))
+print(guess_line.reveal("lesson7.line"))
+print(guess_ramp.reveal("lesson7.ramp"))
 print(f"True kS: {truth['kS']:.3f} V. kA/kV = {1000 * timescale:.0f} ms.")
 Table(
     ("ramp [V/s]", "kS of the line [V]", "kS + (kA/kV)·ramp [V]", "the same + half a loop [V]"),
@@ -334,7 +334,7 @@ x = rng.uniform(-1, 1, 5000)
 noise = 0.5 * rng.standard_normal(x.size)
 in_y = np.linalg.lstsq(x[:, None], 2 * x + noise, rcond=None)[0][0]
 in_x = np.linalg.lstsq((x + noise)[:, None], 2 * x, rcond=None)[0][0]
-print(guess_noise.reveal("with noise in x"))
+print(guess_noise.reveal("lesson7.noise"))
 print(f"noise in y: slope {in_y:.3f}    noise in x: slope {in_x:.3f}    truth: 2")
 
 # %% [markdown]
@@ -599,7 +599,7 @@ for seed in range(8):
     gappy.append(with_missed_loops(simulate(robot, routine, rng=rng), share=0.05, rng=rng))
 
 results = {way: [my_fit(one, **s)["kA"] for one in gappy] for way, s in WAYS.items()}
-print(guess_choice.reveal("filter"))
+print(guess_choice.reveal("lesson7.choice"))
 plot_choices(
     {way: float(np.mean(values)) for way, values in results.items()},
     spreads={way: float(np.std(values)) for way, values in results.items()},
@@ -855,7 +855,7 @@ for name, level in levels.items():
         fits = [fit(one, method="sysid", median=window).gains["kA"] for one in logs]
         by_window[name].append(float(np.mean(fits)))
 
-print(guess_filter.reveal("less than half of the truth"))
+print(guess_filter.reveal("lesson7.filter"))
 print(f"kA/kV = {1000 * timescale:.0f} ms, which is {timescale / 0.02:.1f} samples of 20 ms.")
 plot_curves(
     WINDOWS,
@@ -1053,16 +1053,9 @@ for doubt in best.doubts:
 
 # %%
 from grader import QuickCheck
+from sim.teaching.answers import read_answer
 
-quick = QuickCheck(
-    "SysId prints a negative kS. What is the most likely reason?",
-    {
-        "friction pushes the robot": "Friction cannot push. Look at the log, not at the robot.",
-        "noise, or a few wrong samples": "They make kA too large, and then kS too small.",
-        "kV is too small": "Noise hardly changes kV.",
-    },
-    right="noise, or a few wrong samples",
-)
+quick = QuickCheck(**read_answer("lesson7.quick"))
 quick
 
 # %% [markdown]

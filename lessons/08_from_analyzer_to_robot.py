@@ -61,6 +61,7 @@ from sim.plot.animation import Motion, Panel, Scene, animate_mechanism
 from sim.reconcile import reconcile
 from sim.report.controller_snippet import write_controller_code
 from sim.report.robot_code_snippet import ORDER, write_robot_code
+from sim.teaching.answers import read_answer
 from sim.teaching.prediction import Prediction
 from sim.teaching.profile_loop import (
     ONBOARD,
@@ -123,7 +124,7 @@ for language in ("java", "python"):
     print(f"{language}: these lines are different in the two seasons:")
     print("\n".join(f"  2026  {line.strip()}" for line in old if line not in new))
     print("\n".join(f"  2027  {line.strip()}" for line in new if line not in old))
-print(guess_season.reveal("the package and a method's name"))
+print(guess_season.reveal("lesson8.season"))
 
 # %% [markdown]
 # The gains do not change with the season, but names in the code do.
@@ -225,7 +226,7 @@ for name, order in orders.items():
     slot = lift[order[ORDER["elevator"].index("kG")]]
     seconds = moved(lift, lambda *_, slot=slot: slot, loops=50)
     rows.append((name, slot, 100 * float(seconds[0, -1])))
-print(guess_slot.reveal("the carriage rises"))
+print(guess_slot.reveal("lesson8.slot"))
 print(f"The carriage needs {lift['kG']:.2f} V to hold still.", end=" ")
 print(f"Friction allows {lift['kS']:.2f} V more or less.")
 Table(("arguments", "voltage at zero speed [V]", "height after one second [cm]"), tuple(rows))
@@ -393,8 +394,8 @@ follower("per radian, gets rotations", 0.0)
 
 # %%
 SOME = 0.2  # [V per rot/s]
-print(guess_radian.reveal("at about a sixth of the target speed"))
-print(guess_rotation.reveal("runs as fast as 12 V can make it"))
+print(guess_radian.reveal("lesson8.radian"))
+print(guess_rotation.reveal("lesson8.rotation"))
 Table(
     ("gains", "top speed [rot/s]", "error [rot/s], kP = 0", f"error [rot/s], kP = {SOME}"),
     tuple(
@@ -499,7 +500,7 @@ show_interactive(
 remaining_error(0.12)
 
 # %%
-print(guess_kp.reveal("half of it"))
+print(guess_kp.reveal("lesson8.kp"))
 print(f"kP = kV: {left_over(wheel['kV']):.0f} of {REMAINING[0]:.0f} rpm remain.")
 print(f"kP = 4 · kV: {left_over(4 * wheel['kV']):.0f} rpm remain.")
 
@@ -629,7 +630,7 @@ def rise(gains: dict[str, float], *, kp: float = 5.0, with_tube: bool = False) -
 moves = {name: rise(gains) for name, gains in SETS.items()}
 moves["+ tube"] = rise(SETS["reconciled"], with_tube=True)
 some = next(iter(moves.values()))
-print(guess_move.reveal("about a third"))
+print(guess_move.reveal("lesson8.move"))
 target = Motion("target", position=some.target, velocity=np.gradient(some.target, LOOP), asked=True)
 animate_mechanism(
     "elevator",
@@ -799,7 +800,7 @@ def sag(kp: float, *, told: dict[str, float]) -> float:
     return -math.degrees(float(moved(loaded, volts, loops=200, arm=True)[0, -1])) + 0.0
 
 
-print(guess_arm.reveal("kG and kA"))
+print(guess_arm.reveal("lesson8.arm"))
 for name, one in (("Empty: ", bare), ("Loaded:", loaded)):
     print(f"{name} kG {one['kG']:.2f} V, kA {one['kA']:.3f} V·s²/rad.")
 print("kV and kS stay the same.")
@@ -860,10 +861,10 @@ print(
 # mechanism.
 
 # %%
-sets = {"set 1": "retoohs", "set 2": "niartevird", "set 3": "rotavele"}  # read it backward
+sets = read_answer("lesson8.sets")
 fits = {}
-for name, backward in sets.items():
-    one = MECHANISMS[backward[::-1]]
+for name, mechanism in sets.items():
+    one = MECHANISMS[mechanism]
     record = simulate(one, sim.Routine(ramp=0.5, step=4.0), rng=np.random.default_rng(1))
     fits[name] = fit(record, type=one.type)
 Table(
@@ -882,9 +883,9 @@ guess_two = Prediction("Set 2 belongs to the…", *OWNERS)
 display(guess_one, guess_two)
 
 # %%
-print(guess_one.reveal(sets["set 1"][::-1]))
-print(guess_two.reveal(sets["set 2"][::-1]))
-print(f"Set 3 belongs to the {sets['set 3'][::-1]}.")
+print(guess_one.reveal("lesson8.sets.set 1"))
+print(guess_two.reveal("lesson8.sets.set 2"))
+print(f"Set 3 belongs to the {sets['set 3']}.")
 
 # %% [markdown]
 # <details><summary>How can you see it?</summary>
@@ -1098,15 +1099,7 @@ print(f"The truth is {INERTIA:.2f} kg·m².")
 # %%
 from grader import QuickCheck
 
-quick = QuickCheck(
-    "new ElevatorFeedforward(kS, kV, kA): what does the elevator do at zero speed?",
-    {
-        "it holds still": "Count the arguments: kG is the second.",
-        "it gets kV volts": "The second argument is kG: it gets kV volts, not what gravity needs.",
-        "nothing, the code does not compile": "Three numbers are enough for the compiler.",
-    },
-    right="it gets kV volts",
-)
+quick = QuickCheck(**read_answer("lesson8.quick"))
 quick
 
 # %% [markdown]

@@ -19,7 +19,7 @@
 # **At the end you can**
 #
 # - measure the **gap**: how much a simulation with your gains differs from your robot;
-# - plot the remaining error in four ways, and say which effect could cause it;
+# - plot the remaining error in five ways, and say which effect could cause it;
 # - add an effect to the model, and decide with *other* data whether to keep it;
 # - explain how a slow sensor makes a robot look heavy;
 # - say when your data cannot decide, and which test can;
@@ -53,50 +53,40 @@
 # the model**. You repeat this until only noise remains. At the end, a program does the same.
 
 # %%
-from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 from textwrap import fill
 
 import ipywidgets as widgets
 import numpy as np
 from IPython.display import display
-from scipy.optimize import least_squares
 
 import sim
-from sim.bench.duty_cycle import Battery, simulate_duty_cycle
 from sim.bench.mechanisms import MECHANISMS
-from sim.bench.simulate import simulate
-from sim.fit import fit
-from sim.physics.effects import EFFECTS, find_effect
+from sim.physics.effects import EFFECTS
 from sim.physics.model import Model, Part
-from sim.physics.replay import replay_log
-from sim.physics.voltage_residual import compute_voltage_residual
 from sim.plot import (
     Picture,
     Table,
     plot_curves,
-    plot_gap_bars,
     plot_voltage_residual,
     show_interactive,
 )
 from sim.plot.animation import Choice, Gain, Knob, Motion, Panel, Scene, Score, animate_mechanism
-from sim.plot.story import make_findings_table, plot_residual_maps
+from sim.plot.effect_search import EffectSearch
+from sim.plot.story import make_findings_table, plot_remaining_gap
 from sim.reconcile import reconcile
+from sim.reconcile.by_hand import HandSearch
 from sim.teaching.prediction import Prediction
-
-drivetrain = MECHANISMS["drivetrain"]
-truth = drivetrain.gains
-# The names of the hidden effects are written backward, so that nobody reads them by accident.
-robot = drivetrain.hide("retlif-yticolev"[::-1], 1.5).hide("kcebirts"[::-1], 1.0)
-
-FOUR = ("quasistatic", "dynamic")
-rng = np.random.default_rng(2)
-log = simulate(robot, sim.Routine(1.0, 3.0, timeout=3.0, kinds=FOUR), rng=rng, electrical=True)
-validation = simulate(robot, sim.Routine(1.0, 2.0, timeout=3.0, kinds=FOUR), rng=rng)
-held_out = simulate(
-    robot, sim.Routine(step=3.5, timeout=4.0, kinds=("triangle", "multistep")), rng=rng
+from sim.teaching.reality_gap import (
+    forget_position,
+    make_team_robot,
+    record_limited_robot,
+    record_suspects,
+    record_team_logs,
 )
+
+truth = MECHANISMS["drivetrain"].gains
+log, validation, held_out = record_team_logs()
 print(fill(f"This course knows {len(EFFECTS)} effects: {', '.join(EFFECTS)}.", 90))
 
 # %% [markdown]
@@ -119,67 +109,24 @@ print(fill(f"This course knows {len(EFFECTS)} effects: {', '.join(EFFECTS)}.", 9
 # ## 2 Measure the gap
 #
 # **Simulate:** give the model the voltages of the log, and simulate each test from its first sample
-# to its last. The simulation never uses the measured velocity. `replay_log` does that.
+# to its last. The simulation never uses the measured velocity.
 #
-# **Fit:** change kS, kV and kA until the simulated velocity is as close as possible to the measured
-# one. In lesson 7 you fitted accelerations row by row. This fit compares whole tests.
-
+# **Fit:** change kS, kV and kA until the simulation is as close as possible to the log. In lesson 7
+# you fitted accelerations row by row. This fit compares whole tests. It is the one that `sysid
+# reconcile` uses.
 
 # %%
-def simulated(model: Model, one: sim.Log) -> list[np.ndarray]:
-    """The velocity that a model's sensor would show, for each run of a log."""
-    return [track.seen for track in replay_log(model, one)]
-
-
-def off(model: Model, one: sim.Log) -> np.ndarray:
-    """Measured minus simulated velocity, all samples of all runs."""
-    pairs = zip(one.runs, simulated(model, one), strict=True)
-    return np.concatenate([run.velocity - seen for run, seen in pairs])
-
-
-def fitted(names: Sequence[str], begin: Model, one: sim.Log) -> Model:
-    """Gains and the parameters of some effects, searched from where another model stands."""
-    known = {part.effect: part.parameters for part in begin.parts}
-    seen = compute_voltage_residual(
-        one, begin.gains, type="simple"
-    )  # what the log shows: for a good start
-    starts = [known.get(name) or next(iter(find_effect(name).start_values(seen))) for name in names]
-    first = np.array([*begin.gains.values(), *(v for start in starts for v in start.values())])
-    bounds = [(p.least, p.most) for name in names for p in find_effect(name).parameters]
-    least, most = np.array([(0.0, np.inf), (1e-6, np.inf), (1e-6, np.inf), *bounds]).T
-    size = np.maximum(np.abs(first), 1e-6)
-
-    def model(values: np.ndarray) -> Model:
-        left = iter(np.clip(values * size, least, most).tolist())
-        gains = {gain: next(left) for gain in begin.gains}
-        parts = (Part(name, {p: next(left) for p in find_effect(name).names}) for name in names)
-        return Model("simple", gains, tuple(parts))
-
-    found = least_squares(
-        lambda values: off(model(values), one),
-        np.clip(first, least, most) / size,
-        bounds=(least / size, most / size + 1e-9),
-        diff_step=1e-3,
-        max_nfev=40,
-    )
-    return model(found.x)
-
-
-base = fitted((), Model("simple", truth), log)
+search = EffectSearch(log, validation=validation, held_out=held_out, truth=make_team_robot().hidden)
+base = search.model  # kS, kV and kA, and no effect
 
 # %% [markdown]
-#
-# <details><summary>Want to know more? How the function works</summary>
-#
-# The function `fitted` is long, but the call of `least_squares` does the work. It changes all
-# parameters a little, sees which changes make the sum of squared errors smaller, and repeats.
-# </details>
+# The fit looks at the velocity *and* at the position. A teammate fits only the velocity.
 #
 # **Predict:**
 
 # %%
 guess_ka = Prediction(
-    "Two effects are missing in the model. How good is the kA that the fit finds?",
+    "Two effects are missing in the model. How good is the kA of the teammate's fit?",
     "it is about right",
     "it is too small by a third or more",
     "it is too large by a third or more",
@@ -201,8 +148,10 @@ def beside_its_model(test: str, seconds: float) -> Scene:
     return Scene(time[shown], (real, model), target=run.velocity[shown])
 
 
-print(guess_ka.reveal("it is too large by a third or more"))
-print(f"The fit finds kA = {base.gains['kA']:.3f} V·s²/m. The true kA is {truth['kA']:.3f} V·s²/m.")
+print(guess_ka.reveal("lesson9.ka"))
+velocity_alone = EffectSearch(forget_position(log), validation=forget_position(validation)).model
+for name, gains in (("velocity alone", velocity_alone.gains), ("our fit", base.gains)):
+    print(f"{name}: kA = {gains['kA']:.3f} V·s²/m. The true kA is {truth['kA']:.3f} V·s²/m.")
 knobs = [
     Knob(name, f"{name} [{unit}]", low=0.0, high=high, step=0.005, value=round(base.gains[name], 3))
     for name, unit, high in (("kS", "V", 0.6), ("kV", "V·s/m", 4.0), ("kA", "V·s²/m", 0.8))
@@ -236,33 +185,9 @@ animate_mechanism(
 # remains is noise.
 # </details>
 
-
 # %%
-def noise(one: sim.Log) -> float:
-    """The noise of a velocity, without any model: from third differences, without extremes."""
-    jerks = [np.diff(run.velocity, 3)[np.abs(run.velocity[3:]) > 0.1] for run in one.runs]
-    return 1.4826 * float(np.median(np.abs(np.concatenate(jerks)))) / np.sqrt(20)
-
-
-shaking = noise(log)
-
-
-def gap(model: Model, one: sim.Log) -> float:
-    """How far a simulation is from a log: the typical error, divided by the noise."""
-    return float(np.sqrt(np.mean(off(model, one) ** 2))) / shaking
-
-
-print(f"The noise of the velocity is {shaking:.4f} m/s.")
-print(f"Gap with gains alone: log {gap(base, log):.1f}, validation {gap(base, validation):.1f}.")
-
-# %% [markdown]
-#
-# <details><summary>Want to know why? The numbers in this cell</summary>
-#
-# (The standard deviation is the usual measure of noise. It is 1.4826 times the median of the
-# absolute values of the errors. A third difference multiplies the square of the noise by 1² + 3² +
-# 3² + 1² = 20.)
-# </details>
+for name, gap in search.gaps.items():
+    print(f"Gap of the {name}, with gains alone: {gap:.1f} times the noise.")
 
 # %% [markdown]
 # ## 3 The residual microscope
@@ -274,46 +199,22 @@ print(f"Gap with gains alone: log {gap(base, log):.1f}, validation {gap(base, va
 # We convert the residual into a **voltage residual**: the volts that you would have to add to the
 # simulation so that it moves like the robot. If it is below zero, the robot moves as if it got too
 # few volts: volts are *missing*. If it is above zero, the robot moves as if it got too many volts.
-# We plot the voltage residual in four ways:
+# We plot the voltage residual in five ways:
 #
 # | plotted against | an effect that you see there |
 # |---|---|
 # | speed | friction that changes with speed |
 # | time since the voltage jumped | something late: a delay, a filter |
 # | battery voltage | volts that did not reach the motor |
+# | position | something that is at a place: a spring, a bump in the gears |
 # | direction | something that pulls in one direction only |
-#
-# (If you plot it against the position, you see a spring, or a bump in the gears: section 7.)
 #
 # First practice on four robots with **one** effect each. Here we use the true gains, so the
 # residual shows nothing but this effect.
 
-
 # %%
-def as_asked(one: sim.Log) -> sim.Log:
-    """The same log, but with the commanded voltage, not the applied one."""
-    runs = (replace(run, voltage=12.0 * run.voltage / run.bus_voltage) for run in one.runs)
-    return replace(one, runs=tuple(runs))
-
-
 true_model = Model("simple", truth)
-all_tests = sim.Routine(0.5, 3.5, timeout=3.0, kinds=(*FOUR, "multistep"))
-tired = Battery(rest=12.2, resistance=0.035)
-rng = np.random.default_rng(3)
-
-
-def with_one(backward: str, size: float) -> sim.Log:
-    """A log of a drivetrain that hides one effect; its name is written backward."""
-    return simulate(drivetrain.hide(backward[::-1], size), all_tests, rng=rng, electrical=True)
-
-
-sagging = simulate_duty_cycle(drivetrain, replace(all_tests, step=5.0), battery=tired, rng=rng)
-suspects = {
-    "robot A": with_one("noitcirf-cirtemmysa", 1.0),
-    "robot B": with_one("retlif-yticolev", 1.5),
-    "robot C": as_asked(sagging),
-    "robot D": with_one("kcebirts", 3.0),
-}
+suspects = record_suspects()
 
 # %% [markdown]
 # The four hidden effects are, in no particular order:
@@ -337,9 +238,8 @@ display(guess_a, guess_b, guess_c, guess_d)
 
 # %%
 def under_the_microscope(which: str) -> Picture:
-    """The voltage residual of one of the four robots, in four plots."""
-    one = suspects[which]
-    return plot_voltage_residual(one, simulated(true_model, one), truth)
+    """The voltage residual of one of the four robots, in five plots."""
+    return plot_voltage_residual(suspects[which], true_model)
 
 
 show_interactive(
@@ -354,13 +254,15 @@ under_the_microscope("robot B")
 
 # %% [markdown]
 # The line shows the mean of nearby samples. The percentage above each plot says how much of the
-# (squared) voltage residual follows this line. Compare the four percentages of each robot.
+# (squared) voltage residual beyond noise follows this line. Compare the percentages of each robot.
+# They can be more than 100 % together, because one effect can show in two plots. The title says how
+# much no plot explains. The last plot is the run with the largest error.
 
 # %%
-print("A.", guess_a.reveal("one-way friction"))
-print("B.", guess_b.reveal("averaged velocity"))
-print("C.", guess_c.reveal("battery"))
-print("D.", guess_d.reveal("breakaway friction"))
+print("A.", guess_a.reveal("lesson9.a"))
+print("B.", guess_b.reveal("lesson9.b"))
+print("C.", guess_c.reveal("lesson9.c"))
+print("D.", guess_d.reveal("lesson9.d"))
 
 # %% [markdown]
 # ### Explain
@@ -375,8 +277,6 @@ print("D.", guess_d.reveal("breakaway friction"))
 #   effect, take the plot with the higher percentage.
 # - **D, speed.** The robot moves as if it got too few volts only at very low speed.
 #
-# No plot explains 100 %. The rest is noise.
-#
 # <details><summary>Want to know why? Points that form a straight line</summary>
 #
 # Some points of robot D form a straight line. They come from the start of the ramp. There the
@@ -386,145 +286,42 @@ print("D.", guess_d.reveal("breakaway friction"))
 # %% [markdown]
 # ## 4 Doing it: name, add, fit again
 #
-# Now look at the team's robot. Its gains were **fitted**. So the gains already describe a part of
-# the effects, and the pattern is less clear.
-
-# %%
-plot_voltage_residual(log, simulated(base, log), base.gains)
-
-# %% [markdown]
-# The plot against the time since the jump explains the largest share of the residual. Look at its
-# shape: first the robot seems to get too few volts, then too many. A late sensor causes such a
-# shape. A weak battery does not. At very low speed, about 0.1 V is missing, too.
+# Now it is your turn. The team's robot hides two effects. Its gains were **fitted**. So the gains
+# already describe a part of the effects, and the pattern is less clear.
 #
-# **Predict** the first effect to add:
+# 1. **Look** at the plot with the largest percentage. Which effects could cause it?
+# 2. **Choose** one of them in the menu. Read what it does, and press *Add and fit*. All gains and
+#    the parameters of the effect are fitted again. This takes one to three seconds.
+# 3. **Decide** by the gap of the *validation* log. Is it smaller? Keep the effect. If not, press
+#    *Take back*, and choose another one.
+# 4. **Look again.** Repeat this until the plots show only noise, or until no other effect makes the
+#    gap of the validation log smaller.
+# 5. **Stop.** But before you press the last button, read section 5.
+#
+# Effects that can cause the largest percentage:
+#
+# - **speed:** drag, stribeck, velocity-scale, voltage-limit, deadband, heating;
+# - **time since the voltage jumped:** velocity-filter, delay, compliance, backlash, current-limit,
+#   wheel-slip, inertia-change;
+# - **position:** cogging, spring, gravity-cosine;
+# - **battery voltage:** battery-sag;
+# - **direction:** asymmetric-friction, asymmetric-back-emf, constant-load.
 
 # %%
-guess_first = Prediction(
-    "Which effect makes the gap smallest?",
-    "drag",
-    "stribeck",
-    "velocity-filter",
-    "asymmetric-friction",
-    "current-limit",
-)
-guess_first
+search
 
 # %% [markdown]
-# The next cell tries seven effects. It adds one effect at a time, and fits all gains again. Compare
-# two numbers: the gap on `log`, which was fitted, and the gap on `validation`, which the fit never
-# used.
-
-# %%
-TRIED = (
-    "velocity-filter",
-    "delay",
-    "current-limit",
-    "battery-sag",
-    "stribeck",
-    "drag",
-    "asymmetric-friction",
-)
-models = {"gains alone": base}
-models |= {f"+ {name}": fitted((name,), base, log) for name in TRIED}
-
-
-def both_gaps(model: Model) -> dict[str, float]:
-    """The gaps of the two logs that may be looked at."""
-    return {"log": gap(model, log), "validation": gap(model, validation)}
-
-
-print(guess_first.reveal("velocity-filter"))
-plot_gap_bars({name: both_gaps(model) for name, model in models.items()})
-
-# %% [markdown]
+# In plain code: `search.add("NAME")`, `search.take_back()`, `search.open()`, and to look:
+# `display(*search.pictures)`.
+#
 # **What the bars show:**
 #
-# - An additional effect never makes the gap on the *log* larger, because one more parameter never
-#   makes the fit worse. If you judge by this gap, every effect looks like an improvement.
-# - The gap on the *validation* log shows which models are really better. `current-limit` makes the
-#   gap on the fitted log smaller, but the gap on the validation log larger. So do not keep it.
-# - `delay` is almost as good as `velocity-filter`, because it also makes the velocity late (section
-#   6).
+# - One more parameter hardly ever makes the gap on the *log* larger. If you judge by this gap,
+#   every effect looks like an improvement.
+# - The gap on the *validation* log is measured with a model that was fitted to the log alone. It
+#   shows which models are really better.
 #
-# Choose a model, and look at its voltage residual:
-
-
-# %%
-def with_it(model: str) -> list[Picture]:
-    """The voltage residual of a model, and its gaps next to those of gains alone."""
-    chosen = models[model]
-    shown = {"gains alone": both_gaps(base), model: both_gaps(chosen)}
-    return [plot_voltage_residual(log, simulated(chosen, log), chosen.gains), plot_gap_bars(shown)]
-
-
-show_interactive(
-    with_it,
-    model=widgets.Dropdown(options=list(models), value="+ velocity-filter", description="model"),
-)
-
-# %% [markdown]
-# No menu? Change the name:
-
-# %%
-display(*with_it("+ velocity-filter"))
-
-# %% [markdown]
-# With the filter in the model, the error right after the jumps is gone. Now the plot against speed
-# shows something else: volts are missing at very low speed. So add a second effect:
-
-# %%
-first = models["+ velocity-filter"]
-pairs = {"+ velocity-filter": first}
-for name in ("stribeck", "drag", "delay", "current-limit", "asymmetric-friction"):
-    pairs[f"  … and {name}"] = fitted(("velocity-filter", name), first, log)
-plot_gap_bars({name: both_gaps(model) for name, model in pairs.items()})
-
-# %%
-second = pairs["  … and stribeck"]
-models["+ velocity-filter, stribeck"] = second
-plot_voltage_residual(log, simulated(second, log), second.gains)
-
-# %% [markdown]
-# Now no plot shows a pattern, and the gap is about 1 for both logs. **Stop here.** A third effect
-# would only describe the noise.
-#
-# ### A slow sensor makes the robot look heavy
-
-# %%
-last = {part.effect: part.parameters for part in second.parts}
-steps = {"gains alone": base, "+ velocity-filter": first, "+ stribeck": second}
-
-
-def position_off(model: Model) -> float:
-    """How far the simulated position is from the measured one, typically [cm]."""
-    off_by = [
-        (run.position - run.position[0]) - (track.position - track.position[0])
-        for run, track in zip(log.runs, replay_log(model, log), strict=True)
-    ]
-    return 100 * float(np.sqrt(np.mean(np.concatenate(off_by) ** 2)))
-
-
-rows = [
-    (name, *m.gains.values(), m.gains["kA"] / truth["kA"], position_off(m))
-    for name, m in steps.items()
-]
-print(f"The filter averages over {1000 * last['velocity-filter']['window']:.0f} ms.")
-Table(
-    ("model", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "kA ÷ true", "position error [cm]"),
-    (*rows, ("the truth", *truth.values(), 1.0, "")),
-)
-
-# %% [markdown]
-# Look at the column *kA ÷ true*. In the model "gains alone", kA is far too large: the robot seems
-# heavier than it is. But it is the **sensor that is slow**. In the model, only kA can make the
-# robot react slowly, so the fit made kA too large.
-#
-# The **position** confirms this. The fits did not use the position, and the filter does not change
-# it. With gains alone, the position error is much larger than with the filter.
-#
-# So if a kA is too large, look for filters first: a motor controller that averages its velocity, or
-# a log that is late. (With breakaway friction in the model, kS is right, too.)
+# If the gap is about 1 for both logs, **stop**. A further effect would only describe the noise.
 
 # %% [markdown]
 # ## 5 The held-out log, once
@@ -541,23 +338,44 @@ guess_held = Prediction(
 )
 guess_held
 
+# %% [markdown]
+# Now press *Stop, open the held-out log* in section 4. It shows the gap before and after, and the
+# truth beside your numbers. Then run the next cells.
+
 # %%
-print(guess_held.reveal("it is twice as large or more"))
-every = {
-    "gains alone": base,
-    "+ current-limit": models["+ current-limit"],
-    "+ velocity-filter": first,
-    "+ stribeck": second,
-}
-plot_gap_bars(
-    {name: {"log": gap(m, log), "held out": gap(m, held_out)} for name, m in every.items()}
+print(guess_held.reveal("lesson9.held"))
+for name in ("log", "held_out"):
+    print(f"{name}: {search.hand.measure_gap(search.hand.fit(), name):.1f} times the noise")
+
+# %% [markdown]
+# You never fitted these motions. If an effect makes the gap smaller here, too, it is in the robot.
+# A model that is better on the log, but not here, describes the log and not the robot.
+#
+# ### A slow sensor makes the robot look heavy
+
+# %%
+steps = {"velocity alone": velocity_alone, **search.steps}
+Table(
+    ("model", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "kA ÷ true"),
+    (
+        *((name, *m.gains.values(), m.gains["kA"] / truth["kA"]) for name, m in steps.items()),
+        ("the truth", *truth.values(), 1.0),
+    ),
 )
 
 # %% [markdown]
-# You never fitted these motions. Even so, the gap becomes smaller when the filter is in the model,
-# and smaller again when breakaway friction is in it, too. So these two effects are in the robot.
-# The current limit looked good on the log, but here it is worse than no effect at all: that model
-# describes the log, not the robot.
+# Look at the column *kA ÷ true*. With the velocity alone, kA is far too large: the robot seems
+# heavier than it is. Each effect that you added has its own row.
+#
+# <details><summary>Open this after the held-out log: why?</summary>
+#
+# It is the **sensor that is slow**: it averages the velocity. In a model of gains alone, only kA
+# can make the robot react slowly, so the fit made kA too large. The **position** confirms this: the
+# filter does not change it. So a fit that uses the position, too, has a better kA.
+#
+# If a kA is too large, look for filters first: a motor controller that averages its velocity, or a
+# log that is late. (With the breakaway friction in the model, kS is right, too.)
+# </details>
 
 # %% [markdown]
 # ## 6 When your data cannot decide
@@ -580,24 +398,20 @@ guess_limit = Prediction(
 guess_limit
 
 # %%
-unlimited = replace(drivetrain, stator=np.inf, supply=np.inf, brownout=0.0)
-limited = replace(unlimited, hidden=(Part("current-limit", {"limit": 3.0}),))
-rng = np.random.default_rng(1)
-gentle = simulate(limited, sim.Routine(1.0, 2.5, timeout=3.0), rng=rng)
-hard = simulate(limited, sim.Routine(1.0, 6.0, timeout=2.0, kinds=("dynamic",)), rng=rng)
-
 LIMITS = np.array([1.0, 1.5, 2.0, 2.25, 2.5, 2.75, 3.0, 3.25, 3.5, 4.0, 5.0, 6.0, 8.0])
 
 
 def gaps_of(one: sim.Log) -> list[float]:
     """The gap of a log for each limit, the gains being the true ones."""
-    return [gap(true_model + Part("current-limit", {"limit": x}), one) for x in LIMITS.tolist()]
+    hand = HandSearch(one)
+    models = [true_model + Part("current-limit", {"limit": x}) for x in LIMITS.tolist()]
+    return [hand.measure_gap(hand.evaluate_model(model), "log") for model in models]
 
 
-print(guess_limit.reveal("you only know that it is above some value"))
+print(guess_limit.reveal("lesson9.limit"))
 plot_curves(
     LIMITS,
-    {"2.5 V step (fitted)": gaps_of(gentle), "6 V step (other data)": gaps_of(hard)},
+    {name: gaps_of(one) for name, one in record_limited_robot().items()},
     xlabel="limit in the model [V above the back-EMF]",
     ylabel="gap [times the noise]",
     levels={"the noise": 1.0},
@@ -621,41 +435,30 @@ plot_curves(
 # %% [markdown]
 # ## 7 Let the program do it
 #
-# `sim.reconcile` does what you did, with all effects that it knows: fit, simulate, try every
-# effect, keep the effect that the *validation* confirms, and repeat until no further effect helps.
-# It uses the position as well as the velocity. In the next table, the last column shows the gap
-# without and with each effect.
+# `sim.reconcile` does what you did, with the same fit and the same gap, and with all effects that
+# it knows: fit, simulate, try every effect, keep the effect that the *validation* confirms, and
+# repeat until no further effect helps. In the next table, the last column shows the gap on the
+# held-out log without and with each effect.
 
 # %%
 story = reconcile(log, validation=validation, held_out=held_out, type="simple")
 make_findings_table(story)
 
 # %% [markdown]
-# The next maps show where simulation and log differ, with gains alone (left) and with both effects
-# (right). Where a map is blue, the robot is slower than the model. Where it is orange, the robot is
-# faster.
+# The next pictures are those of section 3, for the held-out log: with gains alone, and with all
+# effects that reconcile found.
 
 # %%
-plot_residual_maps(story)
+display(*plot_remaining_gap(story))
 
 # %% [markdown]
 # ### Compare its numbers with your numbers
 
 # %%
-theirs = {part.effect: part.parameters for part in story.model.parts}
-window = [1000 * found["velocity-filter"]["window"] for found in (last, theirs)]
-print(f"kA: {second.gains['kA']:.3f} by hand, {story.model.gains['kA']:.3f} by reconcile,", end=" ")
-print(f"{truth['kA']:.3f} is true [V·s²/m]")
-print(f"Window of the filter: {window[0]:.0f} ms by hand, {window[1]:.0f} ms by reconcile")
+search.compare_with(story.model.parts, "reconcile")
 
 # %% [markdown]
-# Both ways give nearly the same numbers.
-#
-# <details><summary>Want to know why? The first gap of reconcile</summary>
-#
-# Without effects, reconcile has a *larger* gap than your fit. Reconcile also fits the position,
-# which the filter does not change, so kA cannot hide the slow sensor.
-# </details>
+# If you chose the same effects, both ways give nearly the same numbers.
 #
 # **What its verdict means**
 #
@@ -686,18 +489,15 @@ print(f"Window of the filter: {window[0]:.0f} ms by hand, {window[1]:.0f} ms by 
 # The first command looks for damage in the log (lesson 6). `gap.html` contains every picture of
 # section 7 and works offline. For an arm or an elevator, add `--type arm` or `--type elevator`.
 #
-# The next cell plots the voltage residual of your log of exercise 12. To use another log, write its
-# name into the list: `mine = ["my_log.wpilog"]`. (If the log has no battery voltage, the plot
-# against the battery voltage is missing.)
+# The next cell is the search of section 4, with your logs of exercise 12. What it prints when you
+# open the held-out log is your answer to this exercise. For other logs, write
+# `EffectSearch(sim.read("monday.wpilog"), validation=sim.read("faster.wpilog"))`.
 
 # %%
 mine = sorted(Path("..", "exercises", "exercise12", "data").glob("*/log.wpilog"))
 if mine:
-    own = sim.read(mine[0])
-    print(f"Read {mine[0]}: {len(own.runs)} runs, in {own.units}.")
-    start = fit(own, type="simple", method="sysid").gains
-    own_base = fitted((), Model("simple", start), own)
-    display(plot_voltage_residual(own, simulated(own_base, own), own_base.gains))
+    print(f"The logs in {mine[0].parent}:")
+    display(EffectSearch.read(mine[0].parent))
 else:
     print("No log of your own yet. Make it in a terminal, in the course's folder:  grade start")
 
@@ -719,19 +519,9 @@ else:
 
 # %%
 from grader import QuickCheck
+from sim.teaching.answers import read_answer
 
-quick = QuickCheck(
-    (
-        "Volts are missing only in the first tenths of a second after the voltage jumps. "
-        "What is the cause?"
-    ),
-    {
-        "drag": "Drag grows with speed, and it also acts while the speed is constant.",
-        "a late or filtered sensor": "You see it only where the velocity changes fast.",
-        "a weak battery": "That depends on the battery voltage, not on the time since the jump.",
-    },
-    right="a late or filtered sensor",
-)
+quick = QuickCheck(**read_answer("lesson9.quick"))
 quick
 
 # %% [markdown]

@@ -70,6 +70,7 @@ from sim.fit.pooled import pool_fits
 from sim.physics.motors import find_motor
 from sim.plot import Table, plot_curves
 from sim.plot.animation import Choice, Motion, Panel, Scene, animate_mechanism
+from sim.teaching.answers import read_answer
 from sim.teaching.prediction import Prediction
 from sim.teaching.swerve_gaps import check_formulas
 
@@ -178,7 +179,7 @@ gentle = sim.Routine(ramp=0.5, step=1.8, timeout=8.0)
 modules = record_modules(robot, gentle, rng=np.random.default_rng(1), radii={"back-left": 0.0484})
 fits = {name: fit(log) for name, log in modules.items()}
 pooled = pool_fits(fits)
-print(guess_worn.reveal("a smaller kV than the others"))
+print(guess_worn.reveal("lesson10.worn"))
 Table(
     ("module", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]"),
     (
@@ -293,7 +294,7 @@ found = {
 }
 print(f"kA straight {straight.gains['kA']:.4f} V·s²/m")
 print(f"kA turning  {turning.gains['kA']:.4f} V·s²/rad")
-print(guess_lever.reveal("too small, about 3.7 kg·m²"))
+print(guess_lever.reveal("lesson10.lever"))
 Table(
     ("lever", "lever [m]", "moment of inertia [kg·m²]"),
     tuple((name, one.lever, one.value) for name, one in found.items()),
@@ -371,7 +372,7 @@ def launch(step: float) -> Scene:
 
 
 limit = compute_slip_voltage(robot.translation)
-print(guess_step.reveal("they spin fast almost at once, and the robot is much slower"))
+print(guess_step.reveal("lesson10.step"))
 print(f"The wheels of this robot slip above {limit:.1f} V.")
 STEPS = {f"{step:g} V": launch(step) for step in (1.0, 1.5, 2.0, 3.0, 4.0, 5.0)}
 animate_mechanism(
@@ -456,7 +457,7 @@ def grip_of(current: float) -> float:
     return 4 * push_of_wheel / (robot.mass * 9.81)
 
 
-print(guess_grip.reveal("µ is too large: the planner plans curves in which the wheels slip"))
+print(guess_grip.reveal("lesson10.grip"))
 print(f"The current is {slip_current:.0f} A, but {idle:.1f} A of it only turn the gears.")
 Table(
     ("current", "µ"),
@@ -561,13 +562,12 @@ print(mine.report)
 theirs = SwerveDrive(
     motor=find_motor("neoVortex"),
     ratio=6.12,
-    wheel_radius=0.0495,  # worn, all four
     trackwidth=0.52,
     mass=48.0,
     inertia=2.9,
     wheel_inertia=0.0012,
     friction=0.18,
-    grip=1.0,
+    **read_answer("lesson10.theirs"),
 )
 rng = np.random.default_rng(8)
 their_lever = theirs.trackwidth / np.sqrt(2.0)
@@ -655,15 +655,7 @@ Table(
 # %%
 from grader import QuickCheck
 
-quick = QuickCheck(
-    "You moved the battery from the middle of the robot to its edge. Which kA changes?",
-    {
-        "kA straight": "Straight ahead, the wheels push only the mass, and it did not change.",
-        "kA turning": "The mass is further from the middle, so the robot is harder to turn.",
-        "both": "Straight ahead, the wheels push the mass, and the mass did not change.",
-    },
-    right="kA turning",
-)
+quick = QuickCheck(**read_answer("lesson10.quick"))
 quick
 
 # %% [markdown]

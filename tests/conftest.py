@@ -29,6 +29,8 @@ SLOW = (  # files that take long; begun first, they keep no core waiting at the 
     "test_lessons",
     "test_plausible_draws",
     "test_exercises",
+    "test_exercise12_by_hand",
+    "test_exercise12",
     "test_faults",
     "test_hostile_answers",
     "test_adding_an_effect",

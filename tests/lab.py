@@ -88,8 +88,10 @@ def outputs(page, kind):
 
 
 def panels(page):
-    """Every group of knobs with the picture that they draw."""
-    return page.locator(".jp-Notebook .widget-vbox").filter(has=page.locator("img")).all()
+    """Every group of knobs with the picture that they draw; not a search, which has steps."""
+    search = page.get_by_role("button", name="Add and fit")
+    groups = page.locator(".jp-Notebook .widget-vbox").filter(has=page.locator("img"))
+    return groups.filter(has_not=search).all()
 
 
 def drawn_by(panel, notebook):

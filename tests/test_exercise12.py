@@ -4,11 +4,14 @@ import re
 import runpy
 import shutil
 import sys
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from grader.exercise import Exercise
+from sim.bench.mechanisms import MECHANISMS
 from sim.core.units import find_unit
 from sim.physics.effects import find_effect
 
@@ -30,13 +33,20 @@ def lines_of(parts, per):
 def truth(student, *, names=None):
     """The answer of somebody who knows what is hidden; ``names`` changes only the list."""
     variant = ROOM.draw(student)
-    held, per = variant.held_out, find_unit(variant.log.units)
-    base = ROOM.gap(ROOM.with_gains(variant.log, ()), held) / ROOM.noise(held)
+    parts = [part for part in variant.mechanism.hidden if part.effect in (names or variant.hidden)]
     listed = ", ".join(f'"{name}"' for name in names or variant.hidden)
-    return (
-        f"effects = [{listed}]\n{lines_of(variant.mechanism.hidden, per)}"
-        f"gap_before = {base:.3g}\ngap_after = 1.1\n"
+    gaps = "".join(
+        f"{name} = {gap:.3g}\n" for name, gap in measure_gaps(variant, parts, "held_out").items()
     )
+    lines = lines_of(variant.mechanism.hidden, find_unit(variant.log.units))
+    return f"effects = [{listed}]\n{lines}{gaps}"
+
+
+def measure_gaps(variant, parts, log):
+    """Both gaps of a log, by their names in the answers."""
+    search = variant.make_search()
+    fits = {"gap_before": search.fit(), "gap_after": search.fit_gains(parts)}
+    return {name: search.measure_gap(one, log) for name, one in fits.items()}
 
 
 def grade_answer(text, student, folder):
@@ -54,24 +64,29 @@ def hiding(count):
     )
 
 
-def test_twelve_students_have_an_answer_that_earns_everything(tmp_path):
+def test_five_students_have_an_answer_that_earns_everything(tmp_path):
     drawn = set()
-    for number in range(12):
+    for number in range(5):
         results = grade_answer(truth(f"student {number}"), f"student {number}", tmp_path)
         drawn.add(ROOM.draw(f"student {number}").hidden)
 
         assert [one for one in results.values() if one.status != "passed"] == []
         assert sum(one.max_points for one in results.values()) == 10  # as the course lists it
-    assert len(drawn) > 3
+    assert len(drawn) > 2
 
 
 @pytest.mark.parametrize(("kind", "effects"), DRAWN.HIDDEN)
-def test_what_can_be_hidden_is_physics_that_its_mechanism_can_have(kind, effects):
-    from sim.bench.mechanisms import MECHANISMS  # noqa: PLC0415 - numpy only where it is needed
-
-    for name, size in effects:
+def test_what_can_be_hidden_is_physics_and_its_first_effect_alone_matters_most(kind, effects):
+    for name, _ in effects:
         assert find_effect(name).reason_against(MECHANISMS[kind].scale) == ""
-        assert MECHANISMS[kind].hide(name, size).hidden
+
+    variant = DRAWN._one(np.random.default_rng(1), [(kind, effects)])
+    search, truth = variant.make_search(), variant.mechanism.model
+    alone = [
+        search.measure_gap(search.fit_near(replace(truth, parts=(part,)))) for part in truth.parts
+    ]
+    assert variant.hidden == tuple(name for name, _ in effects)
+    assert min(alone) == alone[0]
 
 
 def test_a_student_gets_the_same_logs_every_time_and_nobody_elses(copy):
@@ -80,13 +95,13 @@ def test_a_student_gets_the_same_logs_every_time_and_nobody_elses(copy):
         copy.prepare(student, say=lambda _: None)
         return {one.name: one.read_bytes() for one in (copy.folder / "data").glob("*/*")}
 
-    first = files("ann")
+    first = files("ada")
     assert first.keys() == {
         f"{name}{suffix}"
         for name in ("log", "validation", "held-out")
         for suffix in (".csv", ".wpilog")
     }
-    assert files("Ann") == first
+    assert files("Ada") == first
     assert files("ben")["log.csv"] != first["log.csv"]
 
 
@@ -112,25 +127,13 @@ def test_one_of_three_alone_is_part_of_the_way(tmp_path):
     assert "you are close. Is an effect missing" in results["held-out"].hint
 
 
-def test_a_gap_of_another_fit_is_right_and_the_note_says_which_one_was_used(tmp_path):
-    exact = grade_answer(truth("ann"), "ann", tmp_path)["held-out"]
-    base = float(re.search(r"gap_before = (.*)", truth("ann"))[1])
-    doubled = re.sub(r"gap_before = .*", f"gap_before = {2 * base:.3g}", truth("ann"))
-    other = grade_answer(doubled, "ann", tmp_path)["held-out"]
-
-    assert (exact.status, other.status) == ("passed", "passed")
-    assert "gap_before" not in exact.hint
-    assert f"used gap_before = {base:.3g}; your {2 * base:.3g} counts, too" in other.hint
-    assert "The grader fits kS, kV and kA to your log itself" in other.hint
-
-
 def test_gaps_that_were_made_up_cost_half_a_point(tmp_path):
-    text = re.sub(r"gap_before = .*", "gap_before = 900", truth("ann"))
+    text = re.sub(r"gap_before = .*", "gap_before = 900", truth("ada"))
 
-    assert grade_answer(text, "ann", tmp_path)["held-out"].points == 2.5
+    assert grade_answer(text, "ada", tmp_path)["held-out"].points == 2.5
 
 
-@pytest.mark.parametrize("student", ["ann", "ben", "zoë"])
+@pytest.mark.parametrize("student", ["ada", "ben", "zoë"])
 def test_names_count_only_with_parameters_that_narrow_the_held_out_gap(student, tmp_path):
     made_up = re.sub(
         r' = "([-+.\de]+) ', lambda one: f' = "{3.0 * float(one[1]):.6g} ', truth(student)
@@ -144,15 +147,11 @@ def test_names_count_only_with_parameters_that_narrow_the_held_out_gap(student, 
 
 
 def test_the_gaps_of_the_validation_are_not_those_of_the_held_out_log(tmp_path):
-    variant = ROOM.draw("ann")
-    log, unit = variant.validation, ROOM.noise(variant.validation)
-    gaps = {
-        f"gap_{name}": ROOM.gap(ROOM.with_gains(variant.log, parts), log) / unit
-        for name, parts in (("before", ()), ("after", variant.mechanism.hidden))
-    }
+    variant = ROOM.draw("ada")
+    gaps = measure_gaps(variant, variant.mechanism.hidden, "validation")
     for name, value in gaps.items():
-        text = re.sub(rf"{name} = .*", f"{name} = {value:.3g}", truth("ann"))
-        result = grade_answer(text, "ann", tmp_path)["held-out"]
+        text = re.sub(rf"{name} = .*", f"{name} = {value:.3g}", truth("ada"))
+        result = grade_answer(text, "ada", tmp_path)["held-out"]
 
         assert (result.points, result.misconception) == (2.5, "M-HELD-OUT")
 
@@ -168,24 +167,24 @@ def test_the_gaps_of_the_validation_are_not_those_of_the_held_out_log(tmp_path):
     ],
 )
 def test_a_list_of_names_may_be_written_in_many_ways(tmp_path, written, right):
-    name = ROOM.draw("ann").hidden[0]
-    lines = truth("ann").partition("\n")[2]
+    name = ROOM.draw("ada").hidden[0]
+    lines = truth("ada").partition("\n")[2]
     for spelled in (name, name.upper(), name.replace("-", "_")):
         text = f"effects = {written.format(spelled)}\n{lines}"
-        result = grade_answer(text, "ann", tmp_path)["first-effect"]
+        result = grade_answer(text, "ada", tmp_path)["first-effect"]
 
         assert (result.status == "passed") == right
 
 
 def test_a_name_that_is_nearly_one_is_asked_about(tmp_path):
-    check = grade_answer('effects = ["stribek"]\n', "ann", tmp_path)["first-effect"]
+    check = grade_answer('effects = ["stribek"]\n', "ada", tmp_path)["first-effect"]
 
     assert "Did you mean stribeck?" in check.hint
 
 
 def test_a_parameter_that_an_effect_does_not_have_is_named(tmp_path):
     text = 'effects = ["delay"]\ndelay.late = 0.03\n'
-    check = grade_answer(text, "ann", tmp_path)["held-out"]
+    check = grade_answer(text, "ada", tmp_path)["held-out"]
 
     assert check.seen == "delay.late, which is no parameter of delay"
     assert "It has delay.lag." in check.hint
@@ -194,17 +193,17 @@ def test_a_parameter_that_an_effect_does_not_have_is_named(tmp_path):
 def test_a_value_beyond_physics_is_no_crash(tmp_path):
     text = 'effects = ["delay"]\ndelay.lag = -1\n'
 
-    assert "is physically impossible" in grade_answer(text, "ann", tmp_path)["held-out"].hint
+    assert "is physically impossible" in grade_answer(text, "ada", tmp_path)["held-out"].hint
 
 
 def test_trying_an_effect_shows_the_gaps_but_not_the_held_out_one(copy, monkeypatch, capsys):
-    name = ROOM.draw("ann").hidden[0]
+    name = ROOM.draw("ada").hidden[0]
     script = str(copy.folder / "try_it.py")
-    monkeypatch.setattr(sys, "argv", [script, "--student", "ann"])
+    monkeypatch.setattr(sys, "argv", [script, "--student", "ada"])
     with pytest.raises(SystemExit):
         runpy.run_path(script, run_name="__main__")
     alone = capsys.readouterr().out
-    monkeypatch.setattr(sys, "argv", [script, name, "--student", "ann", "--held-out"])
+    monkeypatch.setattr(sys, "argv", [script, name, "--student", "ada", "--held-out"])
     with pytest.raises(SystemExit):
         runpy.run_path(script, run_name="__main__")
     tried = capsys.readouterr().out
@@ -212,16 +211,18 @@ def test_trying_an_effect_shows_the_gaps_but_not_the_held_out_one(copy, monkeypa
     def wide(said, which):
         return float(re.search(rf"gap of the {which}: ([\d.e+]+)", said)[1])
 
-    assert "held-out:" not in alone
+    assert "gap_after" not in alone
     assert wide(tried, "validation") < 0.8 * wide(alone, "validation")
-    assert wide(tried, "held-out") > 0
+    assert "gap_after = " in tried
     assert f"{name}." in tried
-    assert "Where simulation and validation differ most" in alone
+    assert "position: explains" in alone
+    page = next((copy.folder / "data").glob("*/gap.html")).read_text(encoding="utf-8")
+    assert "worst run" in page or "<img" in page
 
 
 def test_a_name_that_is_no_effect_is_one_line_with_a_proposal(copy, monkeypatch):
     script = str(copy.folder / "try_it.py")
-    monkeypatch.setattr(sys, "argv", [script, "filter", "--student", "ann"])
+    monkeypatch.setattr(sys, "argv", [script, "filter", "--student", "ada"])
 
     with pytest.raises(SystemExit) as left:
         runpy.run_path(script, run_name="__main__")
@@ -241,11 +242,16 @@ def test_nothing_a_learner_reads_without_trying_names_what_is_hidden():
     assert everybody & set(re.findall(r"[a-z-]+", said)) == set()
 
 
-@pytest.mark.parametrize("student", ["student 104", "student 190"])
-def test_what_a_log_does_not_determine_is_drawn_again(student):
-    """These two of 300 had a log whose right effects predict other runs badly."""
+def test_what_a_log_does_not_determine_is_drawn_again():
+    """A slightly late sensor hides behind a strong wave in the position."""
     drawn = sys.modules[OWN.module.draw.__module__]
-    first = drawn._one(drawn.make_student_rng(student, "exercise12"), drawn.HIDDEN)
+    weak = ("drivetrain", (("cogging", 2.0), ("velocity-filter", 0.02)))
 
-    assert not drawn._determined(first)
-    assert drawn._determined(OWN.module.draw(student))
+    assert not drawn._determined(drawn._one(np.random.default_rng(0), [weak]))
+    assert drawn._determined(OWN.module.draw("ada"))
+
+
+def test_the_students_of_a_class_meet_many_effects():
+    everybody = {name for _, effects in DRAWN.HIDDEN for name, _ in effects}
+
+    assert len(everybody) >= 12

@@ -22,6 +22,7 @@ import sim
 from grader.edition import SLIDES, VIEW, convert_notebook, execute_notebook
 from sim.bench.simulate import simulate
 from sim.plot import Picture, plot_r2_vs_gain_error
+from sim.teaching.answers import read_answer
 from sim.teaching.r2_cases import GOOD, make_cases
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -416,6 +417,37 @@ def test_a_prediction_is_compared_with_the_answer(text):
     assert guesses
     for guess in guesses:
         assert re.search(rf"print\(.*\b{guess}\.reveal\(", source), guess
+
+
+@each_lesson
+def test_no_code_of_a_lesson_holds_a_right_answer(text):
+    """Neither in sight nor in a collapsed cell, which a click opens."""
+    lesson = f"lesson{int(text.stem[:2])}"
+    asked, offered, said = [], set(), []
+    for node in ast.walk(ast.parse(text.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Call):
+            name = getattr(node.func, "attr", getattr(node.func, "id", ""))
+            texts = [one for one in node.args if isinstance(one, ast.Constant)]
+            if name == "Prediction":
+                offered |= {id(one) for one in texts}
+            if name in {"reveal", "read_answer"}:
+                (key,) = (one.value for one in texts)
+                assert key.startswith(lesson)
+                asked.append(read_answer(key))
+            if name.startswith("Quick"):
+                assert not node.args
+                assert [one.arg for one in node.keywords] == [None]  # **read_answer(…)
+        if isinstance(node, ast.Tuple):  # options that several questions share
+            offered |= {id(one) for one in node.elts}
+        if isinstance(node, ast.Subscript):  # a text that is written backward
+            assert ast.unparse(node.slice) != "::-1"
+        if isinstance(node, ast.Constant) and isinstance(node.value, str):
+            said.append(node)
+    answers = {one for one in asked if isinstance(one, str) and " " in one}
+    open_answers = [one.value for one in said if one.value in answers and id(one) not in offered]
+
+    assert asked
+    assert open_answers == []
 
 
 @each_lesson

@@ -110,6 +110,56 @@ def test_a_newcomer_soon_sees_something_move(printed, browser):
     page.close()
 
 
+def test_a_student_finds_what_lesson_9_hides_by_clicks(address, browser, tmp_path):
+    """As the page says: the largest share, an effect for it, fit, look again, stop."""
+    page = browser.new_page(viewport=SCREEN)
+    page.set_default_timeout(PATIENCE)
+    run_all(page, address.format(name="09_reality_gap.ipynb"))
+    widget = page.locator(".jp-Notebook .widget-vbox").filter(
+        has=page.get_by_role("button", name="Add and fit")
+    )
+    said = widget.locator("p b").last
+
+    def press(button, reply):
+        widget.get_by_role("button", name=button).click()
+        widget.get_by_text(reply).first.wait_for()
+
+    def add(effect):
+        widget.locator("select").select_option(effect)
+        press("Add and fit", f"{effect}, the gap of the validation log is")
+        return float(re.search(r"validation log is ([\d.]+)", said.inner_text())[1])
+
+    def shares():
+        words = widget.locator("figure.picture img").last.get_attribute("alt")
+        listed = re.search(r"squared residual: (.*?)\.", words)[1]
+        return dict(one.removesuffix(" %").rsplit(" ", 1) for one in listed.split(", ")), words
+
+    first, _ = shares()
+    assert max(first, key=lambda name: int(first[name])) == "time since the voltage jumped"
+    late = add("delay")
+    press("Take back", "With gains alone, the gap")
+    filtered = add("velocity-filter")
+    second, _ = shares()
+    assert max(second, key=lambda name: int(second[name])) == "speed"
+    done = add("stribeck")
+    assert "Only noise remains." in shares()[1]
+    widget.screenshot(path=tmp_path / "found.png")
+    press("Stop, open the held-out log", "The held-out log is open.")
+    opened = widget.inner_text()
+
+    assert done < filtered < late
+    assert 'effects = ["velocity-filter", "stribeck"]' in opened
+    before, after = (
+        float(re.search(rf"{name} = ([\d.]+)", opened)[1]) for name in ("gap_before", "gap_after")
+    )
+    assert after < 1.1 < before
+    window = re.search(r"velocity-filter.window \[s\]\s+([\d.]+)\s+([\d.]+)", opened)
+    assert float(window[1]) == pytest.approx(float(window[2]), rel=0.05)  # yours, and the truth
+    assert widget.get_by_role("button", name="Add and fit").is_disabled()
+    page.screenshot(path=tmp_path / "opened.png")
+    page.close()
+
+
 def _check_pictures(page):
     """Every picture has come through, says in words what it shows, and is not blank."""
     pictures = page.locator(".jp-Notebook img")

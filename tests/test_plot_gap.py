@@ -13,10 +13,9 @@ from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import simulate
 from sim.core.errors import BadRequest
 from sim.physics.model import Model
-from sim.physics.replay import replay_log
 from sim.plot import make_residual_views, plot_gap_bars, plot_voltage_residual
 from sim.plot.picture import PAPER
-from sim.plot.voltage_residual import compute_missing_volts
+from sim.plot.voltage_residual import compute_missing_volts, simulate_velocity
 
 DRIVETRAIN = MECHANISMS["drivetrain"]
 TRUTH = Model("simple", DRIVETRAIN.gains)
@@ -25,14 +24,11 @@ ROUTINE = sim.Routine(
 )
 TIRED = Battery(rest=12.2, resistance=0.035)
 HIDES = {  # what is hidden -> the side from which it is seen best
+    "cogging": "position",
     "velocity-filter": "time since the voltage jumped",
     "asymmetric-friction": "direction",
     "drag": "speed",
 }
-
-
-def simulated(log):
-    return [track.seen for track in replay_log(TRUTH, log)]
 
 
 def hiding(effect, *, noise=True):
@@ -45,8 +41,9 @@ def hiding(effect, *, noise=True):
 @pytest.mark.parametrize("effect", HIDES)
 def test_each_effect_is_seen_best_from_its_own_side(effect):
     log = hiding(effect)
-    found = make_residual_views(log, simulated(log), TRUTH.gains)
-    assert max(found, key=lambda name: found[name].explains) == HIDES[effect]
+    found = make_residual_views(log, TRUTH)
+    assert found.clearest == HIDES[effect]
+    assert found.unexplained < 0.3
 
 
 def test_a_battery_that_gives_way_is_seen_best_over_its_voltage():
@@ -55,39 +52,51 @@ def test_a_battery_that_gives_way_is_seen_best_over_its_voltage():
     asked = replace(
         log, runs=tuple(replace(r, voltage=12.0 * r.voltage / r.bus_voltage) for r in log.runs)
     )
-    found = make_residual_views(asked, simulated(asked), TRUTH.gains)
-    assert max(found, key=lambda name: found[name].explains) == "battery voltage"
-    lowest = found["battery voltage"].mean
+    found = make_residual_views(asked, TRUTH)
+    assert found.clearest == "battery voltage"
+    lowest = found.views["battery voltage"].mean
     assert lowest[np.isfinite(lowest)][0] < -0.2  # [V] the robot got less than the log says
 
 
 def test_nothing_is_seen_where_nothing_is_missing():
     log = hiding("")
-    found = make_residual_views(log, simulated(log), TRUTH.gains)
-    assert all(view.explains < 0.1 for view in found.values())
+    found = make_residual_views(log, TRUTH)
+    assert found.is_noise
+    assert found.headline == "Only noise remains."
+    assert all(view.explains < 0.1 for view in found.views.values())
+
+
+def test_what_no_plot_shows_is_said():
+    """A push in one run has no cause that speed, time, position or direction could show."""
+    log = hiding("")
+    pushed = log.runs[0].velocity + 0.3 * np.sin(7.0 * log.runs[0].time)
+    found = make_residual_views(
+        replace(log, runs=(replace(log.runs[0], velocity=pushed), *log.runs[1:])), TRUTH
+    )
+    assert found.unexplained > 0.3
+    assert (
+        f"{100 * found.unexplained:.0f} % of the gap beyond noise shows in no plot"
+        in found.headline
+    )
 
 
 def test_missing_volts_are_the_volts_of_the_friction_that_is_hidden():
     log = hiding("asymmetric-friction", noise=False)
     (lean,) = DRIVETRAIN.hide("asymmetric-friction").hidden[0].parameters.values()
     ramp = log.list_runs_of_test("quasistatic-forward")[0]
-    lacks = compute_missing_volts(log, simulated(log), TRUTH.gains)[log.runs.index(ramp)]
+    lacks = compute_missing_volts(log, simulate_velocity(log, TRUTH), TRUTH.gains)[
+        log.runs.index(ramp)
+    ]
     fast = np.flatnonzero(ramp.velocity > 0.3)[:-1]
     assert np.median(lacks[fast]) == pytest.approx(-lean, rel=0.05)
 
 
-def test_without_a_record_of_the_battery_there_are_three_sides():
+def test_without_a_record_of_the_battery_there_are_four_sides():
     log = simulate(DRIVETRAIN, ROUTINE, rng=np.random.default_rng(1))
-    assert "battery voltage" not in make_residual_views(log, simulated(log), TRUTH.gains)
-    picture = plot_voltage_residual(log, simulated(log), TRUTH.gains)
-    assert len(picture.table.rows) == 3
-    assert picture.alt.startswith("Three views")
-
-
-def test_a_simulation_of_another_log_is_refused():
-    log = hiding("")
-    with pytest.raises(BadRequest, match="not of this log"):
-        make_residual_views(log, simulated(log)[:-1], TRUTH.gains)
+    assert "battery voltage" not in make_residual_views(log, TRUTH).views
+    picture = plot_voltage_residual(log, TRUTH)
+    assert len(picture.table.rows) == 4
+    assert picture.alt.startswith("Four views")
 
 
 def test_a_gap_bar_says_its_numbers():
@@ -115,7 +124,7 @@ def test_gaps_of_different_logs_are_refused(gaps):
 def test_each_picture_has_words_and_a_table():
     log = hiding("drag")
     for picture in (
-        plot_voltage_residual(log, simulated(log), TRUTH.gains),
+        plot_voltage_residual(log, TRUTH),
         plot_gap_bars({"a": {"log": 2.0}}),
     ):
         (image,) = Tags(picture.html).all("img")

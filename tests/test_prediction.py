@@ -47,19 +47,26 @@ def test_a_notebook_gets_the_question_and_the_buttons(guess, reads):
 
 def test_the_answer_says_whether_the_prediction_was_right_and_keeps_a_score(monkeypatch, reads):
     monkeypatch.setattr(Prediction, "_results", {})
-    first, second = Prediction("Which gain?", "kS", "kA"), Prediction("Which one?", "up", "down")
-    first.value, second.value = "kA", "up"
+    first = Prediction("Which gain?", "kS", "kA")
+    second = Prediction("Where does it go?", "it stays", "it goes up")
+    first.value, second.value = "kA", "it goes up"
 
-    reads(first.reveal("kA"))
-    reads(second.reveal("down"))
-    assert first.reveal("kA").endswith("(1 of 2 predictions right so far.)")
+    reads(first.reveal("lesson0.gain"))
+    reads(second.reveal("lesson2.hold"))
+    assert first.reveal("lesson0.gain").endswith("(1 of 2 predictions right so far.)")
 
 
 def test_without_a_prediction_only_the_answer_is_shown(guess):
-    assert guess.reveal("kA") == "Answer: kA."
+    assert guess.reveal("lesson0.gain") == "Answer: kA."
 
 
 def test_an_answer_that_is_no_option_cannot_be_revealed(guess, reads):
     with pytest.raises(BadRequest) as refused:
-        guess.reveal("kV")
+        guess.reveal("lesson1.ramp")
+    reads(refused.value)
+
+
+def test_a_name_without_an_answer_is_refused(guess, reads):
+    with pytest.raises(BadRequest) as refused:
+        guess.reveal("lesson0.nothing")
     reads(refused.value)

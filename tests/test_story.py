@@ -39,7 +39,7 @@ from sim.core.units import find_unit
 from sim.physics.effects import EFFECTS
 from sim.plot.story import (
     make_findings_table,
-    plot_residual_maps,
+    plot_remaining_gap,
 )
 from sim.reconcile.story_text import (
     format_estimate,
@@ -262,30 +262,26 @@ def test_a_simulation_that_ran_away_is_said_in_words():
 # -- notebook ------------------------------------------------------------------------------------
 
 
-def test_the_map_shows_where_before_and_nowhere_after():
-    picture = plot_residual_maps(EXPLAINED)
+def test_the_pictures_show_a_gap_before_and_only_noise_after():
+    before, after = plot_remaining_gap(EXPLAINED)
 
-    models = [row[-1] for row in picture.table.rows]
-    assert set(models) == {"base"}
-    assert all(row[1].startswith("−") for row in picture.table.rows)  # the robot is slower
-    assert "with drag: nowhere clearly more than the noise." in picture.alt
+    assert "of the gap beyond noise shows in no plot" in before.alt
+    assert "with drag: Only noise remains." in after.alt
 
 
-def test_samples_that_do_not_count_are_not_on_the_map():
+def test_samples_that_do_not_count_are_in_no_picture():
     ramp_only = tuple(np.full(150, test.startswith("quasistatic")) for test in TESTS)
 
-    picture = plot_residual_maps(replace(EXPLAINED, compared=ramp_only))
-
-    assert "quasistatic-forward" in picture.alt
-    assert "dynamic" not in picture.alt
-    assert "dynamic" in plot_residual_maps(EXPLAINED).alt
+    assert plot_remaining_gap(replace(EXPLAINED, compared=ramp_only))[0].table.rows != (
+        plot_remaining_gap(EXPLAINED)[0].table.rows
+    )
 
 
-def test_a_map_of_nothing_is_refused():
+def test_a_picture_of_nothing_is_refused():
     none = replace(EXPLAINED, compared=tuple(np.zeros(150, dtype=bool) for _ in TESTS))
 
     with pytest.raises(BadRequest, match="Give longer runs"):
-        plot_residual_maps(none)
+        plot_remaining_gap(none)
 
 
 @pytest.mark.parametrize(

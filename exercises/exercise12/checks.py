@@ -17,7 +17,6 @@ from grader.student_data.student_files import format_log, write_student_files
 from grader.student_data.variant import make_folder_name
 
 from .drawn import FLOOR, HIDDEN, Variant, draw, draw_determined
-from .gap import compared, gap, noise, with_effects, with_gains
 from .patch import names_of, on_a_bound, parts_of
 
 if TYPE_CHECKING:
@@ -25,19 +24,11 @@ if TYPE_CHECKING:
 
     import numpy as np
 
-    from sim.core.log import Log
-    from sim.physics.model import Model, Part
+    from sim.estimation.likelihood import Estimate
+    from sim.physics.model import Part
+    from sim.reconcile.by_hand import HandSearch
 
-__all__ = [  # what try_it.py uses, too
-    "compared",
-    "draw",
-    "gap",
-    "make_folder_name",
-    "names_of",
-    "noise",
-    "with_effects",
-    "with_gains",
-]  # fmt: skip
+__all__ = ["draw", "make_folder_name", "names_of"]  # what try_it.py uses, too
 
 FILES = ("answers.toml",)
 ANSWER_NAMES = ("effects", "gap_before", "gap_after")
@@ -47,15 +38,9 @@ SHRINK = 0.6  # [share of what can be shrunk] for partial marks
 WORSE = 1.05  # [of the base's gap] beyond it, effects do harm
 SURE = 20.0  # [BIC] odds of about twenty thousand to one
 NARROWER = 0.985  # [of the gap without] what a refit by chance does not do
-SAME = (0.6, 1.6)  # [of the gap graded] what another honest way to compute it may give
-BASE = (0.3, 3.0)  # [of the same] of a base that another method fitted
-COPIED = 0.006  # [of a gap] that a number with three digits may differ from it
+SAME = 1.1  # [1] ratio up to which two gaps are the same: rounding, and a search from elsewhere
 NARROW = 0.95  # [of the gap with gains alone] above which effects do nothing for the held-out log
 REPORTED = 0.5  # points for the two gaps
-OTHER_FIT = (
-    "The grader fits kS, kV and kA to your log itself, as try_it.py does. Another program, such as "
-    "sysid reconcile, fits them in another way and gets another gap"
-)
 
 
 @dataclass(frozen=True)
@@ -84,21 +69,29 @@ class Answers:
 
         return parts_of(self.names, self.given, find_unit(self.variant.log.units))
 
-    def fitted(self, parts: "Sequence[Part]") -> "Model":
-        """Some of the answer's effects, and gains fitted to the log: each selection once."""
+    @cached_property
+    def search(self) -> "HandSearch":
+        """The search for effects in the learner's logs."""
+        return self.variant.make_search()
+
+    @property
+    def validation_count(self) -> int:
+        """Number of samples of the validation log."""
+        return sum(len(run) for run in self.variant.validation.runs)
+
+    def fitted(self, parts: "Sequence[Part]") -> "Estimate":
+        """Some of the answer's effects, and gains fitted to the logs: each selection once."""
         names = tuple(part.effect for part in parts)
         if names not in self._fitted:
-            self._fitted[names] = with_gains(self.variant.log, parts)
+            self._fitted[names] = self.search.fit_gains(parts)
         return self._fitted[names]
 
-    def measure_gaps(self, log: "Log") -> tuple[float, float]:
-        """The gaps of a log with gains alone and with the effects [noises]; raises WrongAnswer."""
-        unit = noise(log)
-        before, after = (gap(self.fitted(some), log) / unit for some in ([], self.parts))
-        return before, after
+    def measure_gap(self, parts: "Sequence[Part]", log: str = "validation") -> float:
+        """The gap of a log with some of the answer's effects [times the noise]."""
+        return self.search.measure_gap(self.fitted(parts), log)
 
     @cached_property
-    def _fitted(self) -> "dict[tuple[str, ...], Model]":
+    def _fitted(self) -> "dict[tuple[str, ...], Estimate]":
         return {}
 
 
@@ -187,9 +180,10 @@ def _require_narrower(answers: Answers) -> None:
     if answers.names_only:
         return
     try:
-        before, after = answers.measure_gaps(answers.variant.held_out)
+        after = answers.measure_gap(answers.parts, "held_out")
     except WrongAnswer as wrong:
         raise NotReachedError(f"counts only with parameters: {wrong.seen}") from None
+    before = answers.measure_gap([], "held_out")
     if after > NARROW * before:
         raise WrongAnswer(
             ", ".join(answers.names),
@@ -205,9 +199,7 @@ def _alone(answers: Answers) -> str:
         part = answers.parts[0]
     except WrongAnswer:
         return ""
-    validation = answers.variant.validation
-    unit = noise(validation)
-    before, after = (gap(answers.fitted(some), validation) / unit for some in ([], [part]))
+    before, after = answers.measure_gap([]), answers.measure_gap([part])
     return (
         f". With {part.effect} alone, as you give it, that gap goes from {before:.3g} to "
         f"{after:.3g} times the noise"
@@ -244,13 +236,14 @@ def all_effects(answers: Answers) -> None:
 @check(points=3)
 def held_out(answers: Answers) -> str | None:
     """The model predicts the held-out log, which nothing was fitted to."""
-    shown = answers.variant.held_out
-    unit = noise(shown)
-    floor = max(1.0, gap(answers.variant.mechanism.model, shown) / unit)
-    before, after = answers.measure_gaps(shown)
+    search = answers.search
+    truth = search.evaluate_model(answers.variant.mechanism.model)
+    floor = max(1.0, search.measure_gap(truth, "held_out"))
+    before, after = (answers.measure_gap(some, "held_out") for some in ([], answers.parts))
     seen = f"the gap goes from {before:.3g} to {after:.3g} times the noise"
     if after <= FLOOR * floor:
-        return _reported(answers, before=before, after=after, seen=seen)
+        _check_reported(answers, before=before, after=after)
+        return seen
     shrunk = (before - after) / (before - floor)
     if shrunk >= SHRINK:
         hint = "you are close. Is an effect missing, or is a parameter not yet right?"
@@ -268,56 +261,47 @@ def held_out(answers: Answers) -> str | None:
     raise WrongAnswer(seen, hint=hint)
 
 
-def _reported(answers: Answers, *, before: float, after: float, seen: str) -> str:
-    """Whether the gaps that the learner wrote down are those of this model.
+def _check_reported(answers: Answers, *, before: float, after: float) -> None:
+    """Refuse gaps that the learner wrote down and that are not those of this model.
 
-    Returns:
-        What the grader measured; and for a gap that is right but another number, why.
+    Raises:
+        WrongAnswer: one of them is another number.
     """
-    others = []
-    chosen_by = answers.measure_gaps(answers.variant.validation)
-    rows = (("gap_before", before, after, BASE), ("gap_after", after, before, SAME))
-    for (name, expected, other, bounds), validation in zip(rows, chosen_by, strict=True):
+    rows = (("gap_before", before, after, []), ("gap_after", after, before, answers.parts))
+    for name, expected, other, parts in rows:
         asked = AskedNumber(name, expected, "", Band(0.0, 0.0))
         try:
             value = read_answer_number(answers.given.get(name), asked)
-            _check_near(value, expected, bounds, other=other, validation=validation)
+            if not _is_same(value, expected):
+                raise _explain_gap(value, other=other, validation=answers.measure_gap(parts))
         except WrongAnswer as wrong:
             wrong.seen, wrong.earned = f"{name}: {wrong.seen}", 3.0 - REPORTED
             raise
-        if f"{value:.2g}" != f"{expected:.2g}":
-            others.append(f"The grader used {name} = {expected:.3g}; your {value:g} counts, too")
-    return ". ".join([seen, *others, *([OTHER_FIT] if others else [])])
 
 
-def _check_near(
-    value: float, expected: float, bounds: tuple[float, float], *, other: float, validation: float
-) -> None:
-    """Refuse a gap that is not the one of the held-out log.
+def _explain_gap(value: float, *, other: float, validation: float) -> WrongAnswer:
+    """Which gap a wrong one may be.
 
     Args:
         value: as the learner wrote it.
-        expected: what the grader measured.
-        bounds: shares of it between which a value may be that of another honest fit.
         other: the other of the two gaps of the held-out log.
         validation: this gap of the validation log.
     """
-    if _is_copied(value, validation) and not _is_copied(value, expected):
+    if _is_same(value, validation):
         hint = "this is the gap of the validation log. Which log did nobody use to choose effects?"
-        raise WrongAnswer(f"{value:g}", hint=hint, misconception="M-HELD-OUT")
-    if not bounds[0] * expected <= value <= bounds[1] * expected:
-        hint = (
-            "this is not the gap of your model on the held-out log, in times the noise. Write "
-            "what try_it.py prints with --held-out"
-        )
-        if SAME[0] * other <= value <= SAME[1] * other:
-            hint = "this is the other gap: gap_before is with gains alone, gap_after with effects"
-        raise WrongAnswer(f"{value:g}", hint=hint)
+        return WrongAnswer(f"{value:g}", hint=hint, misconception="M-HELD-OUT")
+    hint = (
+        "this is not the gap of your model on the held-out log, in times the noise. Write what "
+        "try_it.py prints with --held-out"
+    )
+    if _is_same(value, other):
+        hint = "this is the other gap: gap_before is with gains alone, gap_after with effects"
+    return WrongAnswer(f"{value:g}", hint=hint)
 
 
-def _is_copied(value: float, printed: float) -> bool:
-    """Whether a gap is one that try_it.py printed, with three digits."""
-    return abs(value - printed) <= COPIED * printed
+def _is_same(value: float, expected: float) -> bool:
+    """Whether two gaps are the same up to rounding."""
+    return expected / SAME <= value <= SAME * expected
 
 
 @check(points=2)
@@ -334,11 +318,10 @@ def justified(answers: Answers) -> None:
                 hint="this effect does nothing, or stands in for another. Leave it out, or fit "
                 "again from another start value",
             )
-    validation = answers.variant.validation
-    whole = gap(answers.fitted(parts), validation)
+    whole = answers.measure_gap(parts)
     for part in parts:
-        without = gap(answers.fitted([one for one in parts if one is not part]), validation)
-        if not _worth(part, whole=whole, without=without, log=validation):
+        without = answers.measure_gap([one for one in parts if one is not part])
+        if not _worth(part, whole=whole, without=without, count=answers.validation_count):
             raise WrongAnswer(
                 part.effect,
                 hint=f"without it, the gap of the validation is {without / whole:.3g} times as "
@@ -347,8 +330,8 @@ def justified(answers: Answers) -> None:
             )
 
 
-def _worth(part: "Part", *, whole: float, without: float, log: "Log") -> bool:
+def _worth(part: "Part", *, whole: float, without: float, count: int) -> bool:
     """Whether an effect makes runs likelier that it was not fitted to, its parameters paid."""
-    count = sum(int(where.sum()) for where in compared(log))
-    bic = 2.0 * count * math.log(without / whole) - len(part.parameters) * math.log(count)
-    return bic >= SURE and whole <= NARROWER * without
+    if not whole <= NARROWER * without:  # a simulation that diverged is not narrower, either
+        return False
+    return 2.0 * count * math.log(without / whole) - len(part.parameters) * math.log(count) >= SURE

@@ -1,19 +1,19 @@
 """A learner's own mechanism and what is hidden in it: three logs, and the truth about them."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from grader.student_data.draw_cache import cache_generated_data
 from grader.student_data.variant import cache_draws, make_student_rng
-
-from .gap import gap, noise, with_effects
 
 if TYPE_CHECKING:
     import numpy as np
 
     from sim.bench.mechanism import Mechanism
     from sim.core.log import Log
+    from sim.physics.model import Part
+    from sim.reconcile.by_hand import HandSearch
 
 Recipe = tuple[str, tuple[tuple[str, float], ...]]  # a mechanism; its effects with their sizes
 
@@ -23,12 +23,24 @@ HIDDEN: tuple[Recipe, ...] = (
     ("drivetrain", (("cogging", 1.2),)),
     ("drivetrain", (("velocity-filter", 1.5), ("stribeck", 0.8))),
     ("drivetrain", (("asymmetric-back-emf", 1.2), ("drag", 0.8))),
-    ("drivetrain", (("cogging", 1.2), ("velocity-filter", 0.8))),
+    ("drivetrain", (("velocity-filter", 0.8), ("cogging", 0.6))),
     ("drivetrain", (("velocity-filter", 1.5), ("drag", 0.8), ("stribeck", 0.6))),
-    ("drivetrain", (("asymmetric-back-emf", 1.2), ("drag", 1.2), ("stribeck", 0.6))),
-    ("shooter", (("velocity-filter", 2.0),)),
+    ("drivetrain", (("compliance", 1.0),)),
+    ("drivetrain", (("backlash", 1.5),)),
+    ("drivetrain", (("velocity-filter", 0.8), ("deadband", 1.5))),
+    ("drivetrain", (("velocity-scale", 1.2), ("stribeck", 1.0))),
+    ("drivetrain", (("heating", 2.0),)),
+    ("drivetrain", (("wheel-slip", 1.0),)),
     ("shooter", (("velocity-filter", 2.0), ("drag", 1.0))),
     ("shooter", (("asymmetric-back-emf", 1.2), ("drag", 0.8))),
+    ("shooter", (("voltage-limit", 1.5), ("drag", 1.0))),
+    ("shooter", (("current-limit", 1.5), ("velocity-filter", 1.0))),
+    ("shooter", (("drag", 1.0), ("battery-sag", 1.0))),
+    ("turret", (("spring", 1.0), ("velocity-filter", 1.0))),
+    ("turret", (("compliance", 1.0),)),
+    ("turret", (("backlash", 1.0),)),
+    ("turret", (("velocity-filter", 0.5), ("cogging", 1.0))),
+    ("turret", (("gravity-cosine", 1.0), ("stribeck", 1.0))),
 )
 """Mechanism, and its effects with their sizes. In each of them the first effect alone narrows the
 gap more than any other of the catalogue alone does, and all of them together bring it to the noise.
@@ -38,6 +50,7 @@ SIZES = (0.9, 1.1)  # [1] by which a size differs from learner to learner
 TESTS = {  # ramp [V/s] and step [V] of the log and of the validation, step [V] of the held-out log
     "drivetrain": ((0.5, 3.5), (0.5, 2.5), 3.0),
     "shooter": ((0.5, 3.5), (1.0, 6.0), 5.0),
+    "turret": ((0.5, 3.5), (0.5, 2.5), 3.0),
 }
 """The drivetrain's steps are below what 120 A in the stator let through (3.9 V from rest). The
 shooter's of 5 and 6 V are not: their first moments are cut, and the log holds what was applied.
@@ -48,6 +61,7 @@ FLOOR = 1.3  # [of the gap that the truth leaves on the held-out log] for full m
 SNUG = 0.9  # [of FLOOR] within which the fit of the right effects must be
 MISSED = 1.07  # [of the validation's gap] by which it is wider without any one of the effects
 SEEN = 1.08  # [noises] of a gap in which something is visibly missing
+CLEAR = 1.15  # [1] by which the gap without the first effect is wider than without any other
 MOST_DRAWS = 50  # so many in a row that cannot be determined would be our fault
 TIMEOUT = 8.0  # [s] of a test of the validation and of the held-out log
 
@@ -73,6 +87,12 @@ class Variant:
         """The effects that are hidden, the one that matters most first."""
         return tuple(part.effect for part in self.mechanism.hidden)
 
+    def make_search(self) -> "HandSearch":
+        """The search for effects in its logs, whose gaps are those of ``sysid reconcile``."""
+        from sim.reconcile.by_hand import HandSearch  # noqa: PLC0415 - numpy only where it is needed
+
+        return HandSearch(self.log, validation=self.validation, held_out=self.held_out)
+
 
 @cache_draws
 @cache_generated_data
@@ -96,17 +116,19 @@ def draw_determined(rng: "np.random.Generator", among: Sequence[Recipe]) -> Vari
 
 
 def _determined(variant: Variant) -> bool:
-    """Whether the right effects predict the held-out log, and each is missed if it is left out."""
-    truth, shown, validation = variant.mechanism.model, variant.held_out, variant.validation
-    found = with_effects(variant.log, variant.hidden, like=truth)
-    if gap(found, shown) > SNUG * FLOOR * max(noise(shown), gap(truth, shown)):
+    """Whether the right effects predict the held-out log, and each is missed, the first most."""
+    search, truth = variant.make_search(), variant.mechanism.model
+    found = search.fit_near(truth)
+    floor = max(1.0, search.measure_gap(search.evaluate_model(truth), "held_out"))
+    if search.measure_gap(found, "held_out") > SNUG * FLOOR * floor:
         return False
-    least = max(MISSED * gap(found, validation), SEEN * noise(validation))
-    for name in variant.hidden:
-        rest = [other for other in variant.hidden if other != name]
-        if rest and gap(with_effects(variant.log, rest, like=found), validation) < least:
-            return False
-    return True
+
+    def gap_with(*parts: "Part") -> float:
+        return search.measure_gap(search.fit_near(replace(truth, parts=parts)))
+
+    without = [gap_with(*(o for o in truth.parts if o is not part)) for part in truth.parts]
+    least = max(MISSED * search.measure_gap(found), SEEN)
+    return min(without) >= least and without[0] >= CLEAR * max(without[1:], default=0.0)
 
 
 def _one(rng: "np.random.Generator", among: Sequence[Recipe]) -> Variant:

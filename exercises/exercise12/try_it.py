@@ -10,18 +10,13 @@ import argparse
 import sys
 from pathlib import Path
 
-import numpy as np
-
 from grader.check import WrongAnswer
 from grader.course import find_course, load_progress
 from grader.exercise import Exercise, find_exercise
-from sim import read
 from sim.core.errors import Refusal
-from sim.core.units import convert_gains, find_unit
-from sim.physics.replay import replay_log
-from sim.reconcile.residual_map import map_residuals
+from sim.plot.effect_search import EffectSearch
 
-TOLD = 4  # places
+PAGE = "gap.html"
 
 
 def main() -> int:
@@ -38,30 +33,19 @@ def main() -> int:
     asked = parser.parse_args()
     course = find_course(Path(__file__).resolve().parent)
     exercise = find_exercise("12", course)
-    room = exercise.module
     data = asked.logs or _prepare_own(exercise, asked.student or load_progress(course)[0].student)
-    kinds = ("log", "validation", *(("held-out",) if asked.held_out else ()))
-    logs = {name: read(data / f"{name}.wpilog") for name in kinds}
-    names = room.names_of(asked.effects) if asked.effects else ()
-    model = room.with_effects(logs["log"], names)
-    per = find_unit(logs["log"].units)
-    gains = convert_gains(model.gains, factor=per.si)
-    _say(", ".join(f"{name} = {value:.4g}" for name, value in gains.items()))
-    for part in model.parts:
-        for name, one in part.to_json(per).items():
-            _say(f"{part.effect}.{name} = {one['value']:.5g}  # [{one['unit']}]")
-    for name, log in logs.items():
-        wide = room.gap(model, log) / room.noise(log)
-        _say(f"gap of the {name}: {wide:.3g} times the noise of the velocity")
-    _say("Where simulation and validation differ most:")
-    shown = logs["validation"]
-    tracks = [np.column_stack((one.position, one.seen)) for one in replay_log(model, shown)]
-    found = map_residuals(shown, tracks, compared=room.compared(shown), floor=room.noise(shown))
-    places = found.find_places(TOLD, signal="velocity") if found else ()
-    for place in places:
-        _say(f"  {place.sentence}")
-    if not places:
-        _say("  no difference is clearly larger than the noise")
+    search = EffectSearch.read(data)
+    for name in exercise.module.names_of(asked.effects) if asked.effects else ():
+        _say(search.add(name))
+    _say(", ".join(f"{name} = {value:.4g}" for name, value in search.gains.items()))
+    for name, gap in search.gaps.items():
+        _say(f"gap of the {name}: {gap:.3g} times the noise of the velocity")
+    _say(search.open() if asked.held_out else "\n".join(search.answer))
+    for variable, view in search.views.views.items():
+        _say(f"{variable}: explains {100.0 * view.explains:.0f} % of what is left")
+    _say(search.views.headline)
+    search.write_page(data / PAGE)
+    _say(f"The pictures are in {data / PAGE}: open this file in a browser.")
     return 0
 
 

@@ -91,7 +91,7 @@ def read_number(text: str) -> tuple[float, str] | None:
     if len(text.strip()) > LONGEST:
         return None
     found = NUMBER.fullmatch(text.strip().replace("−", "-"))
-    if found is None or found[2][:1] in {".", ",", "_"} or found[2][:1].isdigit():
+    if found is None or not re.match(r"(1(/|$)|[^\d.,_]|$)", found[2]):  # 1/s is a unit, 12 is not
         return None
     return float(found[1].replace(",", ".")), found[2].strip()
 

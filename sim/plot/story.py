@@ -1,12 +1,39 @@
 """A reconcile story in pictures and a table."""
 
+from dataclasses import replace
+
 from sim.core.units import find_unit
-from sim.plot.story_gap import plot_residual_maps
+from sim.estimation.run_records import FEWEST
+from sim.plot.picture import Picture
 from sim.plot.table import Table
+from sim.plot.voltage_residual import plot_voltage_residual
 from sim.reconcile.story import Story
 from sim.reconcile.story_text import describe_size, format_gap, format_parameter
 
-__all__ = ["make_findings_table", "plot_residual_maps"]
+__all__ = ["make_findings_table", "plot_remaining_gap"]
+
+
+def plot_remaining_gap(story: Story) -> list[Picture]:
+    """What the base model and the last model leave of the shown log, seen from five sides.
+
+    Raises:
+        BadRequest: there is nothing to compare, or a simulation diverged.
+    """
+    log = replace(story.shown, runs=tuple(run for run in story.shown.runs if len(run) >= FEWEST))
+    base, *more = story.chapters
+    titles = {"base model": base}
+    if more:
+        titles[f"with {', '.join(one.added for one in more)}"] = more[-1]
+    return [
+        plot_voltage_residual(
+            log,
+            chapter.model,
+            title=title,
+            simulated=[track[:, 1] for track in chapter.tracks],
+            compared=story.compared,
+        )
+        for title, chapter in titles.items()
+    ]
 
 
 def make_findings_table(story: Story) -> Table:

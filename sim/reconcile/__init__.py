@@ -11,31 +11,24 @@ which that gap grows is not named.
 After the prediction-error method (Kristensen, Madsen and Jørgensen 2004).
 """
 
-import math
 from collections.abc import Callable, Mapping, Sequence
 
-from sim.core.errors import BadRequest, NotIdentifiable
+from sim.core.errors import BadRequest
 from sim.core.log import Log
 from sim.core.vocabulary import TYPES
-from sim.estimation.initial_guess import clamp_to_physical
-from sim.estimation.likelihood import Estimate, PredictionErrorProblem
-from sim.estimation.model_structure import ModelStructure
-from sim.estimation.optimize import levenberg_marquardt
-from sim.estimation.run_nuisance import RunNuisance
+from sim.estimation.likelihood import PredictionErrorProblem
 from sim.reconcile.backward_elimination import remove_needless_effects
-from sim.reconcile.cross_validation import Fold, make_folds, select_usable_folds
+from sim.reconcile.base_model import fit_base_model, make_data_folds
 from sim.reconcile.damage import DamagedInterval, judge_damage
 from sim.reconcile.findings import make_findings
 from sim.reconcile.forward_selection import select_effects
 from sim.reconcile.gains import estimate_gains, fit_without_effects
 from sim.reconcile.held_out import HeldOutLog
 from sim.reconcile.input_checks import check_logs
-from sim.reconcile.local_minimum import minimize_fully, scan_process_noise
 from sim.reconcile.model_variant import ModelVariants
 from sim.reconcile.recordings import Recordings
 from sim.reconcile.remarks import list_remarks, select_reported_rounds
 from sim.reconcile.residual_tests.summary import ResidualSummary
-from sim.reconcile.search_effort import STEPS
 from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound
 from sim.reconcile.story import Story
@@ -43,8 +36,6 @@ from sim.reconcile.thresholds import SEARCH_BUDGET
 from sim.reconcile.verdict import reach_verdict
 
 __all__ = ["DamagedInterval", "Story", "reconcile"]
-
-SLOW = 0.5  # [s] time scale kA/kV of a slow mechanism
 
 
 def reconcile(
@@ -96,10 +87,10 @@ def reconcile(
     recordings = Recordings(log, validation, held_out, type=type, damage=damage)
     check_logs(recordings, travel=travel)
     problem = recordings.make_problem()
-    folds, budget = _make_folds(problem, recordings), effort * SEARCH_BUDGET
+    folds, budget = make_data_folds(problem, recordings), effort * SEARCH_BUDGET
     shown = HeldOutLog.choose(recordings)
     progress("base model", 0.05)
-    base = _fit_base_model(problem, recordings)
+    base = fit_base_model(problem, recordings)
     data = SelectionData(recordings.fitted_runs, problem, folds, progress, budget, is_stopped)
     rounds = select_effects(data, base)
     complete = not data.is_budget_spent()  # before the refits that follow
@@ -160,51 +151,3 @@ def _make_story(
         complete=complete,
         variants=ModelVariants(recordings, problem, reported[-1].candidate, shown),
     )  # fmt: skip
-
-
-def _make_folds(problem: PredictionErrorProblem, recordings: Recordings) -> tuple[Fold, ...]:
-    """The folds that have samples to fit and to predict.
-
-    Raises:
-        NotIdentifiable: no fold has both.
-    """
-    folds = select_usable_folds(problem, make_folds([one.session for one in problem.records]))
-    if not folds:
-        raise NotIdentifiable(
-            "after the damaged parts are cut out, no run is left to predict",
-            where=(recordings.validation or recordings.log).source,
-            advice="Inspect the log, and record it again.",
-        )
-    return folds
-
-
-def _fit_base_model(problem: PredictionErrorProblem, recordings: Recordings) -> Estimate:
-    """The best estimate without effects.
-
-    It is searched from two start values of kA: the guess, and that of a slow mechanism. A voltage
-    limit or a delayed velocity can make the guess negative, and a search from the almost zero
-    inertia to which that is clamped ends at a local minimum.
-
-    Raises:
-        NotIdentifiable: the simulation diverges with all gains that were tried.
-    """
-    guess = clamp_to_physical(recordings.initial_gains)
-    structure = ModelStructure(recordings.type)
-    nuisance = RunNuisance.at_first_samples(len(problem.records))
-
-    def search(ka: float) -> Estimate:
-        values = {name: {**guess, "kA": ka}[name] for name in structure.names}
-        start = problem.evaluate(structure, values, nuisance, problem.noise.velocity**2)
-        found = levenberg_marquardt(problem, start, steps=STEPS, enough=1.0)
-        return minimize_fully(problem, scan_process_noise(problem, found))
-
-    starts = (guess["kA"], SLOW * guess["kV"])
-    base = min(map(search, starts), key=lambda one: one.cost)
-    if not math.isfinite(base.cost):
-        parts = "without its damaged parts, " if recordings.damage.excluded else ""
-        raise NotIdentifiable(
-            f"{parts}no gains fit this log",
-            where=recordings.log.source,
-            advice="Inspect the log, and record it again.",
-        )
-    return base

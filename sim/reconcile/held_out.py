@@ -141,31 +141,36 @@ class HeldOutLog:
             found[one.candidate.effect] = gap
         return found
 
-    def _gap(self, point: Estimate, nuisance: RunNuisance | None = None) -> float:
-        nuisance = self._initial_nuisance(point) if nuisance is None else nuisance
-        errors = compute_open_loop_errors(self.problem, point, nuisance)
-        return compute_rms_gap(errors).velocity / find_unit(self.log.units).si
+    def _gap(self, point: Estimate) -> float:
+        return measure_open_loop_gap(self.problem, point) / find_unit(self.log.units).si
 
     def simulate(self, point: Estimate) -> tuple[float, tuple[Array, ...]]:
         """[log's unit/s] gap of a model, and per run (n, 2) its position and velocity [SI]."""
-        nuisance = self._initial_nuisance(point)
+        nuisance = estimate_initial_nuisance(self.problem, point)
         model = point.structure.model(point.values)
         track = self.problem.simulate(model, nuisance).sensor_readings
         runs = tuple(track[first:last] for first, last in pairwise(self.problem.run_edges.tolist()))
-        return self._gap(point, nuisance), runs
+        return self._gap(point), runs
 
     def _chapter(self, one: SelectionRound) -> Chapter:
         point = one.candidate.estimate
         model = point.structure.model(point.values)
         return Chapter(one.candidate.effect, model, one.tried, *self.simulate(point))
 
-    def _initial_nuisance(self, point: Estimate) -> RunNuisance:
-        """Initial values of its runs: the first samples, and estimated backlash phases."""
-        first = self.problem.initial_nuisance
-        found = self.problem.evaluate(point.structure, point.values, first, point.process_noise)
-        for _ in range(ROUNDS):
-            found = estimate_backlash_phase(self.problem, found)
-        return found.nuisance
+
+def measure_open_loop_gap(problem: PredictionErrorProblem, point: Estimate) -> float:
+    """[unit/s] The gap of a model on runs: the RMS error of the velocity, simulated open loop."""
+    nuisance = estimate_initial_nuisance(problem, point)
+    return compute_rms_gap(compute_open_loop_errors(problem, point, nuisance)).velocity
+
+
+def estimate_initial_nuisance(problem: PredictionErrorProblem, point: Estimate) -> RunNuisance:
+    """Initial values of each run: its first samples, and an estimated backlash phase."""
+    first = problem.initial_nuisance
+    found = problem.evaluate(point.structure, point.values, first, point.process_noise)
+    for _ in range(ROUNDS):
+        found = estimate_backlash_phase(problem, found)
+    return found.nuisance
 
 
 def _has_backlash(chapter: Chapter) -> bool:

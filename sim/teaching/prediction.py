@@ -4,6 +4,7 @@ from html import escape
 from typing import Any, ClassVar
 
 from sim.core.errors import BadRequest
+from sim.teaching.answers import read_answer
 
 
 class Prediction:
@@ -47,14 +48,18 @@ class Prediction:
             )
         self._buttons.value = chosen
 
-    def reveal(self, answer: str) -> str:
+    def reveal(self, name: str) -> str:
         """The answer, with whether the prediction was right, and the score in this notebook.
 
         Without a prediction, only the answer is returned.
 
+        Args:
+            name: the name of the answer in ``answers.toml``: ``lesson9.ka``.
+
         Raises:
-            BadRequest: the answer is not one of the options.
+            BadRequest: there is no such name, or the answer is not one of the options.
         """
+        answer = read_answer(name)
         if answer not in self.options:
             raise BadRequest(
                 f"{answer!r} is not one of the answers",

@@ -1,28 +1,24 @@
 """Exercise 12, answered by trying: one effect after another, judged by the validation."""
 
+from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
-from grader.course import find_course
-from grader.exercise import find_exercise
-from sim.core.units import find_unit
-from sim.io import read
+from sim.core.errors import Refusal
+from sim.physics.effects import EFFECTS
+from sim.plot.effect_search import EffectSearch
 
-if TYPE_CHECKING:
-    from sim.core.log import Log
-    from sim.physics.model import Model
-
-SUSPECTS = (
-    "velocity-filter",
-    "delay",
-    "drag",
-    "stribeck",
-    "cogging",
-    "asymmetric-back-emf",
-    "asymmetric-friction",
-)
-NARROW = 1.05  # [noises] of a gap in which nothing is missing any more
+SHOWS = {  # the plot with the largest share -> effects that lesson 9 lists for it
+    "speed": ("drag", "stribeck", "velocity-scale", "voltage-limit", "deadband", "heating"),
+    "time since the voltage jumped": (
+        "velocity-filter", "delay", "compliance", "backlash", "current-limit", "wheel-slip",
+        "inertia-change",
+    ),
+    "position": ("cogging", "spring", "gravity-cosine"),
+    "battery voltage": ("battery-sag",),
+    "direction": ("asymmetric-friction", "asymmetric-back-emf", "constant-load"),
+}  # fmt: skip
 HELPS = 0.96  # [of the gap before] an effect that narrows it less is not worth a name
+NOISE = 1.05  # [noises] of a gap in which nothing is missing any more
 
 
 def solve(exercise: Path, data: Path) -> dict[str, str]:
@@ -35,57 +31,48 @@ def solve(exercise: Path, data: Path) -> dict[str, str]:
     Returns:
         File name -> its text.
     """
-    room = find_exercise("exercise12", find_course(Path(__file__).resolve().parent)).module
-    logs = {name: read(data / f"{name}.wpilog") for name in ("log", "validation", "held-out")}
-    base = room.with_gains(logs["log"], ())
-    model = _found(room, logs["log"], logs["validation"])
-    before, after = (
-        room.gap(one, logs["held-out"]) / room.noise(logs["held-out"]) for one in (base, model)
-    )
-    per = find_unit(logs["log"].units)
-    lines = "".join(
-        f"{part.effect}.{name} = {one['value']:.6g}\n"
-        for part in model.parts
-        for name, one in part.to_json(per).items()
-    )
-    listed = ", ".join(f'"{part.effect}"' for part in model.parts)
+    search = EffectSearch.read(data)
+    find_effects(search)
+    effects, *lines = search.open().splitlines()
     text = (exercise / "answers.toml").read_text(encoding="utf-8")
-    text = text.replace("effects = []", f"effects = [{listed}]")
-    text = text.replace("in quotes\n", f"in quotes\n{lines}")
-    text = text.replace('gap_before = ""', f"gap_before = {before:.3g}")
-    return {"answers.toml": text.replace('gap_after = ""', f"gap_after = {after:.3g}")}
+    for line in lines[-2:]:
+        text = text.replace(f'{line.partition(" = ")[0]} = ""', line)
+    text = text.replace("effects = []", effects)
+    return {
+        "answers.toml": text.replace("in quotes\n", "in quotes\n" + "\n".join(lines[:-2]) + "\n")
+    }
 
 
-def _found(room: Any, log: "Log", validation: "Log") -> "Model":  # noqa: ANN401 - loaded by path
-    """A model with the effects that narrow the gap of the validation, the best first."""
-    model = room.with_gains(log, ())
-    gap = room.gap(model, validation)
-    while gap > NARROW * room.noise(validation):
-        for start in (model, None):  # quick first; where nothing helps, all from the beginning
-            best = min(_tried(room, log, model, start), key=lambda one: room.gap(one, validation))
-            if room.gap(best, validation) <= HELPS * gap:
-                break
-        else:
+def find_effects(search: EffectSearch) -> None:
+    """Add the effects that narrow the gap of the validation, the best first; then stop.
+
+    Those that can cause the plot with the largest share are tried first, the others only if none of
+    them helps.
+    """
+    while search.gaps["validation"] > NOISE:
+        likely = SHOWS[search.views.clearest]
+        if not (_add_best(search, likely) or _add_best(search, EFFECTS)):
             break
-        model, gap = best, room.gap(best, validation)
-    return _needed(room, log, validation, model)
+    for effect in search.effects[:-1]:  # one that later effects made needless
+        gap, chosen = search.gaps["validation"], search.effects
+        search.take_back(effect)
+        if search.gaps["validation"] * HELPS > gap:
+            search.choose(chosen)
 
 
-def _needed(room: Any, log: "Log", validation: "Log", model: "Model") -> "Model":  # noqa: ANN401 - as above
-    """The model without effects that later ones made needless."""
-    for name in [part.effect for part in model.parts]:
-        rest = [part.effect for part in model.parts if part.effect != name]
-        if not rest:
-            break
-        without = room.with_effects(log, rest, like=model)
-        if HELPS * room.gap(without, validation) <= room.gap(model, validation):
-            model = without
-    return model
-
-
-def _tried(room: Any, log: "Log", model: "Model", start: "Model | None") -> "list[Model]":  # noqa: ANN401 - as above
-    """The model with one more suspect, each in its turn."""
-    has = [part.effect for part in model.parts]
-    return [
-        room.with_effects(log, [*has, name], like=start) for name in SUSPECTS if name not in has
-    ]
+def _add_best(search: EffectSearch, names: Iterable[str]) -> bool:
+    """Add the effect that narrows the gap most; False if none narrows it enough."""
+    before, gaps = search.gaps["validation"], {}
+    for name in names:
+        if name not in search.effects:
+            try:
+                search.add(name)
+            except Refusal:  # nothing in the log looks like it
+                continue
+            gaps[name] = search.gaps["validation"]
+            search.take_back()
+    best = min(gaps, key=gaps.__getitem__, default="")
+    if not best or gaps[best] > HELPS * before:
+        return False
+    search.add(best)
+    return True

@@ -1,0 +1,31 @@
+"""Exercise 12 solved with what lesson 9's widget shows and does, and nothing else."""
+
+import os
+import runpy
+import shutil
+from pathlib import Path
+
+from grader.exercise import Exercise
+
+ROOT = Path(__file__).resolve().parents[1]
+FOLDER = ROOT / "exercises" / "exercise12"
+SOLVE = runpy.run_path(str(ROOT / "solutions" / "exercise12" / "solve.py"))["solve"]
+STUDENTS = int(os.environ.get("SYSID_STUDENTS", "3"))  # ten take three minutes
+NEEDED = 0.9  # [share of the students] with full marks
+
+
+def test_who_follows_the_largest_share_and_stops_in_time_gets_full_marks(tmp_path):
+    points = {}
+    for number in range(STUDENTS):
+        student = f"student {number}"
+        folder = tmp_path / student / "exercise12"
+        shutil.copytree(FOLDER, folder, ignore=shutil.ignore_patterns("data", "__pycache__"))
+        own = Exercise("exercise12", folder)
+        own.prepare(student, say=lambda _: None)
+        (files,) = (folder / "data").iterdir()
+        answer = folder / "answers.toml"
+        answer.write_text(SOLVE(folder, files)["answers.toml"], encoding="utf-8")
+        points[student] = sum(one.points for one in own.grade(answer, student=student).checks)
+
+    full = [student for student, earned in points.items() if earned == 10]
+    assert len(full) >= NEEDED * STUDENTS, points
