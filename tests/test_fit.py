@@ -19,7 +19,7 @@ from sim.core.errors import BadRequest, NotIdentifiable
 from sim.core.log import FOUR_TESTS, Log, Run
 from sim.core.units import UNITS
 from sim.fit import fit as any_fit
-from sim.fit.identifiability import refuse_unidentifiable, refuse_unrelated
+from sim.fit.identifiability import doubt_undetermined, refuse_unrelated
 from sim.fit.sysid_doubts import _doubt_signs, warn_of_uncertain_gains
 
 fit = partial(any_fit, method="sysid")
@@ -328,5 +328,9 @@ def test_refusals_about_size_have_units(drive):
     with pytest.raises(NotIdentifiable, match="is 180 deg/s, with a top speed of 360 deg/s"):
         refuse_unrelated(followed, log=degrees)
     gains = {"kS": 0.1, "kV": 1.0, "kA": 0.1}
-    with pytest.raises(NotIdentifiable, match=r"determine kA \(± 0.017 V·s²/deg\)"):
-        refuse_unidentifiable(gains, dict(kS=0.0, kV=0.0, kA=1.0), log=degrees, type="simple")
+    said = {"log": degrees, "type": "simple", "both_ways": True}
+    (doubt,) = doubt_undetermined(gains, dict(kS=0.0, kV=0.0, kA=1.0), **said)
+    assert "determine kA (± 0.017 V·s²/deg)" in doubt.message
+    assert doubt.gains == ("kA",)
+    with pytest.raises(NotIdentifiable, match=r"determine kV and kA \(± 0.017 V·s²/deg\)"):
+        doubt_undetermined(gains, dict(kS=0.0, kV=math.inf, kA=1.0), **said)

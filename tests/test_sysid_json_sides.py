@@ -7,7 +7,6 @@ import pytest
 from old_tools import RUNS, document, motion, only_doubt, read_json, scaled, sysid
 
 import sim
-from sim.core.errors import MissingSignal
 
 
 def test_an_angular_drivetrain_is_half_the_difference_of_its_sides(tmp_path: Path) -> None:
@@ -137,17 +136,17 @@ def test_both_sides_against_the_tests_name_stay_as_recorded(tmp_path: Path) -> N
     assert log.list_runs_of_test("dynamic-forward")[0].velocity[-1] < 0
 
 
-def test_a_side_that_does_not_move_is_refused_unless_the_other_is_chosen(tmp_path: Path) -> None:
+def test_living_side_is_read_where_the_other_does_not_move(tmp_path: Path) -> None:
     made = sysid(9, "Drivetrain")
     for key in RUNS:
         scaled(made, key, 4, 6, by=0.0)
 
-    with pytest.raises(MissingSignal, match="right encoder .*stands still.* --motor left"):
-        read_json(tmp_path, made)
-    assert (
-        read_json(tmp_path, made, motor="left").list_runs_of_test("dynamic-forward")[0].velocity[-1]
-        == 1.5
-    )
+    log = read_json(tmp_path, made)
+
+    doubt = only_doubt(log)
+    assert doubt.code == "dead-side"
+    assert "the right encoder" in doubt.message
+    assert log.list_runs_of_test("dynamic-forward")[0].velocity[-1] == 1.5
 
 
 def test_sides_that_move_differently_are_doubted(tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""Refuse gains that a log cannot identify, and name the test that would."""
+"""Say which gains a log cannot identify, and name the test that would."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from sim.core.advice import Action
+from sim.core.doubt import Doubt
 from sim.core.errors import NotIdentifiable
 from sim.core.log import Log
 from sim.core.units import Unit, convert_gains, find_unit
@@ -18,12 +19,16 @@ LEAST_R2 = 0.5  # [share of the velocity's variance] that a simulation must expl
 REBOUND = 0.02  # [share of the moving samples] in which a stop throws a mechanism back
 ACCEPTED = {"kS": 0.35, "kG": 0.2}  # [V] a smaller standard error is accepted for any gain
 TEST_FOR = {  # gain -> the test that would determine it
-    "kS": "Add the other direction, and a slow ramp that begins at rest.",
+    "kS": "Add a slow ramp that begins at rest.",
     "kV": "Let it run longer at a steady speed: a quasistatic test.",
-    "kA": "Add a dynamic test: only a change of speed shows inertia.",
+    "kA": "Add a dynamic test with a larger step: only a change of speed shows inertia.",
+    "kG": "Add slow ramps over the whole travel.",
+}
+OTHER_WAY = {  # the same for a log of one direction
+    "kS": "Add the other direction, and a slow ramp that begins at rest.",
     "kG": "Add the other direction: weight helps one way and hinders the other.",
 }
-TEST_FOR_BOTH = (
+OTHER_WAY_FOR_BOTH = (
     "Add the other direction: on the way up gravity and friction add, on the way down "
     "they act against each other."
 )
@@ -36,25 +41,28 @@ def moves_both_ways(measured: Sequence[RunMeasurements]) -> bool:
     return min(up, down) >= REBOUND * (up + down)
 
 
-def refuse_unidentifiable(
+def doubt_undetermined(
     gains: Mapping[str, float],
     errors: Mapping[str, float],
     *,
     log: Log,
     type: str,  # noqa: A002 - the field's own word
+    both_ways: bool,
     hint: Action | None = None,
-) -> None:
-    """Refuse gains that the log does not determine.
+) -> tuple[Doubt, ...]:
+    """A warning about gains that the log does not determine, if it determines kV.
 
     Args:
         gains: gain -> value, in SI.
         errors: gain -> one standard error, in SI.
         log: the log.
         type: ``simple``, ``elevator`` or ``arm``.
+        both_ways: whether the mechanism moves in both directions.
         hint: advice that replaces the suggested test, or None.
 
     Raises:
-        NotIdentifiable: the message names the gains and the test that would determine them.
+        NotIdentifiable: kV is not determined, or only kV is; the message names the gains and the
+            test that would determine them.
     """
     unknown = [
         name
@@ -63,7 +71,7 @@ def refuse_unidentifiable(
         and not errors[name] <= max(LARGEST_ERROR * abs(gains[name]), ACCEPTED.get(name, 0.0))
     ]
     if not unknown:
-        return
+        return ()
     per = find_unit(log.units)
     sizes = convert_gains(errors, factor=per.si)
     each = [
@@ -73,12 +81,17 @@ def refuse_unidentifiable(
         for name in unknown
     ]
     said = " and ".join(filter(None, [", ".join(each[:-1]), each[-1]]))
-    pair = {"kS", "kG"} <= set(unknown) and type != "simple"
-    raise NotIdentifiable(
-        f"this log does not determine {said}",
-        where=log.source,
-        advice=hint or (TEST_FOR_BOTH if pair else TEST_FOR[unknown[-1]]),
-    )
+    tests = TEST_FOR if both_ways else {**TEST_FOR, **OTHER_WAY}
+    pair = {"kS", "kG"} <= set(unknown) and type != "simple" and not both_ways
+    advice = hint or (OTHER_WAY_FOR_BOTH if pair else tests[unknown[-1]])
+    if "kV" in unknown or len(unknown) > 1:
+        raise NotIdentifiable(
+            f"this log does not determine {said}", where=log.source, advice=advice
+        )
+    message = f"{log.source}: this log does not determine {said}. The other gains are known."
+    action = advice if isinstance(advice, Action) else None
+    text = message if action else f"{message} {advice}"
+    return (Doubt("gain-unknown", text, action=action, gains=tuple(unknown)),)
 
 
 def refuse_unrelated(replay: OpenLoopReplay, *, log: Log, hint: Action | None = None) -> None:

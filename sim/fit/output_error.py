@@ -33,7 +33,7 @@ from sim.fit.fit_doubts import (
 )
 from sim.fit.gain_covariance import compute_gain_covariances
 from sim.fit.gravity_type_hint import hint_gravity_type
-from sim.fit.identifiability import moves_both_ways, refuse_unidentifiable, refuse_unrelated
+from sim.fit.identifiability import doubt_undetermined, moves_both_ways, refuse_unrelated
 from sim.fit.open_loop_fallback import (
     HOLDS,
     LAGS,
@@ -154,12 +154,11 @@ def _fit_problem(log: Log, *, type: str) -> Fit:  # noqa: A002 - as above
     # a gain is refused if noise alone leaves it undetermined; errors of the model are warnings
     share = searched.noise.velocity / float(np.sqrt(point.innovation_cov[1, 1]))
     least = {name: min(share, 1.0) * error for name, error in errors.items()}
-    if type == "elevator" and not moves_both_ways(
-        [record.measurements for record in searched.records]
-    ):
+    both_ways = moves_both_ways([record.measurements for record in searched.records])
+    if type == "elevator" and not both_ways:
         least |= {"kS": math.inf, "kG": math.inf}
     hint = hint_gravity_type(log, problem, replay, type=type)
-    refuse_unidentifiable(gains, least, log=log, type=type, hint=hint)
+    unknown = doubt_undetermined(gains, least, log=log, type=type, both_ways=both_ways, hint=hint)
     refuse_unrelated(replay, log=log, hint=hint)
     for wide, spread in compute_gain_covariances(searched, point, replay):
         others = compute_gains_with_errors(wide, spread, type=type)[1]
@@ -168,6 +167,7 @@ def _fit_problem(log: Log, *, type: str) -> Fit:  # noqa: A002 - as above
     if list_everyday_effects(point):
         gains_only = replay_open_loop(searched, remove_everyday_effects(point))
     said = (
+        *unknown,
         *warn_of_misfit(replay, gains_only, per=find_unit(log.units), hint=hint),
         *warn_of_strong_effects(list_everyday_effects(point), searched.priors),
     )

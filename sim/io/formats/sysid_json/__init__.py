@@ -44,7 +44,6 @@ def read(path: Path, options: ReadOptions) -> Log:
 
     Raises:
         UnreadableFile: damaged JSON, rows of an unknown width, or no run.
-        MissingSignal: one side of a drivetrain does not move while the other does.
         BadSample: a number that cannot be a measurement.
         BadRequest: an unknown side, or names of entries, which this format does not have.
     """
@@ -55,7 +54,7 @@ def read_motors(path: Path, options: ReadOptions) -> dict[str, Log]:
     """Read a file as a log for each side of a drivetrain.
 
     Raises:
-        Refusal: as ``read``, except that a side may stand still; it is refused when it is fitted.
+        Refusal: as ``read``.
     """
     document = _Document.load(path, options)
     if len(document.form.sides) == 1 or options.motor:

@@ -15,9 +15,8 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from sim.core.advice import Action
 from sim.core.doubt import Doubt
-from sim.core.errors import BadRequest, MissingSignal
+from sim.core.errors import BadRequest
 from sim.io.formats.sysid_json.side import Side, align_signs, find_test_sign, make_doubt
 
 STILL = 0.02  # [share of the other side's largest velocity] below it, an encoder stands still
@@ -40,7 +39,6 @@ def read_drivetrain(
 
     Raises:
         BadRequest: there is no such motor.
-        MissingSignal: the mean was chosen, and one side does not move.
     """
     if motor not in MOTORS:
         raise BadRequest(
@@ -59,6 +57,10 @@ def read_drivetrain(
             doubts.append(make_doubt("mirrored-side", SIDES[index], tests, where=where))
     if angular:
         doubts.append(_doubt_turning(where))
+    dead = _find_dead_side(halves) if motor == "combined" else None
+    if dead is not None:
+        motor = SIDES[1 - dead]
+        doubts.append(_doubt_dead_side(SIDES[dead], motor, where))
     if motor != "combined":
         return halves[SIDES.index(motor)], doubts
     doubts += _doubt_sides_differ(halves, where=where)
@@ -82,26 +84,29 @@ def _align_sides(halves: list[dict[str, Side]]) -> dict[int, list[str]]:
 
 
 def _doubt_sides_differ(halves: list[dict[str, Side]], *, where: str) -> list[Doubt]:
-    """A doubt if the sides move differently.
-
-    Raises:
-        MissingSignal: one side does not move, so the mean would be half of the true motion.
-    """
+    """A doubt if the sides move differently."""
     left, right = halves
-    fastest = [max(np.abs(side.velocity).max() for side in half.values()) for half in halves]
-    for index, name in enumerate(SIDES):
-        if fastest[index] < STILL * fastest[1 - index]:
-            raise MissingSignal(
-                f"the {name} encoder of the drivetrain stands still while the other side moves",
-                where=where,
-                advice=Action("option", f"with --motor {SIDES[1 - index]}"),
-            )
     apart = []
     for test in left:
         gap = np.mean((left[test].velocity - right[test].velocity) ** 2)
         if gap > APART**2 * np.mean(_mean(left[test], right[test]).velocity ** 2):
             apart.append(test)
     return [make_doubt("sides-differ", "left and right", apart, where=where)] if apart else []
+
+
+def _find_dead_side(halves: Sequence[Mapping[str, Side]]) -> int | None:
+    """Index of a side that stands still while the other one moves; None if there is none."""
+    fastest = [max(np.abs(side.velocity).max() for side in half.values()) for half in halves]
+    return next((i for i in (0, 1) if fastest[i] < STILL * fastest[1 - i]), None)
+
+
+def _doubt_dead_side(dead: str, living: str, where: str) -> Doubt:
+    """The doubt about a side whose encoder stands still."""
+    return Doubt(
+        "dead-side",
+        f"{where}: the {dead} encoder of the drivetrain stands still while the other side moves, "
+        f"so only the {living} side was read. Check its plug and its port.",
+    )
 
 
 def _mean(left: Side, right: Side) -> Side:
