@@ -212,7 +212,7 @@ def test_verdict_gap_faults_and_warnings_are_seen_without_scrolling(browser, ser
         drop(page, write_log(slipped_log(), tmp_path / "slipped.csv"))
         page.locator("#fault-lines .link", has_text="encoder slip (sure)").wait_for()
         page.locator("#meter .gap", has_text="× sensor noise").wait_for()
-        page.locator("#doubts summary").nth(2).wait_for()
+        wait_until(page, "!document.querySelector('#loading').classList.contains('busy')")
 
         assert page.locator("#word").inner_text() == "Check first"
         assert re.search(r"[\d.]+\s% of top speed", page.locator("#meter .gap").inner_text())

@@ -36,8 +36,8 @@ class WrappedPrinter:
         """
         blank = " " * indent
         lines = wrap(
-            text.replace("± ", "±\u00a0"), self.width, initial_indent=blank, subsequent_indent=blank + " " * hang,
-            break_on_hyphens=False, break_long_words=False,
+            text.replace("± ", "±\u00a0"), self.width, initial_indent=blank,
+            subsequent_indent=blank + " " * hang, break_on_hyphens=False, break_long_words=False,
         )  # fmt: skip
         for line in lines or [""]:
             self.console.print(Text(line.replace("\u00a0", " "), style=style), soft_wrap=True)
