@@ -490,7 +490,9 @@ function showDoubts() {
   const parts = fit?.parts.length
     ? [foldedItem("busy", "Note", `The fit also allows for ${fit.parts.map((one) => one.replaceAll("-", " ")).join(", ")}; the curve here leaves them out.`)]
     : [];
+  const open = [...at("doubts").querySelectorAll("[open] > summary")].map((one) => one.textContent);
   at("doubts").replaceChildren(...known.map((one) => doubtItem(one)), ...parts, ...notes);
+  for (const one of at("doubts").querySelectorAll("details")) one.open = open.includes(one.firstChild.textContent);
 }
 
 function doubtItem({ message, grave, advice, type }) {
