@@ -404,7 +404,7 @@ function showFaults() {
     line.append(button("link", `${one.fault.replaceAll("-", " ")} (${surenessOf(one)})${one.test ? `: ${one.test}` : ""}`, () => showFault(one)));
     return line;
   });
-  if (faults.length > MOST_LINES) lines.push(item("busy", `${faults.length - MOST_LINES} more faults below`));
+  if (faults.length > MOST_LINES) lines.push(item("busy", `${faults.length - MOST_LINES} more below`));
   at("fault-lines").replaceChildren(...lines.length ? lines : [item("well", none)], ...leftOutLines(log));
   showDoubts();
 }
