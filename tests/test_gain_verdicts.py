@@ -1,9 +1,12 @@
 """The first sentence of an answer: which gains can be used, and what to record for the others."""
 
+import io
+import re
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from rich.console import Console
 
 import sim
 from sim.bench.mechanisms import MECHANISMS
@@ -14,7 +17,7 @@ from sim.core.doubt import Doubt
 from sim.feedback import PRESETS
 from sim.fit import fit
 from sim.report.fit_terminal import show_fit
-from sim.report.gain_verdicts import write_gain_verdict
+from sim.report.gain_verdicts import judge_gains, write_gain_verdict
 from sim.support.command_line import run_command
 
 LOG = simulate(MECHANISMS["drivetrain"], Routine(ramp=0.5, step=4.0), rng=np.random.default_rng(2))
@@ -114,3 +117,37 @@ def test_an_acceleration_r2_of_zero_has_no_sign(capsys):
     )  # fmt: skip
 
     assert "acceleration R² 0.000," in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("changes", "word"),
+    [
+        ({}, "Partly usable"),
+        ({"errors": {"kS": 0.01, "kV": 0.02, "kA": 0.02}}, "Usable"),
+        ({"errors": {}}, "Not usable"),
+        ({"doubts": (Doubt("x", "It is.", grave=True),)}, "Do not use"),
+        ({"doubts": (Doubt("model-strays", "It is."),)}, "Check first"),
+    ],
+)
+def test_the_verdict_in_a_word(changes, word):
+    assert judge_gains(replace(FOUND, **changes)) == word
+
+
+@pytest.mark.parametrize("width", [80, 120])
+def test_a_fit_is_wrapped_and_colored_on_a_terminal(width):
+    out = io.StringIO()
+    doubts = (Doubt("x", "word " * 60, grave=True), Doubt("y", "so it is " * 30))
+    console = Console(file=out, width=width, force_terminal=True, color_system="standard")
+
+    show_fit(
+        replace(FOUND, doubts=doubts), preset=PRESETS["default"], title="log.csv",
+        notes=("All is even. " * 20,), console=console,
+    )  # fmt: skip
+
+    lines = [re.sub(r"\x1b\[[\d;]*m", "", line) for line in out.getvalue().splitlines()]
+    assert max(map(len, lines)) <= width
+    assert "\x1b[1;31mwrong:" in out.getvalue()
+    assert "\x1b[33mwarning:" in out.getvalue()
+    after = lines[next(k for k, line in enumerate(lines) if line.startswith("warning:")) + 1]
+    assert after.startswith(" " * 9)
+    assert not after.startswith(" " * 10)

@@ -193,6 +193,12 @@ def test_an_exercise_is_known_by_its_name_or_number(course, name):
     assert run_command([name]) == 0
 
 
+@pytest.mark.parametrize(("word", "meant"), [("startt", "grade start"), ("wach", "grade watch")])
+def test_a_mistyped_command_is_no_exercise(course, capsys, word, meant):  # noqa: ARG001 - its folder
+    assert run_command([word]) == 2
+    assert f"Did you mean '{meant}'? See 'grade --help'." in capsys.readouterr().err
+
+
 def test_a_file_may_be_a_folder_or_any_file(course):
     elsewhere = course / "mine"
     elsewhere.mkdir()

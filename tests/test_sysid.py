@@ -128,7 +128,8 @@ def test_gains_that_cannot_be_right_give_exit_code_1(drive):
         (["simulate", "shooter", "-o", "x.csv", "--ramp", "nan"], "a ramp of nan V/s"),
         (["simulate", "shooter", "-o", "x.csv", "--seed", "-1"], "a seed is zero or more"),
         (["simulate", "shooter", "-o", "x.csv", "--truth", "no/truth.json"], "no"),
-        (["frobnicate"], "No such command 'frobnicate'"),
+        (["frobnicate"], "No such command 'frobnicate'. See 'sysid --help'"),
+        (["fitt"], "No such command 'fitt'. Did you mean 'sysid fit'? See 'sysid --help'"),
     ],
     ids=lambda value: " ".join(value)[:40] if isinstance(value, list) else "",
 )

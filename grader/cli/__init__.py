@@ -7,6 +7,7 @@ import importlib.util
 import os
 import sys
 from dataclasses import replace
+from difflib import get_close_matches
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
 
 
 OWN_MODULE = ("class", "doctor", "edition", "export", "mystery", "release", "watch")
+SIMILAR = 0.75  # [1] a word as similar to a command is a typing error, and no exercise
 COURSE_PACKAGES = ("tomlkit", "tree_sitter", "tree_sitter_java")  # of the extra `course`
 
 
@@ -49,6 +51,9 @@ class ExerciseOrCommand(click.Group):
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Take everything that does not begin with a command as a request to grade."""
         if not {*args[:1]} & {"-h", "--help", "--version", *self.list_commands(ctx)}:
+            names = [name for name in self.list_commands(ctx) if name != "exercise"]
+            if args and get_close_matches(args[0], names, n=1, cutoff=SIMILAR):
+                raise click.UsageError(f"No such command {args[0]!r}", ctx)
             args = ["exercise", *args]
         return super().parse_args(ctx, args)
 

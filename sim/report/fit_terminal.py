@@ -12,7 +12,8 @@ from sim.core.units import Unit, find_unit
 from sim.feedback import Preset
 from sim.fit.feedback_trial import OWN, FeedbackTrial, format_gain_pair
 from sim.fit.result import Fit, format_gain_unit
-from sim.report.gain_verdicts import write_gain_verdict
+from sim.report.gain_verdicts import judge_gains, write_gain_verdict
+from sim.report.terminal import VERDICT_STYLES, WARNING, WRONG, WrappedPrinter
 
 FINEST = 1e-4  # [1] relative error; carpet, battery and heat change a gain by more
 
@@ -25,6 +26,7 @@ def show_fit(
     log: Log | None = None,
     tried: Sequence[FeedbackTrial] = (),
     notes: Sequence[str] = (),
+    console: Console | None = None,
 ) -> None:
     """Print grave doubts, the verdict, gains with errors, feedback gains, notes and other doubts.
 
@@ -35,17 +37,19 @@ def show_fit(
         log: what it was fitted to, for the advice in the verdict.
         tried: simulated trials of feedback gains, whose doubts are among those of the fit.
         notes: sentences about checks that passed.
+        console: where to print; standard output if None.
     """
-    console = Console(soft_wrap=True, highlight=False)
+    say = WrappedPrinter(console)
     per = find_unit(found.units)
     doubts = found.doubts if tried else found.list_doubts(preset)
     for doubt in doubts:
         if doubt.grave:
-            console.print(f"wrong: {doubt.text}", style="bold")
+            say(f"wrong: {doubt.text}", hang=7, style=WRONG)
         elif doubt.code in SHOWN_FIRST:
-            console.print(f"warning: {doubt.text}", style="bold")
-    console.print(f"Verdict: {write_gain_verdict(found, log)}", style="bold")
-    console.print(f"{title}: {found.type} mechanism in {per.name}, method {found.method}")
+            say(f"warning: {doubt.text}", hang=9, style=WARNING)
+    style = VERDICT_STYLES.get(judge_gains(found), "bold yellow")
+    say(f"Verdict: {write_gain_verdict(found, log)}", hang=9, style=style)
+    say(f"{title}: {found.type} mechanism in {per.name}, method {found.method}", hang=2)
     rows = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
     rows.add_column("gain")
     rows.add_column("value", justify="right")
@@ -53,24 +57,26 @@ def show_fit(
     rows.add_column("unit")
     for row in format_gains(found):
         rows.add_row(*row)
-    console.print(rows)
-    console.print(
+    say.console.print(rows)
+    say(
         f"simulated velocity R² {found.simulated_velocity_r2:.3f}, "
         f"RMSE {found.simulated_velocity_rmse:.3g} {per.symbol}/s; "
         f"acceleration R² {found.acceleration_r2:z.3f}, "
-        f"RMSE {found.acceleration_rmse:.3g} {per.symbol}/s²"
+        f"RMSE {found.acceleration_rmse:.3g} {per.symbol}/s²",
+        hang=2,
     )
     if tried:
-        console.print(
+        say(
             f"feedback gains to start with, as SysId suggests them ({preset.name}), in a "
-            "simulation:"
+            "simulation:",
+            hang=2,
         )
-    _show_trials(tried, per, console)
+    _show_trials(tried, per, say)
     for note in notes:
-        console.print(note)
+        say(note, hang=2)
     for doubt in doubts:
         if not doubt.grave and doubt.code not in SHOWN_FIRST:
-            console.print(f"warning: {doubt.text}", style="bold")
+            say(f"warning: {doubt.text}", hang=9, style=WARNING)
 
 
 def format_gains(found: Fit) -> list[tuple[str, str, str, str]]:
@@ -87,18 +93,20 @@ def format_gains(found: Fit) -> list[tuple[str, str, str, str]]:
     ]
 
 
-def _show_trials(tried: Sequence[FeedbackTrial], per: Unit, console: Console) -> None:
+def _show_trials(tried: Sequence[FeedbackTrial], per: Unit, say: WrappedPrinter) -> None:
     """Print the step response of each pair of feedback gains, a line each."""
     for trial in tried:
         step = f"{trial.response.target:.4g} {per.symbol}{'/s' * (trial.loop == 'velocity')}"
         if trial.owner != OWN and not trial.is_good:
-            console.print(f"  {trial.loop}: no good start; see the warning below")
+            say(f"{trial.loop}: no good start; see the warning below", indent=2)
             continue
         own = "your own " if trial.owner == OWN else ""
         bad = "" if trial.is_good else " (no good start)"
-        console.print(
-            f"  {own}{trial.loop} {format_gain_pair(trial.gains)}{bad}: after a step of {step} the "
-            f"mechanism {trial.verdict.description}"
+        say(
+            f"{own}{trial.loop} {format_gain_pair(trial.gains)}{bad}: after a step of {step} the "
+            f"mechanism {trial.verdict.description}",
+            indent=2,
+            hang=2,
         )
 
 

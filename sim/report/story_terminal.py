@@ -1,13 +1,10 @@
 """Print a reconcile story on a terminal."""
 
-import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from textwrap import wrap
 
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
-from rich.text import Text
 
 from sim.reconcile.story import Finding, Story
 from sim.reconcile.story_text import (
@@ -23,6 +20,7 @@ from sim.reconcile.story_text import (
     write_gain_caution,
     write_headline,
 )
+from sim.report.terminal import WARNING, WrappedPrinter
 
 COLUMNS, BAR = 80, 40  # [characters] of a line, and of the longest bar
 PLACES = 5  # places listed where the base model disagrees most
@@ -54,8 +52,7 @@ def show_story(story: Story, *, title: str, console: Console | None = None) -> N
         title: names of the files.
         console: where to print; standard output if None.
     """
-    console = console or _make_console()
-    say = _WrappedPrinter(console)
+    say = WrappedPrinter(console, widest=COLUMNS)
     say(title)
     say(write_headline(story), style="bold")
     for one in story.findings:
@@ -74,32 +71,10 @@ def show_story(story: Story, *, title: str, console: Console | None = None) -> N
     for test in list_next_tests(story):
         say(f"Test to run next: {test}", style="bold")
     for message in list_remarks(story):
-        say(f"warning: {message}", style="bold")
+        say(f"warning: {message}", hang=9, style=WARNING)
 
 
-class _WrappedPrinter:
-    """Prints wrapped text; brackets in it are printed as they are, not read as markup."""
-
-    def __init__(self, console: Console) -> None:
-        self.console = console
-
-    def __call__(self, text: str, *, indent: int = 0, style: str = "") -> None:
-        blank = " " * indent
-        lines = wrap(
-            text, self.console.width, initial_indent=blank, subsequent_indent=blank,
-            break_on_hyphens=False,
-        )  # fmt: skip
-        for line in lines or [""]:
-            self.console.print(Text(line, style=style), soft_wrap=True)
-
-
-def _make_console() -> Console:
-    """A console as wide as the terminal, at most 80 columns: longer lines are hard to read."""
-    console = Console(highlight=False, file=sys.stdout)
-    return Console(highlight=False, file=sys.stdout, width=min(console.width, COLUMNS))
-
-
-def _print_finding(say: _WrappedPrinter, one: Finding, story: Story) -> None:
+def _print_finding(say: WrappedPrinter, one: Finding, story: Story) -> None:
     say("")
     name = " or ".join([one.effect, *one.ambiguous_with])
     say(f"{name} ({describe_size(one)})", style="bold")
@@ -113,7 +88,7 @@ def _print_finding(say: _WrappedPrinter, one: Finding, story: Story) -> None:
         say(f"{head}: {text}", indent=2)
 
 
-def _print_gains(say: _WrappedPrinter, story: Story) -> None:
+def _print_gains(say: WrappedPrinter, story: Story) -> None:
     say(f"{describe_gains(story)} (± is one standard error):")
     for name, with_, without in list_gains(story):
         beside = "" if with_ == without else f"; without: {without}"
@@ -122,7 +97,7 @@ def _print_gains(say: _WrappedPrinter, story: Story) -> None:
         say(caution)
 
 
-def _print_gaps(say: _WrappedPrinter, story: Story) -> None:
+def _print_gaps(say: WrappedPrinter, story: Story) -> None:
     """Print the gap of each model as a bar of ASCII characters."""
     say("The gap is the simulation error divided by the sensor noise (1 means only noise):")
     names = ["base model", *(f"+ {one.added}" for one in story.chapters[1:])]

@@ -6,6 +6,7 @@ import os
 import re
 import sys
 from collections.abc import Sequence
+from difflib import get_close_matches
 
 import click
 
@@ -95,7 +96,10 @@ def _describe_error(error: Exception, *, name: str) -> str:
             while asked and asked.command.hidden:
                 asked = asked.parent
             see = asked.command_path if asked else name
-            return f"{error.format_message().rstrip('.')}. See '{see} --help'."
+            said = error.format_message().rstrip(".")
+            if near := _find_similar_command(said, asked):
+                said = f"{said}. Did you mean '{see} {near}'?"
+            return f"{said}{'' if said.endswith('?') else '.'} See '{see} --help'."
         case click.ClickException():
             return error.format_message()
         case MemoryError():
@@ -105,6 +109,14 @@ def _describe_error(error: Exception, *, name: str) -> str:
                 f"our mistake, not yours ({type(error).__name__}: {error}). Set {TRACEBACK}=1, run "
                 "it again and report what it prints."
             )
+
+
+def _find_similar_command(said: str, asked: click.Context | None) -> str:
+    """The command whose name is like the one that a message says is missing; empty if none is."""
+    wrong = re.fullmatch(r"No such command '(.+)'", said)
+    if wrong is None or asked is None or not isinstance(asked.command, click.Group):
+        return ""
+    return "".join(get_close_matches(wrong[1], asked.command.list_commands(asked), n=1))
 
 
 def _allow_any_encoding() -> None:

@@ -21,7 +21,7 @@ export function item(kind, words = "") {
 export function foldedItem(kind, title, words) {
   const made = item(kind);
   const folded = document.createElement("details");
-  const [, first, rest] = words.trim().match(/^(.*?[.:!?](?=\s+[A-Z`]|$)|.*)\s*(.*)$/s);
+  const [, first, rest] = words.trim().match(/^(.*?[.!?](?=\s+[A-Z`]|$)|.*)\s*(.*)$/s);
   const head = text("summary", "");
   head.append(text("b", title), " ", ...prose(first));
   folded.append(head, ...(rest ? [paragraph(rest)] : []));

@@ -404,7 +404,7 @@ function showFaults() {
     line.append(button("link", `${one.fault.replaceAll("-", " ")} (${surenessOf(one)})${one.test ? `: ${one.test}` : ""}`, () => showFault(one)));
     return line;
   });
-  if (faults.length > MOST_LINES) lines.push(item("busy", `${faults.length - MOST_LINES} more faults below`));
+  if (faults.length > MOST_LINES) lines.push(item("busy", `${faults.length - MOST_LINES} more below`));
   at("fault-lines").replaceChildren(...lines.length ? lines : [item("well", none)], ...leftOutLines(log));
   showDoubts();
 }
@@ -490,7 +490,9 @@ function showDoubts() {
   const parts = fit?.parts.length
     ? [foldedItem("busy", "Note", `The fit also allows for ${fit.parts.map((one) => one.replaceAll("-", " ")).join(", ")}; the curve here leaves them out.`)]
     : [];
+  const open = [...at("doubts").querySelectorAll("[open] > summary")].map((one) => one.textContent);
   at("doubts").replaceChildren(...known.map((one) => doubtItem(one)), ...parts, ...notes);
+  for (const one of at("doubts").querySelectorAll("details")) one.open = open.includes(one.firstChild.textContent);
 }
 
 function doubtItem({ message, grave, advice, type }) {
