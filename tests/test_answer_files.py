@@ -287,6 +287,15 @@ def test_marks_set_by_hand_outlive_the_next_run_and_say_why(classroom):
     assert "Your instructor gave 3 points: told me at the robot" in page
 
 
+def test_marks_may_come_from_a_spreadsheet_with_semicolons(classroom):
+    put(classroom, {"marks.csv": "\ufeffStudent;Check;Points;Why;by\nANN;exercise1;2,5;late;me\n"})
+    code, rows = grade(classroom, "--overrides", str(classroom / "marks.csv"))
+
+    assert (code, rows[0]) == (0, "ann,2.5,2.5,3,,")
+    page = (classroom / "in-graded" / "students" / "ann.html").read_text(encoding="utf-8")
+    assert "Your instructor gave 2.5 points: late" in page
+
+
 @pytest.mark.parametrize(
     "line",
     ["zed,exercise1,1,x", "ann,exercise9,1,x", "ann,exercise1/none,1,x", "ann,exercise1,7,x",

@@ -392,3 +392,14 @@ def test_one_student_alone_is_graded_as_an_autograder_does_it(tmp_path):
     assert run_command(command) == 0
     result = json.loads((out / "gradescope" / "ann" / "results.json").read_text("utf-8"))
     assert sum(test["score"] for test in result["tests"]) == 2.5
+
+
+@pytest.mark.usefixtures("course")
+def test_a_secret_around_that_is_not_the_one_in_the_file_is_refused(tmp_path, monkeypatch, capsys):
+    there = hand_in(tmp_path / "in", ann=RIGHT)
+    (tmp_path / "class.secret").write_text("the secret of this class", encoding="utf-8")
+    monkeypatch.setenv("SYSID_SECRET", "the secret of another class")
+
+    assert run_command(["class", str(there), "--secret", str(tmp_path / "class.secret")]) == 2
+    assert "hold different secrets" in capsys.readouterr().err
+    assert not (tmp_path / "in-graded").exists()
