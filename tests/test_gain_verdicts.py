@@ -126,7 +126,7 @@ def test_an_acceleration_r2_of_zero_has_no_sign(capsys):
         ({"errors": {"kS": 0.01, "kV": 0.02, "kA": 0.02}}, "Usable"),
         ({"errors": {}}, "Not usable"),
         ({"doubts": (Doubt("x", "It is.", grave=True),)}, "Do not use"),
-        ({"doubts": (Doubt("model-strays", "It is."),)}, "Check first"),
+        ({"doubts": (Doubt("x", "It is.", gains=("kV",)),)}, "Check first"),
     ],
 )
 def test_the_verdict_in_a_word(changes, word):

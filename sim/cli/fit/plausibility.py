@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 import click
 
 from sim.core.vocabulary import METHODS
+from sim.support.extras import format_install_command
 
 if TYPE_CHECKING:
     from sim.core.doubt import Doubt
@@ -73,12 +74,20 @@ def compare_directions_alone(
         found: the fit; only fits by simulation are compared.
         log: what it was fitted to.
         notes: sentences about other checks.
-        include_long: also compare the directions of a log of more than 20 000 samples.
+        include_long: compare the directions also where that takes long: of a log of more than
+            20 000 samples, or without Numba.
     """
     from sim.fit.physics import compare_directions  # noqa: PLC0415 - --help must not wait for it
+    from sim.physics.engine import engine_can_compile  # noqa: PLC0415 - the same
 
     if found.method != METHODS[0]:
         return found, notes
+    if not (include_long or engine_can_compile()):
+        slow = (
+            "Forward and reverse were not compared, because that takes long without Numba. To make "
+            f"it quick: {format_install_command('fast')}"
+        )
+        return found, (slow, *notes)
     if include_long or sum(map(len, log.runs)) <= LONG:
         return _add_doubts(found, *compare_directions(log, found.type)), notes
     return found, ("Forward and reverse were not compared, because this log is long.", *notes)
