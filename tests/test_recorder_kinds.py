@@ -236,3 +236,14 @@ def test_arm_that_falls_onto_its_stop_shows_its_spring(shared):
     assert "falls-first" in {doubt.code for doubt in log.doubts}
     assert [part.effect for part in story.model.parts] == ["spring"]
     assert story.gains["kG"].value == pytest.approx(1.509, abs=0.01)
+
+
+def test_elevator_that_stays_on_its_stop_in_a_test_is_fitted_by_the_others():
+    weak = Routine(step=0.2)
+    log = simulate(MECHANISMS["elevator"], weak, rng=np.random.default_rng(1))
+
+    found = fit(log, type="elevator")
+
+    assert [doubt.code for doubt in found.doubts] == ["still-run"]
+    for gain, value in MECHANISMS["elevator"].gains.items():
+        assert abs(found.gains[gain] - value) < 3.0 * found.errors[gain]

@@ -6,6 +6,7 @@ whole mechanism reacts late, these delays are fitted as well and reported.
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
@@ -68,6 +69,7 @@ PAIRS = {"velocity-filter.window": (0.0, 1.0, 2.5, 5.0), "delay.lag": (0.3, 1.0,
 """[sample periods] start values of both lags together."""
 FIRST_STEPS, BEST = 2, 3  # steps of a search from each pair, and how many pairs are then continued
 FASTEST, SLOWEST = 1e-4, 0.5  # [s] sample periods; outside of them the times are not in seconds
+STILL = 0.01  # [share of the log's top speed] a run that is slower stands still
 HOLE = 10.0  # [s] longest gap in a run
 
 
@@ -90,6 +92,7 @@ def fit_output_error(log: Log, *, type: str) -> Fit:  # noqa: A002 - SysId's wor
             advice=Action("angle"),
         )
     _check_times(log)
+    log, still = _leave_out_still_runs(log, type=type)
     try:
         with np.errstate(all="ignore"):  # gains that are not finite are refused
             found = _fit_problem(log, type=type)
@@ -99,7 +102,24 @@ def fit_output_error(log: Log, *, type: str) -> Fit:  # noqa: A002 - SysId's wor
         map(math.isfinite, (*found.gains.values(), *found.errors.values()))
     ):
         raise _refuse_motion(log)
-    return found
+    return replace(found, doubts=(*still, *found.doubts))
+
+
+def _leave_out_still_runs(log: Log, *, type: str) -> tuple[Log, tuple[Doubt, ...]]:  # noqa: A002 - as above
+    """The log without runs of an arm or elevator in which it never leaves its stop, and a doubt.
+
+    How hard a stop pushes back is unknown, so such a run says nothing about the gains.
+    """
+    still = [run for run in log.runs if run.top_speed <= STILL * log.top_speed]
+    if type == "simple" or not still or len(still) == len(log.runs):
+        return log, ()
+    tests = " and ".join(run.test for run in still)
+    doubt = Doubt(
+        "still-run",
+        f"In {tests} the mechanism does not move, so that was left out. Repeat it with more volts.",
+    )
+    moving = tuple(run for run in log.runs if run.top_speed > STILL * log.top_speed)
+    return replace(log, runs=moving), (doubt,)
 
 
 def _check_times(log: Log) -> None:
