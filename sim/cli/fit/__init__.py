@@ -26,7 +26,6 @@ from sim.cli.options import (
     reading_options,
     refuse_overwriting,
 )
-from sim.core.leave_out import LeftOutPart, leave_out
 from sim.core.vocabulary import METHODS
 from sim.feedback import PRESETS, Feedback
 from sim.support.command_line import DONE, NOT_RIGHT
@@ -34,6 +33,7 @@ from sim.support.command_line import DONE, NOT_RIGHT
 if TYPE_CHECKING:
     from sim.cli.fit.inertia import Turning
     from sim.cli.fit.parts import Parts, PooledParts
+    from sim.core.leave_out import LeftOutPart
     from sim.core.log import Log
     from sim.fit import Fit
     from sim.fit.feedback_trial import FeedbackTrial, OwnGains
@@ -100,7 +100,7 @@ feedback_options = combine_options(
     "left_out",
     metavar="TEST[:FROM-TO]",
     multiple=True,
-    callback=lambda _, __, texts: tuple(map(LeftOutPart.parse, texts)),
+    callback=lambda _, __, texts: _read_left_out(texts),
     help="Leave out a test, or a part of it in seconds: dynamic-forward:5.5-6; may be repeated.",
 )
 @turning_options
@@ -121,7 +121,7 @@ def fit(  # noqa: PLR0917 - click passes options by name
     ratio: float | None,
     radius: float,
     load: float | None,
-    left_out: tuple[LeftOutPart, ...],
+    left_out: "tuple[LeftOutPart, ...]",
     turning: "Turning | None",
     paste: str | None,
     season: str,
@@ -147,7 +147,7 @@ def fit(  # noqa: PLR0917 - click passes options by name
 
     own = _read_own_gains(ctx, loop, kp=own_kp, kd=own_kd)
     built = read_motor_parts(driven_by, count=count, ratio=ratio, radius=radius, load=load)
-    parts = leave_out(reader.read_parts(files), left_out)
+    parts = _read_parts(reader, files, left_out)
     log = join_parts(parts)
     find = partial(find_gains, type=reader.type or "", method=method, median=median)
     pooled = fit_parts(parts, find, files=len(files))
@@ -270,6 +270,22 @@ def _refuse_conflicting_options(ctx: click.Context) -> None:
         raise click.UsageError(
             "--paste prints code only, so --own-kp would be tried unseen. Leave out one of them."
         )
+
+
+def _read_left_out(texts: tuple[str, ...]) -> "tuple[LeftOutPart, ...]":
+    """The parts that ``--leave-out`` names."""
+    from sim.core.leave_out import LeftOutPart  # noqa: PLC0415 - --help must not wait for it
+
+    return tuple(map(LeftOutPart.parse, texts))
+
+
+def _read_parts(
+    reader: LogReader, files: tuple[Path, ...], left_out: "tuple[LeftOutPart, ...]"
+) -> "Parts":
+    """The logs in the files, without what ``--leave-out`` names."""
+    from sim.core.leave_out import leave_out  # noqa: PLC0415 - --help must not wait for it
+
+    return leave_out(reader.read_parts(files), left_out)
 
 
 def _read_own_gains(
