@@ -43,6 +43,7 @@ SOURCES = (
     ".svg",
     "overrides.json",
     "example.toml",
+    "lesson_answers.toml",
     "probability.json",
     "phoenix6.toml",
     "revlib.toml",
