@@ -17,7 +17,7 @@ import jupytext
 import nbformat
 
 LESSONS = Path(__file__).resolve().parents[1] / "lessons"
-# A cell that only asks: its code repeats the question, and a quick check's holds the answer.
+# A cell that only asks: its code repeats the question.
 ASKS = re.compile(r"^(?:\w+ = )?(?:Prediction|QuickCheck|QuickNumberCheck)\(", re.MULTILINE)
 KNOBS = re.compile(r"^show_interactive\(", re.MULTILINE)  # what follows repeats its picture
 ANIMATES = re.compile(r"\banimate_mechanism\(")  # what moves is the point, and not how it is drawn
@@ -35,8 +35,8 @@ KERNEL = {"display_name": "Python 3", "language": "python", "name": "python3"}
 def derive(text: Path) -> nbformat.NotebookNode:
     """The notebook of a lesson's text, without outputs.
 
-    Folded are the cell that installs the course, what holds an
-    answer, repeats a picture or draws an animation.
+    Folded are the cell that installs the course, what only asks, repeats a picture or draws an
+    animation.
     """
     notebook = jupytext.read(text, fmt="py:percent")
     notebook.cells.insert(0, nbformat.v4.new_code_cell(INSTALL.strip()))

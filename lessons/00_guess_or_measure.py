@@ -253,7 +253,7 @@ def row(who: str, gains: dict[str, float]) -> tuple[str | float, ...]:
 
 def best_of_two_knobs() -> dict[str, float]:
     """Try every pair of kS and kV."""
-    pairs = [(ks, kv) for ks in np.arange(0.0, 0.61, 0.05) for kv in np.arange(2.0, 3.51, 0.05)]
+    pairs = [(ks, kv) for ks in np.arange(0.0, 1.01, 0.02) for kv in np.arange(1.0, 4.01, 0.02)]
     found = [{"kS": float(ks), "kV": float(kv), "kA": 0.0} for ks, kv in pairs]
     return min(found, key=lambda gains: measure_tracking_error(TARGET, drive(robot, gains)).typical)
 
@@ -273,10 +273,10 @@ Table(
 # %% [markdown]
 # ### Explain
 #
-# Look at the second row of the table. The computer tried *every* pair of kS and kV in intervals of
-# 0.05. Even the best pair has a large error. The error is large where the robot speeds up and slows
-# down. kS and kV alone do not give the voltage for acceleration. The kA term gives this voltage,
-# and only your opponent's program uses kA. So **you could not win round one**.
+# Look at the second row of the table. The computer tried *every* pair of kS and kV that your
+# sliders can reach. Even the best pair has a large error. The error is large where the robot speeds
+# up and slows down. kS and kV alone do not give the voltage for acceleration. The kA term gives
+# this voltage, and only your opponent's program uses kA. So **you could not win round one**.
 #
 # Was the race fair? Only partly.
 #

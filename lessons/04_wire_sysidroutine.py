@@ -491,6 +491,8 @@ print(f"2π is {2 * math.pi:.4f}.")
 # In Java (the Python code above ends with the same bindings):
 #
 # ```java
+# import edu.wpi.first.wpilibj2.command.sysid.SysIdRoutine.Direction; // at the top of the file
+#
 # Trigger testMode = new Trigger(DriverStation::isTestEnabled); // the guard
 # // Quasistatic forward, a slow ramp: kS (when it starts to move), kV (volts per speed).
 # testMode.and(m_sysIdController.a()).whileTrue(m_drive.sysIdQuasistatic(Direction.kForward));

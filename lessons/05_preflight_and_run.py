@@ -342,14 +342,16 @@ morning("2 battery", STEP, moment=1.0)
 # faults (lesson 6).
 
 # %%
-sound = simulate(ROBOT, routine, rng=np.random.default_rng(5))
+at_tape = replace(ROBOT, travel=7.0)  # you let go at the tape
+sound = simulate(at_tape, routine, rng=np.random.default_rng(5))
+untaped = simulate(ROBOT, routine, rng=np.random.default_rng(5))
 hit = drive_test(ROBOT, routine, test=RAMP, floor=Floor(wall=WALL)).hit_wall
 backward = replace(
     sound,
     runs=tuple(replace(r, position=-r.position, velocity=-r.velocity) for r in sound.runs),
 )
 into_wall = contaminate(
-    sound, "hard-stop", severity=3, test=RAMP, at=hit, rng=np.random.default_rng(1)
+    untaped, "hard-stop", severity=3, test=RAMP, at=hit, rng=np.random.default_rng(1)
 )
 logs = {
     "nothing": sound,

@@ -5,7 +5,10 @@ import runpy
 import shutil
 from pathlib import Path
 
+import pytest
+
 from grader.exercise import Exercise
+from sim.reconcile import reconcile
 
 ROOT = Path(__file__).resolve().parents[1]
 FOLDER = ROOT / "exercises" / "exercise12"
@@ -29,3 +32,17 @@ def test_who_follows_the_largest_share_and_stops_in_time_gets_full_marks(tmp_pat
 
     full = [student for student, earned in points.items() if earned == 10]
     assert len(full) >= NEEDED * STUDENTS, points
+
+
+def test_reconcile_has_the_same_gap_and_the_same_first_effect():
+    variant = Exercise("exercise12", FOLDER).module.draw("student 10")
+    story = reconcile(
+        variant.log, validation=variant.validation, held_out=variant.held_out, type="simple"
+    )
+    hand = variant.make_search()
+    fits = {"gap_before": hand.fit(), "gap_after": hand.fit(variant.hidden)}
+
+    assert [one.effect for one in story.findings] == [*variant.hidden]
+    for name, point in fits.items():
+        gap = getattr(story, name) / story.noise_floor
+        assert hand.measure_gap(point, "held_out") == pytest.approx(gap, rel=0.02)

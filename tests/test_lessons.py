@@ -165,7 +165,7 @@ def test_every_question_is_on_a_slide(text, run):
     code = [cell for cell in notebook.cells if cell.cell_type == "code"]
     shown = [output.data for cell in code for output in cell.outputs if "data" in output]
     widgets = [data["text/plain"] for data in shown if VIEW in data]
-    questions = [words for words in widgets if not words.startswith("VBox(")]
+    questions = [words for words in widgets if not words.startswith(("VBox(", "EffectSearch("))]
     source = "\n".join(cell.source for cell in code)
 
     assert len(questions) == len(re.findall(QUESTION, source)) > 0
@@ -316,7 +316,7 @@ def _code_load(cell):
         return Load(0, 0, 0, 0)
     html = [output["data"].get("text/html", "") for output in cell.outputs if "data" in output]
     pages = [Page(one) for one in html]
-    sliders = len(re.findall(r"^show_interactive\(", cell.source, re.MULTILINE))
+    sliders = len(re.findall(r"^(?:show_interactive\(|search$)", cell.source, re.MULTILINE))
     return Load(
         words=0,
         questions=len(re.findall(QUESTION, cell.source)),

@@ -19,6 +19,7 @@ WHOLE = 1e-3  # [steps] by which a reading may differ from a whole number of ste
 CUT = 0.25, 0.75  # [steps] mean of what a truncation cuts off: half a step; rounding cuts off none
 FALLING = ("arm", "elevator")
 NEAR = 0.05  # [share of a run's way] from its start: farther is no fall onto a stop
+FELL = 0.01  # [share of a run's way] least way of a fall
 MOVING = 0.03  # [share of a run's top speed] slower is at rest
 RESTED = 5  # samples of a fall, and of the rest after it, at least
 PAUSED = 2.5  # [frames] a position that is constant for longer stands still
@@ -207,6 +208,9 @@ def find_landing(run: Run) -> int:
     if fell.size < RESTED or abs(run.velocity[0]) > MOVING * run.top_speed:
         return 0
     after = int(fell[-1]) + 1
+    way = (run.position[0] - run.position[after]) * np.sign(run.voltage[far])
+    if way < FELL * np.ptp(run.position):  # noise of a velocity at rest moves nothing
+        return 0
     still = np.abs(run.velocity[after:far]) < MOVING * run.top_speed
     rests = np.flatnonzero(np.convolve(still, np.ones(RESTED), mode="valid") >= RESTED)
     return after + int(rests[0]) if rests.size else 0

@@ -260,4 +260,5 @@ class EffectSearch:
         return f"EffectSearch({' + '.join(self.effects) or NONE})"
 
     def _repr_mimebundle_(self, **how: object) -> Any:  # noqa: ANN401 - ipywidgets has no types
-        return self._box._repr_mimebundle_(**how) | {"text/plain": self.message}
+        still = {"text/plain": repr(self), "text/html": self.html}  # where no buttons can be shown
+        return self._box._repr_mimebundle_(**how) | still

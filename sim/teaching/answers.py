@@ -1,6 +1,6 @@
 """What a lesson's code must not show: right answers, and the effects that its robots hide.
 
-They stand in ``answers.toml`` by names like ``lesson9.ka``, and a cell holds only the name.
+They stand in ``lesson_answers.toml`` by names like ``lesson9.ka``, and a cell holds only the name.
 """
 
 import tomllib
@@ -12,11 +12,11 @@ from typing import Any
 from sim.bench.mechanism import Mechanism
 from sim.core.errors import BadRequest
 
-FILE = Path(__file__).with_name("answers.toml")
+FILE = Path(__file__).with_name("lesson_answers.toml")
 
 
 def read_answer(name: str) -> Any:  # noqa: ANN401 - as TOML has it
-    """What stands in ``answers.toml`` under a name: an answer, or the arguments of a quick check.
+    """What stands under a name: an answer, or the arguments of a quick check.
 
     Raises:
         BadRequest: there is no such name.

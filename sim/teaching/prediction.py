@@ -54,7 +54,7 @@ class Prediction:
         Without a prediction, only the answer is returned.
 
         Args:
-            name: the name of the answer in ``answers.toml``: ``lesson9.ka``.
+            name: the name of the answer in ``lesson_answers.toml``: ``lesson9.ka``.
 
         Raises:
             BadRequest: there is no such name, or the answer is not one of the options.

@@ -1,4 +1,4 @@
-"""The robots and logs of lesson 9; what they hide stands in ``answers.toml``."""
+"""The robots and logs of lesson 9; what they hide stands in ``lesson_answers.toml``."""
 
 from collections.abc import Callable
 from dataclasses import replace

@@ -33,7 +33,7 @@ def solve(exercise: Path, data: Path) -> dict[str, str]:
     """
     search = EffectSearch.read(data)
     find_effects(search)
-    effects, *lines = search.open().splitlines()
+    effects, *lines = (line.partition("  #")[0] for line in search.open().splitlines())
     text = (exercise / "answers.toml").read_text(encoding="utf-8")
     for line in lines[-2:]:
         text = text.replace(f'{line.partition(" = ")[0]} = ""', line)
