@@ -36,7 +36,7 @@ HIDDEN: tuple[Recipe, ...] = (
     ("shooter", (("voltage-limit", 1.5), ("drag", 1.0))),
     ("shooter", (("current-limit", 1.5), ("velocity-filter", 1.0))),
     ("shooter", (("drag", 1.0), ("battery-sag", 1.0))),
-    ("turret", (("spring", 1.0), ("velocity-filter", 1.0))),
+    ("turret", (("spring", 1.0),)),
     ("turret", (("compliance", 1.0),)),
     ("turret", (("backlash", 1.0),)),
     ("turret", (("velocity-filter", 0.5), ("cogging", 1.0))),

@@ -25,6 +25,7 @@ NONE = "gains alone"
 SHOWN = {"log": "log", "validation": "validation"}  # logs whose gaps may be looked at, and names
 MOST_BARS = 12  # models whose gaps are drawn
 WORKING = "<p><b>Fitting… this takes one to three seconds.</b></p>"
+PAGE = '<!doctype html><meta charset="utf-8"><title>The gap</title>'
 LOOK = "Look at the plot with the largest share. Choose an effect that could cause it."
 
 
@@ -171,7 +172,7 @@ class EffectSearch:
     def write_page(self, path: Path) -> None:
         """Write what is shown as a page for a browser."""
         with atomic_path(path) as part:
-            part.write_text(f"<!doctype html><meta charset=utf-8>{self.html}", encoding="utf-8")
+            part.write_text(f"{PAGE}{self.html}", encoding="utf-8")
 
     @property
     def answer(self) -> list[str]:
