@@ -36,7 +36,8 @@ STARTERS = "exercises/starters.toml"
 AUTHORED = ("README.md", "hints.toml")  # of an exercise, besides checks.py and its modules
 SOURCES = (
     ".py", ".md", ".html", ".jinja", ".js", ".css", ".svg", "overrides.json", "example.toml",
-    "lesson_answers.toml", "misconceptions.toml", "probability.json", "phoenix6.toml", "revlib.toml", "wpilib.toml",
+    "lesson_answers.toml", "misconceptions.toml", "probability.json", "phoenix6.toml",
+    "revlib.toml", "wpilib.toml",
     "setup.sh", "run_autograder",
 )  # fmt: skip
 """Ends of names of what belongs to the packages."""
