@@ -13,7 +13,7 @@ TERMINAL = {"option", "velocity-scale"}  # the page can only say what to type in
 
 @pytest.mark.parametrize("name", WORDS)
 def test_the_page_does_not_speak_of_options(name):
-    action = Action(name, "X", before="First.")
+    action = Action(name, ("X", "Y"), before="First.")
 
     assert ("--" in action.on_page or "`sysid" in action.on_page) == (name in TERMINAL)
     for said in (str(action), action.on_page):

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from grader import draw_cache as room
+from grader.student_data import draw_cache as room
 from grader.student_data.draw_cache import enable_draw_cache
 from grader.student_data.student_files import write_student_files
 from grader.student_data.variant import use_class_secret

@@ -358,7 +358,7 @@ def unreadable():
     return {
         "a package beside Python's own library": str(inside),
         "a package nobody asked for": pytest.__file__,
-        "the grader": str(course / "grader" / "variant.py"),
+        "the grader": str(course / "grader" / "student_data" / "variant.py"),
         "its own program": str(course / "grader" / "isolation" / "sandbox_child.py"),
         "an exercise's checks": str(course / "exercises" / "exercise9" / "checks.py"),
         "the bench": str(course / "sim" / "bench" / "mechanisms" / "shooter.py"),

@@ -52,7 +52,7 @@ WORDS = {
         "Choose one {}.",
         "This page cannot choose one. In a terminal, `sysid fit` can, {}.",
     ),
-    "entry-type": ("Name an entry of type {} with its option.", "Choose an entry of type {}."),
+    "entry-type": ("Name an entry of type {} with {}.", "Choose an entry of type {}."),
     "columns": (
         f"Name the columns {{}} in the first line, or say what they are called: {NAMES}.",
         "Name the columns {} in the first line of the file.",
@@ -82,12 +82,12 @@ class Action:
 
     Args:
         name: one of ``WORDS``.
-        argument: what its sentence names.
+        argument: what its sentence names; several, of which a surface may leave out the last ones.
         before: sentences of advice that stand before it, and need no option.
     """
 
     name: str
-    argument: str = ""
+    argument: str | tuple[str, ...] = ""
     before: str = ""
 
     def __str__(self) -> str:
@@ -100,4 +100,5 @@ class Action:
         return self._word(1)
 
     def _word(self, surface: int) -> str:
-        return f"{self.before} {WORDS[self.name][surface].format(self.argument)}".strip()
+        named = (self.argument,) if isinstance(self.argument, str) else self.argument
+        return f"{self.before} {WORDS[self.name][surface].format(*named)}".strip()

@@ -15,14 +15,14 @@ SHARES: Mapping[str, float] = {"kS": 0.06, "kV": 0.03, "kA": 0.16, "kG": 0.11}
 """Gain -> median difference of two recordings, as a share of it."""
 
 
-def describe_next_recording(found: Fit) -> str:
-    """By how much another recording's gains will differ, in one sentence.
+def describe_next_recording(found: Fit) -> tuple[str, ...]:
+    """A sentence on how much another recording's gains will differ.
 
     Args:
         found: the fit of one recording.
 
     Returns:
-        The sentence; empty if no error is small enough for this to matter.
+        The sentence; nothing if no error is small enough for this to matter.
     """
     known = {
         gain: share
@@ -32,10 +32,11 @@ def describe_next_recording(found: Fit) -> str:
         and found.errors[gain] < share * abs(found.gains[gain])
     }
     if not known:
-        return ""
+        return ()
     told = [f"{gain} by about {100.0 * share:.0f} %" for gain, share in known.items()]
     listed = " and ".join([", ".join(told[:-1]), told[-1]] if told[1:] else told)
-    return (
+    said = (
         f"These errors are of this log alone. The next recording will differ: {listed}, as on most "
         "robots. To see yours, record twice and fit both: sysid fit ONE TWO"
     )
+    return (said,)

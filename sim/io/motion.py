@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from sim.core.doubt import Doubt
-from sim.core.log import Array, Log, Run
+from sim.core.log import LARGEST, Array, Log, Run
 from sim.core.units import find_unit
 
 SAME = 0.02  # [share of its spread] a velocity nearer to a line of the position is a position
@@ -97,6 +97,9 @@ def mend_motion(log: Log) -> Log:
     position, velocity = (
         np.concatenate([getattr(run, name) for run in runs]) for name in ("position", "velocity")
     )
+    slope = np.concatenate([compute_position_slope(run.time, run.position) for run in runs])
+    if np.abs(slope).max() >= LARGEST:  # no motion of a robot
+        return log
     moves, turns = bool(np.ptp(position)), bool(np.ptp(velocity))
     if turns and not moves and log.type != "arm":
         still = Doubt(
@@ -109,7 +112,6 @@ def mend_motion(log: Log) -> Log:
             replace(run, position=integrate_velocity(run.time, run.velocity)) for run in log.runs
         )
         return replace(log, runs=tuple(summed), computed="position").add_doubts(still)
-    slope = np.concatenate([compute_position_slope(run.time, run.position) for run in runs])
     if moves and not turns:
         code, what = "velocity-still", f"the velocity is {velocity[0]:.4g} from beginning to end"
     elif _linear_residual(velocity, position) < SAME and _linear_residual(velocity, slope) > UNLIKE:
@@ -202,6 +204,8 @@ def leave_out_falls(log: Log) -> Log:
 
 def find_landing(run: Run) -> int:
     """Index of the sample from which a mechanism rests that fell as its test began; 0 if none."""
+    if len(run) < FEWEST:
+        return 0
     far = int(np.argmax(np.abs(run.position - run.position[:1]) > NEAR * np.ptp(run.position)))
     speed = run.velocity[:far] * np.sign(run.voltage[far] if far else 0.0)
     fell = np.flatnonzero(speed < -MOVING * run.top_speed)

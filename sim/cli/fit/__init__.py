@@ -156,8 +156,8 @@ def fit(  # noqa: PLR0917 - click passes options by name
     if not (as_json or paste):
         found, notes = compare_directions_alone(found, log, notes, include_long=html is not None)
     found, notes, turned = add_inertia(found, notes, log, turning, method=method)
-    if len(files) == 1 and (said := describe_next_recording(found)):
-        notes = (*notes, said)
+    if len(files) == 1:
+        notes = (*notes, *describe_next_recording(found))
     tried = try_feedback_gains(found := found.in_log_units(), PRESETS[preset], own=own)
     found = replace(found, doubts=(*found.doubts, *warn_of_bad_suggestions(found, tried)))
     output = _FitOutput(files, found, log, preset, tried, notes, pooled, turned)

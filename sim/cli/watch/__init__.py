@@ -196,7 +196,8 @@ def _show_end(live: "LiveFit") -> None:
     if update is None or update.log is None or update.pooled is None:
         click.echo(f"There are no gains: {update.refusal if update else 'no test has ended.'}")
         return
-    from sim.fit.feedback_trial import try_feedback_gains, warn_of_bad_suggestions  # noqa: PLC0415 - only now
+    from sim.fit.between_recordings import describe_next_recording  # noqa: PLC0415 - only now
+    from sim.fit.feedback_trial import try_feedback_gains, warn_of_bad_suggestions  # noqa: PLC0415
     from sim.report.fit_terminal import show_fit  # noqa: PLC0415 - the same
 
     preset = PRESETS["default"]
@@ -206,5 +207,5 @@ def _show_end(live: "LiveFit") -> None:
     found = replace(found, doubts=(*found.doubts, *warn_of_bad_suggestions(found, tried)))
     show_fit(
         found, preset=preset, title=", ".join(map(str, update.paths)), log=update.log,
-        tried=tried, notes=(*notes, *update.pooled.notes),
+        tried=tried, notes=(*notes, *update.pooled.notes, *describe_next_recording(found)),
     )  # fmt: skip

@@ -93,7 +93,7 @@ def find_requested_entry(
         raise MissingSignal(
             f"the {role} entry {name!r} {explain_unfit_entry(same[0], kinds=kinds)}",
             where=where,
-            advice=Action("entry-type", " or ".join(kinds)),
+            advice=Action("entry-type", (" or ".join(kinds), f"--{role}")),
         )
     near = get_close_matches(name, [entry.name for entry in entries], n=MOST_LISTED, cutoff=0.5)
     raise MissingSignal(
