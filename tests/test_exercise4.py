@@ -103,6 +103,22 @@ def test_a_starter_with_a_syntax_error_is_not_hidden_by_the_untouched_one(real, 
     assert JAVA in capsys.readouterr().err
 
 
+STYLES = (
+    "advantagekit/subsystems/drive/Drive.java",
+    "teams/ChainedConsumers.java",
+    "teams/EnumFlywheels.java",
+    "teams/WrappedModules.java",
+    "teams/named_follower.py",
+)
+
+
+@pytest.mark.parametrize("name", STYLES)
+def test_program_in_a_style_of_teams_earns_full_marks(name):
+    result = EXERCISE.grade(whole_corpus() / name, student="ann")
+
+    assert [check.seen for check in result.checks if check.status != "passed"] == []
+
+
 LESSON = (ROOT / "tests" / "robotcode" / "DriveSubsystem.java").read_text("utf-8")
 
 

@@ -17,6 +17,7 @@ import edu.wpi.first.wpilibj2.command.button.*;
 import com.ctre.phoenix6.hardware.TalonFX;
 """
 GUARD = ".and(testing)"
+LOGGED = "org.littletonrobotics.junction.networktables.LoggedNetworkBoolean"
 MADE = "return m_routine.quasistatic(direction)"
 
 
@@ -48,6 +49,9 @@ GUARDS = {  # what takes the place of test mode, and whether a match never bring
     "RobotModeTriggers.test().debounce(0.1)": True,
     "m_driverController.start().or(m_driverController.back())": True,
     '() -> SmartDashboard.getBoolean("SysId", false)': True,
+    f'new {LOGGED}("SysId", false)': True,
+    f'new {LOGGED}("SysId", true)': False,
+    'new NetworkButton("Pit", "SysId")': True,
     '() -> SmartDashboard.getBoolean("SysId", true)': False,
     "() -> true": False,
     "() -> DriverStation.isTest() || true": False,
@@ -145,6 +149,32 @@ def test_controller_for_tests_only_is_a_guard(made, tmp_path):
     )["guard"]
 
     assert (found.status == "passed") is CONTROLLERS[made], found.seen
+
+
+def test_comment_is_read_in_the_file_of_the_binding_only(tmp_path):
+    container, mark, subsystem = solution(JAVA).partition("/** One motor, and a routine")
+    imports = container[: container.index("/** The robot's parts")]
+    other = imports + mark + subsystem
+    asked = other[: other.index(MADE)].count("\n")
+    steps = "return runOnce(() -> {}).andThen(\n        m_routine.quasistatic(direction))"
+    other = other.replace(MADE, steps)
+    wrong = container[: container.index("// Dynamic, forward")].count("\n")
+    (tmp_path / JAVA).write_text("\n" * (asked + 1) + container, "utf-8")
+    (tmp_path / "ExampleSubsystem.java").write_text("\n" * (wrong + 2) + other, "utf-8")
+    found = {one.id: one for one in EXERCISE.grade(tmp_path / JAVA, student="ann").checks}
+
+    assert found["comments"].status == "passed", found["comments"].seen
+
+
+def test_method_that_takes_its_direction_by_name_makes_tests(tmp_path):
+    found = graded(
+        tmp_path,
+        ("(self, direction:", "(self, *, direction:"),
+        ("(SysIdRoutine.Direction.k", "(direction=SysIdRoutine.Direction.k"),
+        name=PYTHON,
+    )
+
+    assert {one.status for one in found.values()} == {"passed"}
 
 
 def test_class_in_a_file_that_is_not_there_is_asked_about_and_never_accused(tmp_path):

@@ -384,7 +384,7 @@ def _explain_open(open_: list[Press], facts: ButtonFacts, bound: int) -> None:
 
 def _check_asked_once(facts: ButtonFacts) -> None:
     """Raise ``WrongAnswer`` if test mode is asked for only while the program starts."""
-    if facts.asked_once:
+    if facts.asked_once and facts.stop is None:
         raise WrongAnswer(
             f"line {facts.asked_once} checks test mode only once, while the program starts",
             hint="The robot is not in test mode then, and the answer never changes. Let the "

@@ -51,7 +51,7 @@ class JavaSubject(Subject):
     def __init__(self, path: Path, wanted: str = "SysIdRoutine") -> None:
         allow_deep_calls()
         WORLD.where = lambda: STATE.at
-        WORLD.stack = list_calls
+        WORLD.stack = self.list_calls
         STATE.refill()
         self.program = Program(path)
         self.java: Any = self._choose(wanted)  # None if the file has no class
@@ -288,6 +288,19 @@ class JavaSubject(Subject):
                 waiting += node.children
         return found
 
+    def list_calls(self) -> list[int]:
+        """The lines of the calls that led here, the innermost first; 0 in another file."""
+        found: list[int] = []
+        frame: Any = sys._getframe(1)  # Python's own frames
+        while frame is not None:
+            if frame.f_globals.get("__package__") == "grader.robotcode.java":
+                at = frame.f_locals.get("at")
+                line = int(at) if getattr(at, "file", "") == self.program.main.path.name else 0
+                if isinstance(at, At) and (not found or found[-1] != line):
+                    found.append(line)
+            frame = frame.f_back
+        return found
+
     def find_statement(self, line: int) -> tuple[int, int] | None:
         """The first and the last line of the statement that a line is in."""
         node = self._node_at(line, STATEMENTS)
@@ -305,16 +318,3 @@ class JavaSubject(Subject):
                 if binds and len(re.findall(rf"\b{one.name}\b", whole)) == 1:
                     found.append((one.name, int(one.at)))
         return found
-
-
-def list_calls() -> list[int]:
-    """The lines of the calls that led here, the innermost first, from Python's own frames."""
-    found: list[int] = []
-    frame: Any = sys._getframe(1)
-    while frame is not None:
-        if frame.f_globals.get("__package__") == "grader.robotcode.java":
-            at = frame.f_locals.get("at")
-            if isinstance(at, At) and (not found or found[-1] != int(at)):
-                found.append(int(at))
-        frame = frame.f_back
-    return found

@@ -41,7 +41,7 @@ from grader.robotcode.java.static_types import (
 )
 from grader.robotcode.java.syntax import At
 from grader.robotcode.java.values import BOXES, PRIMITIVES, Array, ClassCastException
-from grader.robotcode.library.base import NoSuchMember, Unknown, WrongArgument
+from grader.robotcode.library.base import Fake, NoSuchMember, Unknown, WrongArgument
 
 NEARLY = 0.84  # how much of two names has to agree, from 0 to 1
 UNITS, UNITS_2027 = "edu.wpi.first.units.Units", "org.wpilib.units.Units"
@@ -196,6 +196,7 @@ class ExpressionCompiler(StaticTypes):
             if (
                 isinstance(base, type)
                 and not name.startswith("_")
+                and name not in vars(Fake)
                 and (
                     runtime.find_attribute(base, name) is not None
                     or name in getattr(base, "__annotations__", ())

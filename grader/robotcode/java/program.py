@@ -195,6 +195,20 @@ class Program:
                     return other.classes[name]
         return None
 
+    def _find_logged(self, name: str, scope: JavaClass) -> Any:
+        """A class that AdvantageKit adds to, also one within another class of the package."""
+        found = self._resolve_simple(name, scope)
+        if found is not None:
+            return found
+        paths = [one for several in self._stems.values() for one in several]
+        for path in paths:
+            unit = self._unit_of(path) if _mentions(path, name) else None
+            if unit is not None and unit.package == scope.unit.package:
+                for one in unit.classes.values():
+                    if name in one.nested:
+                        return one.nested[name]
+        return None
+
     # -- names ------------------------------------------------------------------------------
 
     def load(self, full: str) -> Any:
@@ -261,7 +275,7 @@ class Program:
                     return found if found is not None else self._unknown(imported.full, imported.at)
         found = self._neighbour(name, unit)
         if found is None and name.endswith(GENERATED):  # by AdvantageKit, of a class with @AutoLog
-            found = self._resolve_simple(name.removesuffix(GENERATED), scope)
+            found = self._find_logged(name.removesuffix(GENERATED), scope)
         if found is not None:
             return found
         for imported in unit.imports:

@@ -29,7 +29,7 @@ from grader.robotcode.java.values import (
     spread,
     to_string,
 )
-from grader.robotcode.library.base import FakeType
+from grader.robotcode.library.base import FakeType, Unknown
 
 _STREAMS = "java.util.stream"
 
@@ -152,11 +152,28 @@ class Functional(JavaClass):
         return getattr(self, self._method)(*args)
 
 
-_DEFAULTS = (  # methods of functional interfaces that make what is unknown here
-    "andThen compose negate and or reversed thenComparing thenComparingInt thenComparingDouble "
-    "thenComparingLong"
-)
-DEFAULT_METHODS = frozenset(_DEFAULTS.split())
+DEFAULT_METHODS: dict[str, Callable[..., Callable[..., Any]]] = {  # of functional interfaces
+    "andThen": lambda first, after: lambda *args: after(first(*args)),
+    "compose": lambda after, first: lambda *args: after(first(*args)),
+    "negate": lambda one: lambda *args: not one(*args),
+    "and": lambda one, other: lambda *args: one(*args) and other(*args),
+    "or": lambda one, other: lambda *args: one(*args) or other(*args),
+    "reversed": lambda one: lambda a, b: one(b, a),
+    **dict.fromkeys(
+        ("thenComparing", "thenComparingInt", "thenComparingDouble", "thenComparingLong"),
+        lambda *_: Unknown("thenComparing()"),
+    ),
+}
+
+
+def add_default(one: Any, interface: str, name: str, args: Iterable[Any]) -> Callable[..., Any]:
+    """What a default method of a functional interface makes of an object: another function."""
+    if name == "andThen" and interface.endswith("Consumer"):
+        (other,) = args
+        return lambda *given: (one(*given), other(*given))[1]
+    return DEFAULT_METHODS[name](one, *args)
+
+
 _IN_FUNCTION = """
 accept: Consumer BiConsumer IntConsumer LongConsumer DoubleConsumer ObjDoubleConsumer ObjIntConsumer
 test: Predicate BiPredicate IntPredicate LongPredicate DoublePredicate

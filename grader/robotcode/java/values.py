@@ -653,7 +653,7 @@ def compare(a: Any, b: Any) -> Any:
 class JavaEnum(JavaClass, package=_LANG, name="Enum"):
     """Base of a learner's enums. Each constant has ``_name`` and ``_ordinal``."""
 
-    name = toString = lambda self: self._name
+    name = toString = __str__ = lambda self: self._name
     ordinal = lambda self: self._ordinal
     compareTo = lambda self, other: self._ordinal - other._ordinal
     equals = lambda self, other: self is other

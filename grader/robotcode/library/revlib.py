@@ -72,7 +72,8 @@ class BaseConfig(Fake):
 
 
 def _add_setter(cls: type, name: str, kinds: str) -> None:
-    def set_(self: BaseConfig, *values: Any) -> BaseConfig:
+    def set_(self: BaseConfig, *values: Any, **named: Any) -> BaseConfig:
+        values += (*named.values(),)
         fits = sum(kind.islower() for kind in kinds) <= len(values) <= len(kinds)
         for kind, value in zip(kinds, values, strict=False):
             fits = fits and (isinstance(value, Unknown) or accepts(KINDS[kind.lower()], value))

@@ -12,6 +12,7 @@ from typing import Any
 
 from grader.robotcode.library.base import TABLES, Fake, WrongArgument, describe, fake
 from grader.robotcode.library.commands import CommandScheduler, EventLoop
+from grader.robotcode.library.dashboard import make_path, read_value
 from grader.robotcode.library.station import (
     STATION,
     RobotState,
@@ -332,5 +333,12 @@ class POVButton(Trigger):
         super().__init__(lambda: joystick.getPOV(povNumber) == angle)
 
 
-for _cls in (JoystickButton, POVButton):
+class NetworkButton(Trigger):
+    """A boolean of NetworkTables (allwpilib v2026, .../command/button/NetworkButton.java)."""
+
+    def __init__(self, *path: Any) -> None:
+        super().__init__(lambda: read_value(make_path(*map(str, path)), False))
+
+
+for _cls in (JoystickButton, POVButton, NetworkButton):
     fake(BUTTONS, "commands2.button", complete=True)(_cls)

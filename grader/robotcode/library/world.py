@@ -43,7 +43,7 @@ class World:
         assume: what a condition is taken for that nobody can know.
         undecided: the conditions that were, and the line of each.
         where: the file's line that is being run.
-        stack: the lines of the calls that led there, the innermost first.
+        stack: the lines of the calls that led there, the innermost first; 0 for another file.
         logged: what the SysId log callback wrote since the bench last looked.
     """
 

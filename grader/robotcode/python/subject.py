@@ -12,6 +12,7 @@ import signal
 import sys
 import traceback
 import typing
+from collections import OrderedDict
 from collections.abc import Iterator
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
@@ -107,21 +108,21 @@ class PythonSubject(Subject):
             ]
         return found
 
-    def _walk_frames(self, where: Path) -> Iterator[int]:
-        """The lines that are being run in a file, or in a folder, the innermost first."""
+    def _walk_frames(self) -> Iterator[tuple[str, int]]:
+        """The files and lines of the program that are being run, the innermost first."""
         frame: Any = sys._getframe(1)  # as Python's own tools do
         while frame is not None:
-            if frame.f_code.co_filename.startswith(str(where)):
-                yield frame.f_lineno
+            if frame.f_code.co_filename.startswith(str(self.root)):
+                yield frame.f_code.co_filename, frame.f_lineno
             frame = frame.f_back
 
     def find_line(self) -> int:
         """The line of the learner's code that is being run."""
-        return next(self._walk_frames(self.root), 0)
+        return next((line for _, line in self._walk_frames()), 0)
 
     def list_calls(self) -> list[int]:
-        """The lines of the file in hand that are being run, the innermost first."""
-        return list(self._walk_frames(self.path))
+        """The lines that are being run, the innermost first; 0 in another file."""
+        return [line if name == str(self.path) else 0 for name, line in self._walk_frames()]
 
     # -- its run ----------------------------------------------------------------------------
 
@@ -196,7 +197,7 @@ class PythonSubject(Subject):
             one
             for part in (self._family(owner)[::-1] if owner is not None else ())
             for one in part.body
-            if isinstance(one, ast.FunctionDef)
+            if isinstance(one, ast.FunctionDef) and one.name != "__init__"
             if any(isinstance(node, ast.Return) and node.value for node in ast.walk(one))
             if list_names(one) & MAKES or "Command" in ast.unparse(one.returns or one.args)
         ]
@@ -206,13 +207,18 @@ class PythonSubject(Subject):
         found = getattr(instance, rename(node.name), None)  # a property is asked by that
         if not callable(found):
             return
-        choices = [
-            _choose_values(one)
-            for one in inspect.signature(found, eval_str=False).parameters.values()
-            if one.default is one.empty
+        signature = inspect.signature(found, eval_str=False)
+        wanted = [
+            one
+            for one in signature.parameters.values()
+            if one.default is one.empty and one.kind not in {one.VAR_POSITIONAL, one.VAR_KEYWORD}
         ]
-        for args in itertools.product(*choices):
-            found(*args)
+        for values in itertools.product(*map(_choose_values, wanted)):
+            named = OrderedDict(
+                (one.name, value) for one, value in zip(wanted, values, strict=True)
+            )
+            bound = inspect.BoundArguments(signature, named)
+            found(*bound.args, **bound.kwargs)
 
     def _try_call(self, instance: object, node: ast.FunctionDef) -> None:
         with contextlib.suppress(Exception):  # a method that wants something else
