@@ -8,7 +8,8 @@ from dataclasses import replace
 import numpy as np
 
 from sim.core.doubt import Doubt
-from sim.core.log import LARGEST, Array, Log, Run
+from sim.core.errors import BadSample
+from sim.core.log import Array, Log, Run
 from sim.core.units import find_unit
 
 SAME = 0.02  # [share of its spread] a velocity nearer to a line of the position is a position
@@ -91,6 +92,18 @@ def mend_motion(log: Log) -> Log:
     the step that it leaves open. A position that never changes although the velocity does
     is replaced by the sum of the velocity, except of an arm.
     """
+    try:
+        return _mend(log)
+    except BadSample:  # a slope or a sum that no robot has
+        return log
+
+
+def _mend(log: Log) -> Log:
+    """The log as ``mend_motion`` returns it.
+
+    Raises:
+        BadSample: a slope or a sum is too large.
+    """
     runs = [run for run in log.runs if len(run) > FEWEST]
     if not runs:
         return log
@@ -98,8 +111,6 @@ def mend_motion(log: Log) -> Log:
         np.concatenate([getattr(run, name) for run in runs]) for name in ("position", "velocity")
     )
     slope = np.concatenate([compute_position_slope(run.time, run.position) for run in runs])
-    if np.abs(slope).max() >= LARGEST:  # no motion of a robot
-        return log
     moves, turns = bool(np.ptp(position)), bool(np.ptp(velocity))
     if turns and not moves and log.type != "arm":
         still = Doubt(
