@@ -48,7 +48,6 @@ from sim.bench.simulate import simulate
 from sim.fit import fit
 from sim.inspect.contaminate import contaminate
 from sim.inspect.detect_faults import inspect
-from sim.inspect.fault import select_samples
 from sim.inspect.faults import FAULTS
 from sim.physics.battery import Battery
 from sim.plot import (
@@ -394,7 +393,7 @@ def with_gaps(log: sim.Log, *, share: float, longest: float, rng: np.random.Gene
             keep[place : place + lost] = False
             place += lost + 1
         keep[-1] = True
-        runs.append(select_samples(run, keep))
+        runs.append(run.select(keep))
     return replace(log, runs=tuple(runs))
 
 
@@ -490,7 +489,7 @@ def kept(log: sim.Log, *, end: float, threshold: float) -> sim.Log:
         keep = np.ones(len(run), dtype=bool)
         if run.kind == "quasistatic":
             keep = (run.time - run.time[0] <= end) & (np.abs(run.velocity) >= threshold)
-        runs.append(select_samples(run, keep))
+        runs.append(run.select(keep))
     return replace(log, runs=tuple(runs))
 
 

@@ -15,7 +15,6 @@ from sim.bench.simulate import simulate
 from sim.core.log import Log, Run
 from sim.inspect.contaminate import contaminate
 from sim.inspect.diagnostics import diagnose_log
-from sim.inspect.fault import select_samples
 from sim.inspect.faults import FAULTS
 from sim.inspect.log_features import LogFeatures
 
@@ -219,7 +218,7 @@ def test_a_stop_has_no_speed_and_a_stuck_sensor_has(speed):
 
 def test_a_ramp_that_starts_in_motion_is_given_a_standstill_to_tremble_in():
     log = recorded("shooter")
-    log = each(log, lambda run: select_samples(run, np.abs(run.velocity) > 0.0))
+    log = each(log, lambda run: run.select(np.abs(run.velocity) > 0.0))
 
     spoilt = contaminate(log, "noisy-standstill", rng=np.random.default_rng(2))
 

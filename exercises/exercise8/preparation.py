@@ -38,11 +38,9 @@ class Preparation:
 
     def kept(self, run: "Run") -> "Run":
         """What is left of a run once it is trimmed."""
-        from sim.inspect.fault import select_samples  # noqa: PLC0415 - numpy only where it is needed
-
         first, last = self.keep.get(run.test, (0.0, float("inf")))
         since = run.time - run.time[0]
-        return select_samples(run, (since >= first - 1e-9) & (since <= last + 1e-9))
+        return run.select((since >= first - 1e-9) & (since <= last + 1e-9))
 
 
 def read_preparation(given: Mapping[str, object], *, symbol: str, si: float) -> Preparation:

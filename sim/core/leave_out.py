@@ -4,7 +4,6 @@ import math
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +14,6 @@ from sim.core.vocabulary import TESTS
 
 FEWEST = 5  # [samples] shorter pieces of a run are left out, too
 SPELLING = re.compile(r"(?P<test>[\w-]+?)(:(?P<start>[\d.]+)-(?P<end>[\d.]+))?")
-SIGNALS = ("time", "voltage", "position", "velocity", "current", "bus_voltage")
 
 
 @dataclass(frozen=True)
@@ -102,10 +100,4 @@ def _split(run: Run, part: LeftOutPart) -> list[Run]:
     if not gone.size:
         return [run]
     pieces = (slice(0, gone[0]), slice(gone[-1] + 1, len(run)))
-    return [one for one in (_cut(run, piece) for piece in pieces) if len(one) >= FEWEST]
-
-
-def _cut(run: Run, piece: slice) -> Run:
-    """A piece of a run."""
-    signals: dict[str, Any] = {name: getattr(run, name) for name in SIGNALS}
-    return replace(run, **{name: one[piece] for name, one in signals.items() if one is not None})
+    return [one for one in (run.select(piece) for piece in pieces) if len(one) >= FEWEST]

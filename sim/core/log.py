@@ -147,8 +147,8 @@ class Run:
                 advice="Remove that sample, or record the run again.",
             )
 
-    def select(self, part: slice) -> "Run":
-        """The run with a part of its samples."""
+    def select(self, part: slice | NDArray[np.bool_]) -> "Run":
+        """The run with some of its samples: those of a slice, or those that a mask (n,) keeps."""
         return Run(
             self.test,
             self.time[part],

@@ -144,5 +144,4 @@ def _position_noise(measured: Sequence[RunMeasurements], tracks: Sequence[Track]
 
 def _last_samples(run: Run, count: int) -> Run:
     """The last samples of a run."""
-    cut = slice(len(run) - count, None)
-    return Run(run.test, run.time[cut], run.voltage[cut], run.position[cut], run.velocity[cut])
+    return run.select(slice(len(run) - count, None))

@@ -11,7 +11,6 @@ from types import ModuleType
 from typing import Self
 
 import numpy as np
-from numpy.typing import NDArray
 
 from sim.core.errors import BadRequest
 from sim.core.log import Array, Log, Run
@@ -153,24 +152,6 @@ def rescale_motion(run: Run, pace: Array) -> Run:
         run,
         velocity=run.velocity * pace[latest],
         position=np.where(same, run.position, position),
-    )
-
-
-def select_samples(run: Run, keep: NDArray[np.bool_] | slice) -> Run:
-    """The samples of a run that a mask or a slice keeps.
-
-    Args:
-        run: the original run.
-        keep: (n,) a mask, or a slice.
-    """
-    return replace(
-        run,
-        time=run.time[keep],
-        voltage=run.voltage[keep],
-        position=run.position[keep],
-        velocity=run.velocity[keep],
-        current=None if run.current is None else run.current[keep],
-        bus_voltage=None if run.bus_voltage is None else run.bus_voltage[keep],
     )
 
 

@@ -26,7 +26,6 @@ from sim.inspect.fault import (
     LogInterval,
     replace_run,
     rescale_motion,
-    select_samples,
 )
 from sim.inspect.log_features import LogFeatures
 
@@ -58,7 +57,7 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
     end = int(np.searchsorted(longer.time, run.time[0] + strike.start + pressed, side="right"))
     if impact >= end - 1 or not np.any(longer.velocity[impact:end]):
         return DamagedLog(log, ())
-    cut = select_samples(longer, slice(end))
+    cut = longer.select(slice(end))
     since = cut.time - cut.time[impact]
     pace = np.where(since < 0.0, 1.0, -BOUNCE * np.exp(-since / FADES) * (since < 4.0 * FADES))
     spoilt = rescale_motion(cut, pace)

@@ -23,7 +23,6 @@ from sim.inspect.fault import (
     FaultStrike,
     LogInterval,
     replace_run,
-    select_samples,
 )
 from sim.inspect.log_features import LogFeatures
 
@@ -58,7 +57,7 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
     if not stalls:
         return DamagedLog(log, ())
     where = LogInterval.of_samples(strike.run, run, stalls[0][0] - 1, stalls[-1][-1] + 1)
-    spoilt = replace_run(log, strike.run, select_samples(run, keep))
+    spoilt = replace_run(log, strike.run, run.select(keep))
     return DamagedLog(spoilt, (where,))
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from sim.bench.routine import LOOPS_BEFORE_DRIVE
 from sim.core.log import Array, Log, Run
-from sim.inspect.fault import FaultStrike, replace_run, rescale_motion, select_samples
+from sim.inspect.fault import FaultStrike, replace_run, rescale_motion
 from sim.inspect.faults import find_fault
 from sim.teaching.r2_cases.drivetrains import Setup
 
@@ -79,7 +79,7 @@ def add_early_stop(log: Log, rng: np.random.Generator) -> Log:  # noqa: ARG001 -
         speed = np.abs(run.velocity)
         hit = int(np.argmax(speed > STOP * speed.max()))
         stopped = rescale_motion(run, np.where(np.arange(len(run)) < hit, 1.0, 0.0))
-        log = replace_run(log, index, select_samples(stopped, slice(hit + round(PRESSED / PERIOD))))
+        log = replace_run(log, index, stopped.select(slice(hit + round(PRESSED / PERIOD))))
     return log
 
 
@@ -155,7 +155,7 @@ def _drop_late_loops(run: Run, *, longest: float, rng: np.random.Generator) -> R
             keep[place : place + lost] = False
         place += lost + 1
     keep[-1] = True
-    return select_samples(run, keep)
+    return run.select(keep)
 
 
 def _add_slip(run: Run, setup: Setup) -> Run:
