@@ -1,6 +1,8 @@
-"""Position from velocity and velocity from position, where a log lacks one of them.
+"""Motion that a recorder wrote incompletely, and what replaces it.
 
-Both contain the motion. Only an arm needs its position: gravity depends on the angle.
+Position and velocity both contain the motion, so one can replace the other. Only an arm needs its
+position: gravity depends on the angle. A truncated velocity is refined by the position, and the
+moment in which an arm falls onto its stop as a test begins is left out.
 """
 
 from dataclasses import replace
@@ -18,7 +20,7 @@ FEWEST = 10  # [samples] shorter runs are not checked
 COARSE = 0.02  # [share of the top speed] least step of a velocity that is checked for truncation
 WHOLE = 1e-3  # [steps] by which a reading may differ from a whole number of steps
 CUT = 0.25, 0.75  # [steps] mean of what a truncation cuts off: half a step; rounding cuts off none
-FALLING = ("arm", "elevator")
+FALLING = ("arm", "elevator")  # types that gravity moves
 NEAR = 0.05  # [share of a run's way] from its start: farther is no fall onto a stop
 FELL = 0.01  # [share of a run's way] least way of a fall
 MOVING = 0.03  # [share of a run's top speed] slower is at rest
