@@ -22,7 +22,7 @@ from urllib.request import Request, urlopen
 
 ROOT = Path(__file__).resolve().parents[1]
 SCREEN = 10.0  # [s] from the end of the install to the first useful screen
-PATIENCE = 1080.0  # [s] for one command: the tests have to leave time for the rest
+PATIENCE = 1320.0  # [s] for one command: the tests have to leave time for the rest
 SCREEN_SAYS = "Next:"  # how the line begins that says what to do
 EVERYTHING = ("-n", "logical", "--dist", "loadscope", "--no-loadscope-reorder")
 INSTALLED_SAYS = "Installed"  # how the line begins that ends the install

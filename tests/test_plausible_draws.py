@@ -17,10 +17,10 @@ ROOT = Path(__file__).resolve().parents[1]
 FEW = 20  # students in the gate
 FEWER = {  # where logs are simulated, or fitted and reconciled
     "exercise7": 5,
-    "exercise8": 10,
-    "exercise9": 10,
-    "exercise12": 5,
-    "practice": 10,
+    "exercise8": 5,
+    "exercise9": 5,
+    "exercise12": 3,
+    "practice": 5,
 }
 GRAVITY = 9.81  # [m/s²]
 BATTERY = 12.6  # [V] of a good one, charged
