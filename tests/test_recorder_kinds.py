@@ -4,6 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 import sim
 from sim.bench.mechanisms import MECHANISMS
@@ -247,3 +249,12 @@ def test_elevator_that_stays_on_its_stop_in_a_test_is_fitted_by_the_others():
     assert [doubt.code for doubt in found.doubts] == ["still-run"]
     for gain, value in MECHANISMS["elevator"].gains.items():
         assert abs(found.gains[gain] - value) < 3.0 * found.errors[gain]
+
+
+@settings(max_examples=300)
+@given(st.lists(st.sampled_from([-1.0, -0.1, 0.0, 0.1, 1.0]), min_size=1, max_size=60))
+def test_no_motion_is_too_odd_to_look_for_a_fall(speeds):
+    velocity, time = np.array(speeds), 0.02 * np.arange(len(speeds))
+    run = Run("dynamic-forward", time, np.ones(len(speeds)), 0.02 * np.cumsum(velocity), velocity)
+
+    assert 0 <= find_landing(run) < len(run)

@@ -229,6 +229,8 @@ def find_landing(run: Run) -> int:
     if way < FELL * np.ptp(run.position):  # noise of a velocity at rest moves nothing
         return 0
     still = np.abs(run.velocity[after:far]) < MOVING * run.top_speed
+    if still.size < RESTED:
+        return 0
     rests = np.flatnonzero(np.convolve(still, np.ones(RESTED), mode="valid") >= RESTED)
     return after + int(rests[0]) if rests.size else 0
 
