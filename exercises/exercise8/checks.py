@@ -135,14 +135,12 @@ def _require_stops_cut(answers: Answers) -> None:
             raise NotReachedError("counts after you cut the ends of tests that do not look right")
 
 
-def _require_ends_kept(answers: Answers) -> None:
-    """A gain counts only where both stops are cut and nothing that matters is: else it was luck.
-
-    Raises:
-        NotReachedError: a stop is kept, or the fast end or the first rise of a test is cut.
-    """
-    if not all(one.reaches for one in _left(answers)):
-        raise NotReachedError("counts after each test keeps its fast end or its first rise")
+def _keeps_ends(answers: Answers) -> bool:
+    """Whether both stops are cut and nothing that matters is; else a right gain is luck."""
+    try:
+        return all(one.reaches for one in _left(answers))
+    except NotReachedError:
+        return False
 
 
 def _gain(name: str, answers: Answers) -> None:
@@ -161,15 +159,19 @@ def _gain(name: str, answers: Answers) -> None:
         ) from None
     value, asked = found.gains[name], variant.asked[name]
     score = earned(value, asked)
-    if score == POINTS:
-        _require_ends_kept(answers)
+    kept = _keeps_ends(answers)
+    if score == POINTS and kept:
         return
+    if score == POINTS:
+        raise WrongAnswer(
+            f"{value:.4g} {asked.unit} is right, but with luck: a test lost its fast end or rise",
+            hint="Cut each test where it hits its stop, and keep what is before: of a quasistatic "
+            "test the fast end, of a dynamic test the first rise",
+            misconception="M-TRIM-PRETTY",
+        )
     says, code = blame(name, variant, preparation)
-    close = "Close. " if score else ""
-    try:
-        _require_ends_kept(answers)
-    except NotReachedError:
-        score = 0.0
+    close = "Close. " if score and kept else ""
+    score = score if kept else 0.0
     raise WrongAnswer(
         f"{value:.4g} {asked.unit} comes out, with an acceleration R² of "
         f"{found.acceleration_r2:.3f}",

@@ -5,6 +5,7 @@ import functools
 import inspect
 import types
 from collections.abc import Callable, Iterator, Sequence
+from enum import Enum
 from typing import Any
 
 from tree_sitter import Node
@@ -896,6 +897,8 @@ class ExpressionCompiler(StaticTypes):
             named_kind = kind if cls.name else ""
         elif cls is None:  # a type variable
             return self.refuse(f"new cannot make one of {kind}", node)
+        elif isinstance(cls, type) and issubclass(cls, Enum):
+            return self.refuse(f"{kind} is an enum: new cannot make one of it", node)
         else:
             create, named_kind = lambda _env, given: cls(*given), kind
 
