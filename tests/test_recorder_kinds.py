@@ -150,7 +150,7 @@ def test_rounded_velocity_is_not_truncated(drive):
 def test_readings_held_for_long_are_fitted(frame):
     log = simulate(MECHANISMS["drivetrain"], Routine(), rng=np.random.default_rng(5))
 
-    def hold(values):
+    def make_held(values):
         def held(run: Run):
             at = np.searchsorted(
                 run.time, run.time[0] + frame * ((run.time - run.time[0]) // frame)
@@ -159,7 +159,7 @@ def test_readings_held_for_long_are_fitted(frame):
 
         return held
 
-    held = change(log, position=hold("position"), velocity=hold("velocity"))
+    held = change(log, position=make_held("position"), velocity=make_held("velocity"))
 
     assert_same_gains(fit(held), fit(log))
 
@@ -189,12 +189,12 @@ def test_stale_first_row_is_no_fault():
     rng = np.random.default_rng(3)
     drive = simulate(MECHANISMS["drivetrain"], Routine(), rng=rng, period=0.005)
 
-    def stale(run: Run):
+    def lose_first_row(run: Run):
         if run.kind != "dynamic":
             return run.voltage
         return np.concatenate((run.voltage[:1], [0.0], run.voltage[2:]))
 
-    spoilt = change(drive, voltage=stale)
+    spoilt = change(drive, voltage=lose_first_row)
 
     assert inspect(spoilt).faults == ()
 

@@ -122,7 +122,7 @@ class QuietFiles(SimpleHTTPRequestHandler):
 
 @pytest.fixture(scope="module")
 def tab(built_site, browser):
-    """A tab on a server of the site, with a function that opens a page; complaints are noted."""
+    """A browser tab and a function that opens a page of the site in it, noting console errors."""
     folder, _ = built_site
     server = ThreadingHTTPServer(("127.0.0.1", 0), partial(QuietFiles, directory=str(folder)))
     threading.Thread(target=server.serve_forever, daemon=True).start()

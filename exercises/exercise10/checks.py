@@ -49,7 +49,7 @@ class Code:
 Look = Callable[[Seen], str | None]
 
 
-def judged(points: float) -> Callable[[Look], Check[Code]]:
+def check_all_runs(points: float) -> Callable[[Look], Check[Code]]:
     """Make a check of a function that looks at one run: it judges all runs of a program."""
 
     def make(look: Look) -> Check[Code]:
@@ -125,7 +125,7 @@ def consequence(code: Code) -> Consequence | None:
     return outcome(Seen(code.runs[0], code.variant))
 
 
-@judged(1)
+@check_all_runs(1)
 def named(seen: Seen) -> None:
     """A class CharacterizationConstants holds every gain under its own name."""
     wanted = (*seen.variant.gains, "kP")
@@ -154,7 +154,7 @@ def named(seen: Seen) -> None:
         )
 
 
-@judged(1)
+@check_all_runs(1)
 def volts(seen: Seen) -> None:
     """The constants kS, and kG if gravity pulls, have the analyzer's values."""
     for gain in seen.variant.gains:
@@ -162,13 +162,13 @@ def volts(seen: Seen) -> None:
             _check_value(gain, seen)
 
 
-@judged(1)
+@check_all_runs(1)
 def kv(seen: Seen) -> None:
     """The constant kV has the analyzer's value, or that value converted to the robot's unit."""
     _check_value("kV", seen)
 
 
-@judged(1)
+@check_all_runs(1)
 def ka(seen: Seen) -> None:
     """The constant kA has the analyzer's value, or that value converted to the robot's unit."""
     _check_value("kA", seen)
@@ -195,7 +195,7 @@ def _describe(one: GainConstant) -> str:
     return f"{one.name} = {one.text} in line {one.line}{worked}"
 
 
-@judged(1)
+@check_all_runs(1)
 def units(seen: Seen) -> None:
     """A comment gives the unit of each gain of the feedforward."""
     found = [one for one in seen.facts.constants if one.gain in seen.variant.gains]
@@ -233,7 +233,7 @@ def _is_unit_told(one: GainConstant, seen: Seen) -> bool | None:
     return None if None in verdicts else False
 
 
-@judged(1)
+@check_all_runs(1)
 def feedforward(seen: Seen) -> None:
     """The feedforward is of the class, or has the settings, that fit the mechanism."""
     one, facts = seen.feedforwards[0], seen.facts
@@ -253,14 +253,14 @@ def feedforward(seen: Seen) -> None:
     check_stop(facts, "start", "periodic")
 
 
-@judged(2)
+@check_all_runs(2)
 def order(seen: Seen) -> None:
     """Each gain is in the place where the feedforward expects it."""
     for one in seen.feedforwards:
         check_order(one, seen, points=2)
 
 
-@judged(2)
+@check_all_runs(2)
 def conversion(seen: Seen) -> None:
     """The feedforward gets kV and kA in the unit that the robot's code uses."""
     wrong = []
@@ -290,7 +290,7 @@ def _check_converted(gain: str, one: Gains, given: float | None, seen: Seen) -> 
     raise explain(f"{at} gets {gain} = {value:.4g}", slip)
 
 
-@judged(1)
+@check_all_runs(1)
 def kp(seen: Seen) -> None:
     """The constant kP fits the robot's loop, and its comment says what kind of number it is."""
     constant = _get_constant("kP", seen)

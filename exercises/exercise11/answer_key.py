@@ -11,7 +11,7 @@ from grader.check import NotReachedError, WrongAnswer, shorten
 
 from .drawn import QUESTIONS, Variant, draw
 from .knowledge import STORIES
-from .question import judged
+from .question import judge_choice
 from .table import DECISIONS, REASONS, ROWS, WRONG, Row
 
 __all__ = [
@@ -75,7 +75,7 @@ def judge_answer(
     raw = given.get(name.lower())
     if name in QUESTIONS:
         chosen = QUESTIONS[name].chosen(raw, variant.letters[name])
-        return judged(chosen, points=points, backed=_is_backed(name, given, variant))
+        return judge_choice(chosen, points=points, backed=_is_backed(name, given, variant))
     if name == "KC2_volts":
         return _judge_volts(raw, variant, points=points)
     row = next(one for one in ROWS if one.name == name.removesuffix("_reason"))

@@ -79,7 +79,7 @@ def lettered(options: Sequence[Option], order: Sequence[int]) -> dict[str, Optio
     return {LETTERS[place]: options[index] for place, index in enumerate(order)}
 
 
-def judged(chosen: Option, *, points: float, backed: bool) -> str | None:
+def judge_choice(chosen: Option, *, points: float, backed: bool) -> str | None:
     """Hold the chosen option against what is right.
 
     Args:

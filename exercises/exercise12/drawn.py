@@ -123,10 +123,10 @@ def _determined(variant: Variant) -> bool:
     if search.measure_gap(found, "held_out") > SNUG * FLOOR * floor:
         return False
 
-    def gap_with(*parts: "Part") -> float:
+    def measure_gap_with(*parts: "Part") -> float:
         return search.measure_gap(search.fit_near(replace(truth, parts=parts)))
 
-    without = [gap_with(*(o for o in truth.parts if o is not part)) for part in truth.parts]
+    without = [measure_gap_with(*(o for o in truth.parts if o is not part)) for part in truth.parts]
     least = max(MISSED * search.measure_gap(found), SEEN)
     return min(without) >= least and without[0] >= CLEAR * max(without[1:], default=0.0)
 

@@ -18,13 +18,13 @@ def split_words(name: str) -> list[str]:
 
 
 def find_side(name: str, pair: tuple[str, str]) -> str:
-    """The side that a name tells, of a pair; empty if it tells none or both."""
+    """``left`` or ``right`` (or another pair), if a name contains one of them; else empty."""
     found = [side for side in pair if side in split_words(name)]
     return found[0] if len(found) == 1 else ""
 
 
 def find_other_side(name: str, motor: str) -> str:
-    """The side that a name tells where the motor's name tells another; else empty."""
+    """The side in a name, if the motor's own name contains the opposite side; else empty."""
     for pair in SIDES:
         named, asked = find_side(name, pair), find_side(motor, pair)
         if named and asked and named != asked:
