@@ -19,13 +19,13 @@ from sim.inspect.diagnostics.sensor import (
     check_plausible_speed,
     check_rest_noise,
     check_velocity_lag,
-    check_velocity_scale,
 )
 from sim.inspect.log_features import LogFeatures
+from sim.inspect.log_units import doubt_scale
 
 CHECKS = (
     check_velocity_lag,
-    check_velocity_scale,
+    doubt_scale,
     check_plausible_speed,
     check_rest_noise,
     check_directions,

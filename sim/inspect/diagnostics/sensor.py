@@ -7,7 +7,7 @@ from sim.core.doubt import Doubt
 from sim.core.units import find_unit
 from sim.fit.sysid_rows import estimate_noise_floor
 from sim.inspect.log_features import LogFeatures
-from sim.inspect.log_units import FAR, doubt_scale
+from sim.inspect.log_units import FAR
 
 LAG = 0.02, 1.5  # [s, periods] largest delay without a filter
 SIGMAS = 3.0  # [standard errors] of a significant delay
@@ -47,11 +47,6 @@ def check_velocity_lag(features: LogFeatures) -> list[Doubt]:
             "filter of the motor controller.",
         )
     ]
-
-
-def check_velocity_scale(features: LogFeatures) -> list[Doubt]:
-    """Doubts about a velocity that is a little too large or small for its position."""
-    return list(doubt_scale(features))
 
 
 def check_plausible_speed(features: LogFeatures) -> list[Doubt]:
