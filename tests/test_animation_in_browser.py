@@ -29,7 +29,7 @@ from sim.plot.animation import (
 )
 from sim.plot.picture import COLORS_ON_DARK
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.slow, pytest.mark.browser]
 
 LEAST_PICTURES = 20.0  # [1/s] while a knob is dragged
 PHONE = {"width": 390, "height": 844}

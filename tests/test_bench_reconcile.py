@@ -16,6 +16,8 @@ from sim.core.log import Log, Run
 from sim.physics.effects import EFFECTS
 from sim.physics.model import Part
 
+pytestmark = pytest.mark.slow
+
 CONTROLS = 2
 NOSY = """
 import json, pathlib, sys

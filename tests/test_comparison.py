@@ -8,6 +8,8 @@ from xml.etree import ElementTree as ET
 import numpy as np
 import pytest
 
+pytestmark = pytest.mark.slow
+
 NUMBER = re.compile(r"[-+−]?\d+(?:\.\d+)?")
 PICTURE = "comparison.svg"
 

@@ -38,6 +38,8 @@ from sim.physics.engine.two_body_modes import TABLES_SIZE
 from sim.physics.model import Model, Part
 from sim.support.work.cache import CACHE, find_cache_folder
 
+pytestmark = pytest.mark.slow
+
 GAINS = {"kS": 0.2, "kV": 2.0, "kA": 0.3}
 PLAIN = Model("simple", GAINS)
 TIME = np.arange(0.0, 1.0, 0.02)

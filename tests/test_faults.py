@@ -28,6 +28,8 @@ from sim.inspect.fault import Fault, load_fault
 from sim.inspect.faults import FAULTS, find_fault
 from sim.support.catalogue import list_members
 
+pytestmark = pytest.mark.slow
+
 SEEDS = 100  # damaged logs for each fault
 CLEAN = 300  # sound logs
 FOUND = 0.95  # of the damaged ones, at the right place

@@ -90,7 +90,7 @@ FAINTEST = """() => {
         return (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
     }));
 }"""
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.slow, pytest.mark.browser]
 
 
 @pytest.fixture

@@ -15,6 +15,8 @@ from sim.core.errors import BadRequest
 from sim.fit import fit
 from sim.io import read
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def server(tmp_path_factory):

@@ -11,7 +11,7 @@ from known_answers import ANSWERS
 from sim.inspect.detect_faults import inspect
 from sim.io import read
 
-pytestmark = pytest.mark.shared
+pytestmark = [pytest.mark.slow, pytest.mark.shared]
 
 MADE_UP = {"encoder-slip", "brownout", "loop-overrun", "mislabelled-test", "stuck-sensor"}
 COMPLETE = ("simple-clean-20ms", "simple-light-5ms", "arm-rad-20ms", "arm-rot-20ms")

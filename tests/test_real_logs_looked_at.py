@@ -15,7 +15,7 @@ from sim.cli.inspect import inspect as command
 from sim.inspect.detect_faults import inspect
 from sim.io import read
 
-pytestmark = pytest.mark.shared
+pytestmark = [pytest.mark.slow, pytest.mark.shared]
 
 ALL = (0, 1, 2, 3)
 

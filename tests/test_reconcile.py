@@ -24,6 +24,8 @@ from sim.reconcile.recordings import Recordings
 from sim.reconcile.story_text import write_headline
 from sim.reconcile.thresholds import LEAST_FLOOR, MOST_WANDERING, NARROWER
 
+pytestmark = pytest.mark.slow
+
 HIDDEN = {
     "drag": ("drivetrain", "drag", False),
     "a velocity that is averaged": ("drivetrain", "velocity-filter", False),

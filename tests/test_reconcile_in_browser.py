@@ -12,7 +12,7 @@ from sim.bench.simulate import simulate
 from sim.cli import sysid
 from sim.support.command_line import run_command
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.slow, pytest.mark.browser]
 SCREENS = {"phone": {"width": 400, "height": 800}, "desk": {"width": 1100, "height": 900}}
 
 

@@ -13,7 +13,7 @@ import pytest
 from sim.cli import sysid
 from sim.support.command_line import run_command
 
-pytestmark = pytest.mark.shared
+pytestmark = [pytest.mark.slow, pytest.mark.shared]
 LOGS = {
     "elbow": ("sciborgs-2023-elbow-arm.json", "simple"),
     "wrist": ("sciborgs-2023-wrist-arm.json", "simple"),

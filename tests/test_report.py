@@ -21,6 +21,8 @@ from sim.fit.feedback_trial import try_feedback_gains
 from sim.report import write_picture
 from sim.report.page_file import choose_page_path, write_page_file
 
+pytestmark = pytest.mark.slow
+
 SHORT = Routine(ramp=0.5, step=3.5, timeout=3.0)
 
 

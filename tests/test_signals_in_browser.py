@@ -11,7 +11,7 @@ from test_open_in_browser import DESKTOP, PHONE, opened, wait_until
 from sim.cli.open.view import PageView, SpanText
 from sim.inspect.contaminate import contaminate
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.slow, pytest.mark.browser]
 
 FAULTS = SpanText(
     before='{log} = "', span="WHAT, {test}, {begin} to {end}, WHAT-TO-DO", between=" + ", after='"'

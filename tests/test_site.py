@@ -20,6 +20,8 @@ import pytest
 from chromium import LEAST_CONTRAST, least_contrast
 from mkdocs.structure.files import Files
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).resolve().parents[1]
 LOADS = {  # what a browser fetches by itself
     "img": ("src", "srcset"), "source": ("src", "srcset"), "script": ("src",), "iframe": ("src",),

@@ -50,6 +50,8 @@ from sim.reconcile.story_text import (
 from sim.report.story_terminal import show_progress, show_story
 from sim.support.command_line import run_command
 
+pytestmark = pytest.mark.slow
+
 BEFORE, AFTER = 16.2, 1.01  # [noises] of the story's log, worked out in the first test
 EXPLAINED = STORIES["explained"]
 PAGES = ("nothing missing", "explained", "damage and drag", "ambiguous", "unexplained")

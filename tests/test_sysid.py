@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 
+pytestmark = pytest.mark.slow
+
 
 def sysid(*arguments, folder):
     """Run the command as a process of its own."""

@@ -12,7 +12,7 @@ import pytest
 from sim.core.vocabulary import FOUR_TESTS
 from sim.report.next_test import ENOUGH
 
-pytestmark = pytest.mark.robot
+pytestmark = [pytest.mark.slow, pytest.mark.robot]
 pytest.importorskip("commands2", reason="RobotPy is not installed")
 pytest.importorskip("ntcore", reason="pyntcore is not installed")
 

@@ -10,6 +10,8 @@ import pytest
 
 from sim.physics.engine import compose, ieee_math
 
+pytestmark = pytest.mark.slow
+
 BLOCKED = """
 import importlib.abc, importlib.util, sys
 
