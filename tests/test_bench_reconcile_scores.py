@@ -1,9 +1,5 @@
 """How the benchmark of reconcile judges: hand-made answers, and the acceptance's own script."""
 
-import json
-import os
-import subprocess
-import sys
 from importlib import import_module
 
 import pytest
@@ -114,54 +110,3 @@ def test_the_table_says_what_was_named_for_what_and_which_goal_is_missed(modules
     assert met["dirty subtle: right effect first"] is None
     assert "9 clean realistic, drag: wrong, said delay (gap 4.00 to 1.1)" in text
     assert "4 noise floors before, 1.1 after" in text
-
-
-def test_gaps_are_those_of_right_names_alone(modules):
-    wrong = answer("delay", case="1")
-    wrong["said"]["gap_after"] = 9.0
-    key = {"0": truth("drag"), "1": truth("drag"), "2": truth(severity=None), "3": truth("unknown")}
-    flagged = answer(verdict="unexplained", case="3")
-    said = [answer("drag", case="0"), wrong, answer(case="2"), flagged]
-
-    scored = modules("scores").score(said, key)
-
-    assert modules("table").gaps(scored) == pytest.approx((4.0, 1.1))
-
-
-@pytest.mark.shared
-@pytest.mark.skipif(sys.platform == "win32", reason="a stand-in command is a shell script")
-def test_marks_are_those_of_the_acceptances_own_script(modules, shared, tmp_path):
-    """Every answer of ``JUDGED`` that is one, given by a stand-in ``sysid`` on the path."""
-    judged = {f"{n:03d}": row for n, row in enumerate(JUDGED.values())}
-    key = {name: truth(*effects) for name, (effects, _, _) in judged.items()}
-    for name, (_, said, _) in judged.items():
-        folder = tmp_path / "cases" / name
-        folder.mkdir(parents=True)
-        known = {"type": "simple", "travel": None}
-        (folder / "case.json").write_text(json.dumps(known), encoding="utf-8")
-        text = json.dumps(said["said"]) if said["said"] else "refused"
-        (folder / "said").write_text(text, encoding="utf-8")
-    (tmp_path / "cases" / "key.json").write_text(json.dumps(key), encoding="utf-8")
-    stand_in = tmp_path / "sysid"
-    stand_in.write_text('#!/bin/sh\ncat "$(dirname "$2")/said"\n', encoding="utf-8")
-    stand_in.chmod(0o755)
-    path = f"{tmp_path}{os.pathsep}{os.environ['PATH']}"
-    script = shared / "checks" / "reconcile_score.py"
-
-    run = subprocess.run(
-        [sys.executable, str(script), str(tmp_path / "cases"), "--json"],
-        env={**os.environ, "PATH": path}, capture_output=True, encoding="utf-8", check=True,
-    )  # fmt: skip
-
-    theirs = json.loads(run.stdout)
-    answers = [said | {"case": name} for name, (_, said, _) in judged.items()]
-    ours = modules("scores").shares(modules("scores").score(answers, key))
-    assert len(ours) == 4
-    for group, row in ours.items():
-        for mark, share in row.items():
-            if mark == "n":
-                assert theirs[group]["n"] == share
-            elif mark == "extra":
-                assert theirs[group]["extra name"] == round(share * row["n"])
-            else:
-                assert theirs[group].get(mark, 0) == round(share * row["n"])

@@ -168,15 +168,6 @@ def test_columns_of_other_names_are_read_when_one_says_which(tmp_path: Path, rea
     reads(refused.value)
 
 
-def test_repeated_times_are_dropped_with_a_doubt(tmp_path: Path) -> None:
-    text = f"{HEADER}\n" + "dynamic-forward,0,1,0,0\n" * 3 + "dynamic-forward,1,1,0,0\n"
-
-    log = read_text(tmp_path, text)
-
-    assert [len(run) for run in log.runs] == [2]
-    assert [doubt.code for doubt in log.doubts] == ["repeated-time"]
-
-
 def sampled(test: str, n: int, *, rng: np.random.Generator, **more: bool) -> Run:
     signals = {name: rng.normal(size=n) * 10.0 for name in SIGNALS[1:4]}
     signals |= {name: rng.normal(size=n) for name, wanted in more.items() if wanted}
@@ -223,29 +214,6 @@ def test_the_run_column_is_written_where_it_is_needed(
     assert [len(run) for run in sim.read(tmp_path / "log.csv").runs] == [2, 2]
 
 
-def test_positions_are_written_in_the_unit_of_the_log(tmp_path: Path) -> None:
-    run = Run("dynamic-forward", [0.0], [1.0], [3.048], [0.3048])
-
-    sim.write(Log((run,), units="feet"), tmp_path / "log.csv")
-
-    assert (tmp_path / "log.csv").read_text("utf-8").endswith(",0.0,1.0,10.0,1.0,simple,feet\n")
-
-
-@pytest.mark.parametrize(
-    "runs",
-    [
-        pytest.param((), id="no runs"),
-        pytest.param((Run("dynamic-forward", [], [], [], []),), id="empty run"),
-    ],
-)
-def test_what_rows_cannot_hold_is_not_written(tmp_path: Path, runs: tuple[Run, ...], reads) -> None:
-    with pytest.raises(BadRequest) as refused:
-        sim.write(Log(runs), tmp_path / "log.csv")
-    reads(refused.value)
-
-    assert list(tmp_path.iterdir()) == []
-
-
 @pytest.mark.shared
 def test_the_reference_logs_read_whole(shared: Path) -> None:
     paths = sorted(ANSWERS.glob("*.csv"))
@@ -257,17 +225,3 @@ def test_the_reference_logs_read_whole(shared: Path) -> None:
         rows = path.read_text("utf-8").strip().count("\n")
         assert sum(len(run) for run in log.runs) == rows
         assert log.doubts == ()
-
-
-def test_a_motor_asked_of_a_file_with_one_is_said_to_make_no_difference(tmp_path, reads):
-    path = tmp_path / "log.csv"
-    path.write_text(
-        "test,time_s,voltage,position,velocity\n"
-        "dynamic-forward,0,1,0,0\ndynamic-forward,0.02,1,0,0.1\n",
-        encoding="utf-8",
-    )
-
-    (doubt,) = sim.read(path, motor="left").doubts
-
-    assert doubt.code == "one-motor"
-    reads(doubt.message)

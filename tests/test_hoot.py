@@ -98,13 +98,6 @@ def test_without_owlet_it_is_said_how_to_get_the_log_read(hoot, monkeypatch, tmp
     assert "\n" not in str(refused.value)
 
 
-def test_a_wrong_variable_is_named(hoot, monkeypatch):
-    monkeypatch.setenv("SYSID_OWLET", "no-such-owlet")
-
-    with pytest.raises(UnreadableFile, match="no program no-such-owlet, which SYSID_OWLET names"):
-        read(hoot)
-
-
 @pytest.mark.parametrize(
     ("body", "said"),
     [
@@ -119,15 +112,6 @@ def test_what_owlet_cannot_convert_is_refused_in_its_words(hoot, owlet, body, sa
 
     assert said in refused.value.what
     assert ADVICE in refused.value.advice
-
-
-def test_a_broken_conversion_is_refused_by_the_name_of_the_log(hoot, owlet):
-    owlet("open(target, 'wb').write(b'WPILOG')")
-    with pytest.raises(UnreadableFile) as refused:
-        read(hoot)
-
-    assert refused.value.where.startswith(str(hoot))
-    assert "sysid-hoot" not in str(refused.value)
 
 
 def test_nothing_of_the_conversion_is_left_behind(hoot, owlet, tmp_path, monkeypatch):

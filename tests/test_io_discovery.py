@@ -245,21 +245,6 @@ def test_a_log_without_a_voltage_says_what_to_log(tmp_path):
     assert "AdvantageScope" in str(refused.value)
 
 
-def test_what_a_person_names_is_taken_whatever_else_there_is(tmp_path):
-    log = recorded()
-    log = replace(log, units="radians")
-    path = write(
-        tmp_path / "a.wpilog", log, AKIT, state="Tests",
-        more=(("odd", lambda run: run.position), ("odder", lambda run: run.velocity)),
-    )  # fmt: skip
-
-    read = sim.read(path, units="radians", entries={
-        "voltage": AKIT[0][0], "position": "odd", "velocity": "odder",
-    })  # fmt: skip
-
-    assert "signals-found" not in [doubt.code for doubt in read.doubts]
-
-
 @pytest.mark.parametrize("layout", ["table", "Name", "Key"])
 def test_a_csv_that_a_log_viewer_exported(tmp_path, layout):
     log = recorded()
@@ -321,13 +306,6 @@ def test_the_command_lists_entries_and_what_they_seem_to_be(tmp_path, capsys):
     assert capsys.readouterr().out.startswith("5 entries:\nstate ")
 
 
-def test_a_log_without_entries_says_so(tmp_path, capsys, reads):
-    sim.write(recorded(), tmp_path / "a.csv")
-
-    assert run_command(sysid, name="sysid", arguments=["entries", str(tmp_path / "a.csv")]) == 2
-    reads(capsys.readouterr().err)
-
-
 @pytest.mark.parametrize(
     "spelling",
     ["QUASISTATIC_FORWARD", "State.kQuasistaticForward", "Quasistatic Forward", "slow-forward"],
@@ -345,19 +323,6 @@ def test_tests_are_known_in_any_spelling(tmp_path, spelling):
     read = sim.read(logger.save(tmp_path / "a.wpilog"))
 
     assert [run.test for run in read.runs] == ["quasistatic-forward"]
-
-
-def test_a_sentence_that_speaks_of_a_test_names_none(tmp_path, reads):
-    logger = Logger()
-    logger.start("messages", "string")
-    logger.put("messages", 10, "starting quasistatic forward in the pit")
-    for name, _ in AKIT:
-        logger.start(name, "double")
-        logger.put(name, 20, 1.0)
-
-    with pytest.raises(MissingSignal) as refused:
-        sim.read(logger.save(tmp_path / "a.wpilog"))
-    reads(refused.value)
 
 
 def test_whole_numbers_and_units_in_brackets(tmp_path):
@@ -385,14 +350,6 @@ def test_one_position_serves_two_motors_that_have_a_voltage_each(tmp_path):
 
     assert list(sim.io.read_motors(path)) == ["/Lift/left", "/Lift/right"]
     same_gains(path, log)
-
-
-def test_units_of_phoenix_are_known_where_an_export_lost_them(tmp_path):
-    log = recorded()
-    path = export(tmp_path / "log.csv", log, PHOENIX, layout="table", state="Flywheel-State",
-                  factors=rotations(log))  # fmt: skip
-
-    assert same_gains(path, log).units == "rotations"
 
 
 def one_after_another(path, *, states):
@@ -491,12 +448,3 @@ def test_a_velocity_that_is_wrong_or_missing(tmp_path, capsys, spoiled, asked, r
     truth = fit(log).gains
     assert found["gains"]["kV"] == pytest.approx(truth["kV"], rel=0.02)
     assert found["gains"]["kA"] == pytest.approx(truth["kA"], rel=0.12)
-
-
-@pytest.mark.parametrize("scale", ["0", "nan", "inf"])
-def test_a_scale_that_is_none_is_refused(tmp_path, capsys, scale, reads):
-    sim.write(recorded(), tmp_path / "a.csv")
-    arguments = ["fit", str(tmp_path / "a.csv"), "--velocity-scale", scale]
-
-    assert run_command(sysid, name="sysid", arguments=arguments) == 2
-    reads(capsys.readouterr().err)

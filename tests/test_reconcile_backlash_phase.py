@@ -10,7 +10,7 @@ from sim.core.log import Log
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import levenberg_marquardt
-from sim.estimation.run_nuisance import BETWEEN, ON_ONE_SIDE, RunNuisance
+from sim.estimation.run_nuisance import RunNuisance
 from sim.estimation.run_records import make_run_records
 from sim.physics.engine import State
 from sim.physics.model import Model, Part
@@ -89,19 +89,6 @@ def test_each_run_is_begun_where_it_went_on_from(problem):
     )
 
 
-def test_a_second_look_is_nearer():
-    off = PredictionErrorProblem.from_records(
-        make_run_records(session(1, step=3.0, seed=2))
-    )  # -1, 0, 1 and -0.5
-    began = RunNuisance.at_first_samples(4).with_backlash_phase(np.array([-0.8, 0.2, 0.8, -0.7]))
-
-    seen = estimate_backlash_phase(off, at(off, nuisance=began))
-
-    assert seen.nuisance.backlash_phase == pytest.approx(
-        [one for _, one in BEGAN.values()], abs=0.05
-    )
-
-
 def test_a_start_that_was_told_amiss_is_gone_untold_too():
     problem = PredictionErrorProblem.from_records(
         make_run_records(begun_at([0.0] * len(BEGAN), step=6.0, seed=3))
@@ -119,31 +106,6 @@ def test_a_start_that_was_told_amiss_is_gone_untold_too():
 
     assert found.cost < base.cost - 5000.0
     assert not found.nuisance.has_backlash_phase
-
-
-def test_what_is_told_has_its_price(problem):
-    blind = at(problem)
-    seen = estimate_backlash_phase(problem, blind)
-    aside = np.count_nonzero(np.abs(seen.nuisance.backlash_phase) == 1.0)
-    between = np.count_nonzero(np.abs(seen.nuisance.backlash_phase) < 1.0)
-
-    assert aside > between > 0
-    price = float(np.sum(seen.nuisance.backlash_phase_costs))
-    assert price == pytest.approx(aside * ON_ONE_SIDE + between * BETWEEN)
-    innovations = problem.predict_errors(
-        seen.structure.model(seen.values), seen.nuisance, seen.kalman_filter
-    )
-    fit = problem._cost(problem.compute_covariance(innovations))
-    assert seen.cost == pytest.approx(fit + price)
-    assert score_estimate(problem, seen).bic > seen.cost  # and the values' own beside it
-
-
-def test_without_play_nothing_is_told_and_nothing_is_kept(problem):
-    stiff = at(problem, ModelStructure("simple"))
-    assert estimate_backlash_phase(problem, stiff) is stiff
-
-    told = estimate_backlash_phase(problem, at(problem)).nuisance
-    assert np.isnan(at(problem, ModelStructure("simple"), told).nuisance.backlash_phase).all()
 
 
 def test_play_is_named_wherever_its_runs_began_and_the_gap_closes():

@@ -7,11 +7,9 @@ import numpy as np
 import pytest
 from reconcile_made import based, bench, rubbing, session
 
-from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import compute_parameter_covariance, compute_standard_errors
 from sim.estimation.run_nuisance import RunNuisance
 from sim.reconcile import reconcile
-from sim.reconcile.candidates import refine_threshold
 from sim.reconcile.cross_validation import (
     Fold,
     compute_open_loop_errors,
@@ -70,40 +68,6 @@ def test_a_fold_without_samples_is_not_used_and_a_gap_of_nothing_is_no_gap(fitte
     assert math.isnan(gap.position)
 
 
-def test_some_runs_have_the_noise_and_the_priors_of_all(fitted):
-    problem, _ = fitted
-    bounded = replace(problem, max_process_noise=0.5, priors={"cogging.sine": 0.1})
-
-    some = bounded.select_runs([1, 3])
-    simulated = bounded.select_runs(range(4), compared=[1, 3])
-
-    assert (some.noise, some.max_process_noise, some.priors) == (problem.noise, 0.5, bounded.priors)
-    assert len(simulated.records) == 4
-    assert simulated.sample_count == some.sample_count > 0
-
-
-@pytest.mark.parametrize("every", [1, 5])
-def test_each_signal_counts_with_its_own_samples(fitted, every):
-    problem, point = fitted
-    seen = []
-    for record in problem.records:
-        measured = record.measurements.measured.copy()
-        measured[np.arange(len(measured)) % every > 0, 1] = np.nan
-        seen.append(replace(record, measurements=replace(record.measurements, measured=measured)))
-    rare = replace(problem, records=tuple(seen))
-    positions, velocities, both = rare.compared_counts
-    cov = np.array(point.innovation_cov)
-    wider = cov * np.array([[1.0, 1.1], [1.1, 1.21]])  # velocities a tenth larger
-
-    grown = rare._cost(wider) - rare._cost(cov)
-
-    assert positions == problem.sample_count
-    assert velocities == both
-    assert grown == pytest.approx(velocities * math.log(1.21))
-    if every == 1:
-        assert rare._cost(cov) == pytest.approx(positions * math.log(np.linalg.det(cov)))
-
-
 def test_standard_errors_are_those_of_the_covariance_and_say_what_is_not_known(fitted):
     problem, point = fitted
     structure = point.structure + "deadband"
@@ -117,20 +81,6 @@ def test_standard_errors_are_those_of_the_covariance_and_say_what_is_not_known(f
     assert list(errors.values()) == pytest.approx(np.sqrt(variance).tolist())
     assert unknown["deadband.band"] == math.inf
     assert unknown["kV"] == pytest.approx(errors["kV"], rel=0.05)
-
-
-def test_a_parameter_at_its_limit_ends_no_search(fitted):
-    problem, point = fitted
-    band = {**point.values, "deadband.band": 12.0}
-    late = {**point.values, "delay.lag": 0.5}
-    dead, delayed = (
-        problem.evaluate(ModelStructure("simple", (name,)), values, point.nuisance, 1.0)
-        for name, values in (("deadband", band), ("delay", late))
-    )
-
-    assert math.isfinite(dead.cost + delayed.cost)
-    assert refine_threshold(problem, dead).values["deadband.band"] <= 12.0
-    assert find_worst_window(problem, delayed).size > 0.0
 
 
 def test_windows_with_excluded_samples_do_not_count_as_windows_without_error(fitted):

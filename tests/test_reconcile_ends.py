@@ -10,7 +10,6 @@ from sim.estimation.model_structure import ModelStructure
 from sim.estimation.run_nuisance import RunNuisance
 from sim.estimation.run_records import make_run_records
 from sim.physics.model import Part
-from sim.reconcile import local_minimum
 from sim.reconcile.backward_elimination import remove_needless_effects, simplify_effects
 from sim.reconcile.candidates import score_estimate
 from sim.reconcile.cross_validation import (
@@ -83,23 +82,6 @@ def test_gains_that_are_far_off_are_found_from_where_much_seems_to_push(off):
     assert found.cost <= minimize(problem, begun).cost
     assert found.values == pytest.approx(GAINS, rel=0.02)
     assert found.process_noise < problem.noise.velocity**2
-
-
-def test_a_search_goes_on_as_long_as_it_gains(monkeypatch):
-    problem = PredictionErrorProblem.from_records(make_run_records(session(step=4.0)))
-    begun = at(problem, {"kS": 0.3, "kV": 0.8, "kA": 0.1})
-    costs = [begun.cost]
-
-    def halfway(problem, point):
-        values = {name: 0.5 * (point.values[name] + GAINS[name]) for name in GAINS}
-        found = problem.evaluate(point.structure, values, point.nuisance, point.process_noise)
-        costs.append(found.cost)
-        return found
-
-    monkeypatch.setattr(local_minimum, "minimize", halfway)
-
-    assert minimize_fully(problem, begun).cost == min(costs)
-    assert len(costs) > 3  # it was not enough once
 
 
 def test_an_effect_that_needs_fewer_parameters_by_now_gives_way_to_its_sister():

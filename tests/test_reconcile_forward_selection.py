@@ -124,16 +124,6 @@ def test_two_effects_that_mask_each_other_are_tried_as_a_pair(monkeypatch, score
     assert set(begun) <= {"spring"}
 
 
-@pytest.mark.parametrize(
-    "harmless", [weighed("inertia-change", 900.0, why=WIDENS),
-                 weighed("delay", 900.0, why=WIDENS, lag=0.001)],
-)  # fmt: skip
-def test_neither_a_passing_nor_an_everyday_effect_begins_a_pair(harmless):
-    done = [make_round("", gap=4.0, candidates=(harmless,))]
-
-    assert add_pair(DATA, done) is done
-
-
 # -- other paths ----------------------------------------------------------------------------------
 
 

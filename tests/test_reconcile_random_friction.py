@@ -9,7 +9,7 @@ from reconcile_made import rubbing
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import append_prior_rows, compute_standard_errors, make_joint_jacobian
-from sim.estimation.random_friction import compute_laplace_correction, get_friction_sd
+from sim.estimation.random_friction import get_friction_sd
 from sim.estimation.run_nuisance import RunNuisance
 from sim.estimation.run_records import make_run_records
 from sim.physics.engine import NO_CORRECTION, RunBatch, filter_runs
@@ -17,7 +17,6 @@ from sim.physics.model import Model, Part
 from sim.reconcile.cross_validation import (
     compute_open_loop_errors,
     compute_rms_gap,
-    find_parabola_minima,
 )
 from sim.reconcile.local_minimum import minimize, minimize_fully
 
@@ -82,36 +81,6 @@ def test_each_runs_friction_is_found_and_is_no_other_gain():
     )  # kS is their mean
 
 
-def test_what_pushes_at_random_is_not_made_of_friction():
-    """A search that had one friction for all runs would have to explain it by pushes."""
-    problem = session(SHARES)
-
-    found = minimize(problem, begun(problem))
-
-    assert found.process_noise < 0.05 * problem.noise.velocity**2
-
-
-def test_its_slope_is_of_the_size_by_which_friction_varies():
-    """A run about to move begins a sample sooner with hardly less friction."""
-    problem = session(SHARES)
-    found = minimize(problem, begun(problem))
-    nudged = [
-        problem.evaluate(found.structure, {**found.values, "kS": share * found.values["kS"]},
-                   found.nuisance, found.process_noise)
-        for share in (0.999, 0.9995, 1.0005, 1.001)
-    ]  # fmt: skip
-
-    prices = [
-        compute_laplace_correction(
-            get_friction_sd(one.values), problem.compute_friction_jacobian(one)
-        )
-        for one in (found, *nudged)
-    ]
-
-    assert np.ptp(prices) < 8.0  # of 53: a run begins to move at a sample, or at the next
-    assert prices[0] > 0.0
-
-
 def test_a_standard_error_knows_of_frictions_that_differ():
     """Of kS, which four runs with a twenty-fifth more or less each do not tell to a thousandth."""
     truths, errors = [], []
@@ -162,18 +131,6 @@ def test_a_gap_is_that_of_each_runs_own_friction_between_those_that_are_tried(sh
     assert plain > 1.02 * eased
 
 
-def test_a_gap_of_a_friction_that_is_beyond_all_bounds_stays_wide():
-    problem = session((1.4, 1.4, 1.4, 1.4))
-    point = begun(problem)
-
-    assert (
-        compute_rms_gap(
-            compute_open_loop_errors(problem, point, point.nuisance, own_friction=True)
-        ).velocity
-        > 3.0 * NOISE[1]
-    )
-
-
 def test_a_search_beside_an_effect_finds_both():
     wave = {"cosine": 0.12, "sine": 0.05, "turns": 3.0}
     problem = session(SHARES, Part("cogging", wave))
@@ -185,20 +142,3 @@ def test_a_search_beside_an_effect_finds_both():
     frictions = (found.values["kS"] + found.nuisance.friction_offset) / GAINS["kS"]
     assert frictions == pytest.approx(SHARES, abs=0.015)
     assert get_friction_sd(found.values) == pytest.approx(0.02, rel=0.05)
-
-
-@pytest.mark.parametrize(
-    ("values", "at"),
-    [
-        ((3.0, 1.0, 3.0), 0.0),
-        ((4.0, 1.0, 2.0), 0.25),
-        ((1.0, 1.0, 1.0), 0.0),  # nowhere
-        ((1.7e308, 1.6e308, 1.7e308), 0.0),  # a model that runs away, but for a little
-        ((math.inf, 1.0, 2.0), 0.0),
-        ((math.inf, math.inf, math.inf), 0.0),
-    ],
-)
-def test_the_likeliest_friction_is_where_a_parabola_is_lowest(values, at):
-    less, here, more = np.array(values)[:, None]
-
-    assert find_parabola_minima(less, here, more) == pytest.approx([at])

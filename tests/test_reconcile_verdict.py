@@ -16,13 +16,13 @@ from sim.estimation.model_structure import ModelStructure
 from sim.estimation.run_nuisance import RunNuisance
 from sim.estimation.run_records import make_run_records
 from sim.physics.engine import State
-from sim.physics.model import Model, Part
+from sim.physics.model import Model
 from sim.reconcile.candidates import score_estimate
 from sim.reconcile.cross_validation import Gap
 from sim.reconcile.findings import make_findings
 from sim.reconcile.judgement import judge_effects
 from sim.reconcile.model_selection import WIDENS
-from sim.reconcile.remarks import _describe_small_share, list_remarks, select_reported_rounds
+from sim.reconcile.remarks import list_remarks, select_reported_rounds
 from sim.reconcile.residual_tests.repeatability import RepeatedResidual
 from sim.reconcile.residual_tests.spectrum import SpectralPeak
 from sim.reconcile.residual_tests.summary import ResidualSummary
@@ -248,17 +248,6 @@ def test_no_effect_is_named_with_which_the_shown_log_is_missed_by_more(problem, 
     assert ("misses runs that were not fitted by more" in verdict[2]) is (size is None)
 
 
-@pytest.mark.parametrize(("without", "named"), [(1.001, True), (0.999, False)])
-def test_no_effect_is_named_with_which_runs_that_were_not_fitted_are_missed_by_more(
-    problem, without, named
-):
-    done = added(problem, ("drag", 1.0, without), values={**GAINS, "drag.drag": 0.03})
-
-    found = find_effects(problem, done, residuals=ResidualSummary())
-
-    assert [one.effect for one in found] == ["drag"] * named
-
-
 @pytest.mark.parametrize(
     ("onset", "until", "judged"),
     [
@@ -395,35 +384,3 @@ def test_a_joint_that_swings_within_a_sample_is_no_finding(problem, swings, judg
     found = judge_effects(problem, done, ResidualSummary(), damaged=False)
 
     assert [one.effect for one in found] == ["compliance"] * judged
-
-
-@pytest.mark.parametrize(("after", "told"), [(0.2, True), (0.9, False)])
-def test_what_is_in_the_model_and_not_named_is_told(problem, after, told):
-    onset = float(problem.records[0].clock) + 0.5
-    joins = {"extra": 0.02, "onset": onset, "until": LASTS, "shared": 0.0}
-    part = Part("inertia-change", joins)
-    values = {**GAINS, **{f"{part.effect}.{name}": value for name, value in joins.items()}}
-    done = rounds(problem, 5.0, values=values, structure=ModelStructure("simple") + part.effect)
-    start = float(problem.records[0].measurements.time[0]) + 0.5 + after
-    strange = ResidualSummary(worst_window=WorstWindow(20.0, 0, start, start + 0.1))
-
-    (said,) = list_remarks(problem, done, [], (), strange)
-
-    assert "inertia-change" in said
-    assert ("explains least" in said) is told
-    assert ("a little inertia-change" in said) is not told
-
-
-@pytest.mark.parametrize("gap", [1.1, 30.0])
-def test_a_search_that_was_stopped_is_told(problem, gap):
-    _, remainder, remains = reach_verdict(
-        [], rounds(problem, gap), problem, residuals=ResidualSummary(), complete=False, unit=METERS
-    )
-
-    assert remainder
-    assert "--effort" in remains
-
-
-@pytest.mark.parametrize(("share", "said"), [(0.2, "only 20%"), (0.002, "less than 1%")])
-def test_a_small_probability_is_never_zero(share, said):
-    assert _describe_small_share(share) == said

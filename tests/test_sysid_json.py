@@ -36,26 +36,6 @@ def test_rows_of_four_are_one_mechanism(tmp_path: Path, test: str, type_: str) -
         assert run.bus_voltage is None
 
 
-@pytest.mark.parametrize(
-    ("units", "per_rotation", "si"),
-    [
-        ("Meters", 0.5, 0.5),
-        ("Feet", 2.0, 2.0 * 0.3048),
-        ("Radians", 2.0 * np.pi, 2.0 * np.pi),
-        ("Degrees", 360.0, 2.0 * np.pi),
-        ("Rotations", 1.0, 2.0 * np.pi),
-    ],
-)
-def test_rotations_become_the_units_of_the_file_and_these_si(
-    tmp_path: Path, units: str, per_rotation: float, si: float
-) -> None:
-    log = read_json(tmp_path, sysid(4, "Simple", units=units, unitsPerRotation=per_rotation))
-
-    (run,) = log.list_runs_of_test("dynamic-forward")
-    assert log.units == units.lower()
-    assert run.velocity[-1] == pytest.approx(3.0 * si, rel=1e-15)
-
-
 def test_rows_of_six_have_the_battery_and_no_word_about_units(tmp_path: Path) -> None:
     log = read_json(tmp_path, document(6))
 
@@ -119,14 +99,6 @@ def test_a_drivetrain_is_the_mean_of_its_sides_or_the_one_asked_for(
         assert (run.bus_voltage is None) == (width == 9)
 
 
-def test_a_file_of_2020_that_says_nothing_is_a_drivetrain_by_its_two_sides(tmp_path: Path) -> None:
-    log = read_json(tmp_path, document(10) | {"track-width": document(10)["slow-forward"]})
-
-    assert log.type == "simple"
-    assert len(log.runs) == 4
-    assert only_doubt(log).code == "units-unknown"
-
-
 @pytest.mark.parametrize("words", [{"test": "Elevator", "units": "Feet"}, {"units": "Feet"}])
 def test_a_row_of_ten_whose_right_side_is_unused_is_one_mechanism(
     tmp_path: Path, words: dict[str, str]
@@ -167,32 +139,6 @@ def test_an_empty_run_and_an_unknown_one_are_doubted(tmp_path: Path) -> None:
         "empty-run": False,
         "unknown-run": True,
     }
-
-
-def test_a_gyro_that_gave_no_number_does_not_matter(tmp_path: Path) -> None:
-    made = sysid(9, "Drivetrain")
-    for row in made["slow-forward"]:
-        row[7] = row[8] = None
-
-    assert len(read_json(tmp_path, made).runs) == 4
-
-
-def test_a_mechanism_no_tool_wrote_is_doubted(tmp_path: Path) -> None:
-    log = read_json(tmp_path, sysid(4, "Catapult"))
-
-    assert (log.type, log.mechanism) == ("", "Catapult")
-    assert only_doubt(log).code == "unknown-mechanism"
-    assert "--type" in only_doubt(log).text
-
-
-def test_repeated_rows_are_dropped_with_a_doubt(tmp_path: Path) -> None:
-    made = sysid(4, "Simple")
-    made["fast-forward"].insert(5, made["fast-forward"][5])
-
-    log = read_json(tmp_path, made)
-
-    assert len(log.list_runs_of_test("dynamic-forward")[0]) == COUNT
-    assert only_doubt(log).code == "repeated-time"
 
 
 class Real(NamedTuple):

@@ -86,12 +86,6 @@ def test_the_first_loop_is_left_out_where_the_state_is_stamped_later(tmp_path: P
     np.testing.assert_allclose(run.velocity, v - back_v, rtol=1e-12)
 
 
-def test_the_same_test_twice_is_two_runs(tmp_path: Path) -> None:
-    log = sim.read(saved(tmp_path, tests=("dynamic-forward", "coast-forward", "dynamic-forward")))
-
-    assert [run.test for run in log.runs] == ["dynamic-forward", "coast-forward", "dynamic-forward"]
-
-
 def states(tmp_path: Path, *said: str) -> Path:
     """A log in which each word holds for ten loops."""
     logger = Logger()
@@ -147,13 +141,6 @@ def test_states_make_runs(
 
     assert [(run.test, len(run)) for run in log.runs] == runs
     assert codes(log) == doubts
-
-
-def test_unknown_states_are_named(tmp_path: Path) -> None:
-    log = sim.read(states(tmp_path, "dynamic-forward", "sprint-forward", "none"), units="meters")
-
-    assert "'sprint-forward'" in log.doubts[0].message
-    assert "quasistatic-forward" in log.doubts[0].message
 
 
 def test_a_run_of_one_sample_is_left_out_with_a_word(tmp_path: Path) -> None:

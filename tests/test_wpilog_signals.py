@@ -110,33 +110,6 @@ def test_a_missing_entry_is_named(
     reads(caught.value.advice)
 
 
-def test_an_entry_of_a_type_that_is_no_number_is_named(tmp_path: Path, reads) -> None:
-    logger = Logger()
-    routine(logger, Motor("main", leave_out=("voltage",)))
-    logger.start("voltage-main-Arm", "struct:Voltage")
-
-    with pytest.raises(MissingSignal) as refused:
-        sim.read(logger.save(tmp_path / "log.wpilog"))
-    reads(refused.value)
-
-
-def test_a_log_without_tests_says_how_to_get_some(tmp_path: Path, reads) -> None:
-    logger = Logger()
-    logger.start("voltage-main-Arm")
-    logger.put("voltage-main-Arm", 1, 1.0)
-    path = logger.save(tmp_path / "log.wpilog")
-
-    with pytest.raises(MissingSignal) as refused:
-        sim.read(path)
-    reads(refused.value)
-
-
-def test_a_state_that_names_no_test_is_quoted(tmp_path: Path, reads) -> None:
-    with pytest.raises(MissingSignal) as refused:
-        sim.read(saved(tmp_path, tests=("warming up",)))
-    reads(refused.value)
-
-
 def foreign(tmp_path: Path) -> Path:
     """The log of a logger with names of its own."""
     logger = Logger()
@@ -231,17 +204,3 @@ def test_a_value_that_is_no_measurement_is_refused(
 
     with pytest.raises(BadSample, match=f"dynamic-forward: {signal} is .* at sample 7"):
         sim.read(logger.save(tmp_path / "log.wpilog"), units="meters")
-
-
-@pytest.mark.shared
-def test_the_pivot_without_a_voltage_is_refused_by_name(shared: Path, reads) -> None:
-    path = shared / "data" / "real" / "sciborgs-2024-pivot-no-voltage.wpilog"
-
-    with pytest.raises(MissingSignal) as caught:
-        sim.read(path)
-
-    assert caught.value.where == str(path)
-    expected = "no voltage entry: expected 'voltage-<motor>-Pivot' (double)"
-    assert caught.value.what.startswith(expected)
-    assert "'/Robot/pivot/hardware/getPosition'" in caught.value.what
-    reads(caught.value.advice)
