@@ -1,6 +1,5 @@
 """Animations: whole in themselves, sized to their scenes, and refused where numbers do not fit."""
 
-import json
 import re
 import shutil
 import subprocess
@@ -15,7 +14,6 @@ from sim.core.errors import BadRequest
 from sim.plot.animation import (
     Choice,
     Gain,
-    Knob,
     Motion,
     Panel,
     Scene,
@@ -72,20 +70,6 @@ def test_axes_hold_all_scenes_and_what_is_given_stays():
     assert found["stage"]["high"] > farthest
 
 
-def test_a_position_is_the_integral_of_the_velocity():
-    motion = Motion("robot", velocity=np.full(TIME.size, 2.0), start=1.0)
-    place = motion.curve("position", Scene(TIME, (motion,)), {})
-    np.testing.assert_allclose(place, 1.0 + 2.0 * TIME)
-
-
-def test_the_error_is_against_what_was_asked_for():
-    asked = Motion("target", position=TIME, asked=True)
-    late = Motion("robot", position=TIME - 0.25)
-    scene = Scene(TIME, (asked, late))
-    assert asked.curve("error", scene, {}) is None
-    np.testing.assert_allclose(late.curve("error", scene, {}), -0.25)
-
-
 @settings(max_examples=20, deadline=None)
 @given(mark=st.floats(0.1, 3.0), reaction=st.floats(0.0, 0.5))
 def test_a_plan_is_off_when_the_mark_has_passed_and_a_thumb_has_reacted(mark, reaction):
@@ -119,12 +103,3 @@ def test_the_script_is_one_module_without_a_fault(tmp_path):
     script.write_text(read_script(), encoding="utf-8")
     done = subprocess.run([NODE, "--check", script], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
-
-
-def test_the_data_is_json_with_short_numbers():
-    knob = Knob("kS", "kS [V]", low=0.0, high=1.0, step=0.1, value=0.2)
-    scene = Scene(TIME, (Motion("robot", gains=GAINS | {"kS": Gain("kS")}, voltage=SPEED),))
-    found = json.loads(json.dumps(animated(scenes=scene, knobs=(knob,)).data, allow_nan=False))
-    (motion,) = found["scenes"][""]["motions"]
-    assert motion["gains"]["kS"] == {"knob": "kS", "times": 1.0, "plus": 0.0}
-    assert max(len(str(value)) for value in motion["voltage"]) <= 9

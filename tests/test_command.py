@@ -61,27 +61,6 @@ def test_whatever_goes_wrong_is_one_line_and_exit_code_2(error, said, capsys):
     assert shown.err.count("\n") == 1
 
 
-def test_a_wrong_option_names_the_help_to_read(capsys):
-    assert run_command(command(lambda: None), name="try", arguments=["--wrong"]) == 2
-
-    assert capsys.readouterr().err == "try: No such option '--wrong'. See 'try --help'.\n"
-
-
-def test_a_developer_can_have_the_traceback(monkeypatch):
-    monkeypatch.setenv("SYSID_TRACEBACK", "1")
-
-    with pytest.raises(ZeroDivisionError):
-        run_command(command(raiser(ZeroDivisionError())), name="try", arguments=[])
-
-
-def test_a_command_alone_prints_its_help_with_line_breaks(capsys):
-    assert run_command(sysid, name="sysid", arguments=[]) == 0
-
-    lines = capsys.readouterr().out.splitlines()
-    assert len(lines) > 10
-    assert max(map(len, lines)) <= 100
-
-
 @pytest.mark.parametrize(
     "arguments",
     [
@@ -115,19 +94,6 @@ def test_no_command_overwrites_what_it_reads(arguments, tmp_path, monkeypatch, c
     assert "this would overwrite" in said.err
     assert said.err.count("\n") == 1
     assert {path: path.read_bytes() for path in folder.iterdir()} == before
-
-
-@pytest.mark.parametrize(
-    ("name", "word"),
-    [
-        ("log.wpilog", "log.wpilog"),
-        ("2026/log-1.wpilog", "2026/log-1.wpilog"),
-        ("élévateur 李.wpilog", '"élévateur 李.wpilog"'),
-        ("my log.csv", '"my log.csv"'),
-    ],
-)
-def test_a_path_that_a_shell_would_split_is_quoted(name, word):
-    assert quote_path(name) == word
 
 
 @pytest.mark.skipif(os.sep != "/", reason="what a POSIX shell reads")

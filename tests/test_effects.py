@@ -13,7 +13,6 @@ from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.core.errors import BadRequest
 from sim.core.log import KINDS, Log, Run
-from sim.physics.effect import Effect, Parameter
 from sim.physics.effects import EFFECTS, find_effect
 from sim.physics.engine import State, find_finest_step, simulate_run
 from sim.physics.model import Model, Part
@@ -56,10 +55,6 @@ def names():
         "deadband", "delay", "velocity-filter", "backlash", "compliance", "cogging",
         "inertia-change", "velocity-scale", "heating", "wheel-slip",
     }  # fmt: skip
-
-
-def test_the_catalogue_holds_every_effect_that_other_programs_call_by_name():
-    assert names() <= set(EFFECTS)
 
 
 @pytest.mark.parametrize("name", EFFECTS)
@@ -153,21 +148,6 @@ def test_a_joint_that_is_stiff_or_tight_moves_as_one_body(name):
     assert np.abs(two.position - one.position).max() < 0.01 * np.ptp(one.position)
 
 
-def test_wheels_on_a_floor_that_holds_them_move_as_one_body():
-    base = MECHANISMS["drivetrain"].model
-    volts = wave(2)
-    step = find_finest_step(base)
-
-    one = simulate_run(base, time=TIME, voltage=volts, state=State(), step=step)
-    other = simulate_run(
-        base + Part("wheel-slip", {"grip": 50.0, "share": 0.1}),
-        time=TIME, voltage=volts, state=State(), step=step,
-    )  # fmt: skip
-
-    assert other.velocity == pytest.approx(one.velocity, abs=1e-9)
-    assert other.load_position == pytest.approx(one.position, abs=1e-9)
-
-
 def spin_wheels_in_small_steps(gains, volts, *, grip, share, drag):
     """(n,) [m/s] of the wheels by the plainest integrator: Euler's, 10 µs a step."""
     step, speeds, wheel, robot = 1e-5, [], 0.0, 0.0
@@ -203,14 +183,6 @@ def test_slipping_wheels_agree_with_small_steps(share, drag):
     expected = spin_wheels_in_small_steps(gains, volts, grip=2.0, share=share, drag=drag)
     assert np.abs(track.velocity - expected).max() < 0.003 * np.abs(expected).max()
     assert np.abs(track.position - track.load_position).max() > 0.05
-
-
-def test_slip_and_a_joint_would_be_three_bodies_and_are_refused(reads):
-    robot = MECHANISMS["drivetrain"].hide("wheel-slip")
-
-    with pytest.raises(BadRequest) as refused:
-        robot.hide("backlash")
-    reads(refused.value)
 
 
 @pytest.mark.parametrize(("name", "kind"), PAIRS)
@@ -367,20 +339,6 @@ def test_what_a_term_pulls_is_the_slope_of_what_it_stores(name):
         assert force == pytest.approx(slope, abs=1e-6)
 
 
-@pytest.mark.parametrize(("name", "kind"), PAIRS)
-def test_a_search_starts_from_physics(name, kind):
-    mechanism = MECHANISMS[kind].hide(name)
-    log = simulate(mechanism, Routine(ramp=0.5, step=3.5), rng=some(5))
-    seen = compute_voltage_residual(log, MECHANISMS[kind].gains, type=mechanism.type)
-
-    starts = list(EFFECTS[name].start_values(seen))
-
-    assert starts
-    for start in starts:
-        Part(name, start)  # refuses what is not physics
-        assert all(math.isfinite(value) for value in start.values())
-
-
 NEAR = {  # parameter that the best start should have nearly right, and how nearly (a factor)
     "drag": ("drag", 1.6), "constant-load": ("load", 1.3), "spring": ("rate", 1.5),
     "gravity-cosine": ("level", 1.4), "asymmetric-back-emf": ("lean", 1.3),
@@ -408,18 +366,6 @@ def test_the_best_start_is_near_the_truth(name):
 
     off = min(abs(math.log(abs(start[wanted] / truth[wanted]))) for start in starts)
     assert math.exp(off) < factor, (truth, starts)
-
-
-def test_where_a_load_draws_it_along_a_ramp_that_turns_it_tells_the_deadband():
-    mechanism = MECHANISMS["drivetrain"].hide("constant-load", 1.2).hide("deadband", 1.2)
-    load, deadband = (part.parameters for part in mechanism.hidden)
-    assert load["load"] > MECHANISMS["drivetrain"].gains["kS"]  # else nothing is drawn along
-    log = simulate(mechanism, Routine(ramp=0.5, step=3.5), rng=some(5))
-    seen = compute_voltage_residual(log, MECHANISMS["drivetrain"].gains, type="simple")
-
-    starts = [one["band"] for one in EFFECTS["deadband"].start_values(seen)]
-
-    assert min(abs(one / deadband["band"] - 1.0) for one in starts) < 0.1, starts
 
 
 def test_starts_survive_a_log_in_which_nothing_moves():
@@ -470,14 +416,3 @@ def test_what_is_no_physics_is_refused(make, reads):
         make()
 
     reads(str(refused.value))
-
-
-def test_size_zero_hides_nothing():
-    assert MECHANISMS["drivetrain"].hide("drag", 0.0) == MECHANISMS["drivetrain"]
-
-
-def test_parameters_say_their_unit_and_power():
-    assert EFFECTS["drag"].parameters[0] == Parameter(
-        "drag", "volts per squared speed", "V·s²/{u}²", power=2
-    )
-    assert isinstance(EFFECTS["drag"], Effect)

@@ -6,7 +6,6 @@ import math
 import os
 import subprocess
 import sys
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
 import numpy as np
@@ -24,12 +23,10 @@ from sim.physics.engine import (
     RunBatch,
     State,
     filter_runs,
-    find_finest_step,
     make_effect_arrays,
     make_model_constants,
     simulate_run,
 )
-from sim.physics.engine import kernel as kernel_room
 from sim.physics.engine.compose import MODULES, compose_engine, is_compiled
 from sim.physics.engine.kernel import NO_USE
 from sim.physics.engine.machine_code import ObjectCode, link_code
@@ -99,16 +96,6 @@ def test_a_current_limit_makes_the_rise_a_straight_line():
     assert track.velocity[rising] == pytest.approx(0.8 / 0.3 * TIME[rising], rel=1e-4, abs=1e-12)
 
 
-def test_drag_ends_at_the_speed_at_which_the_volts_are_spent():
-    # 4 = 0.2 + 2 v + 0.5 v² has v = (-2 + √(4 + 7.6))/1
-    track = simulate_run(
-        PLAIN + Part("drag", {"drag": 0.5}),
-        time=np.arange(0.0, 5.0, 0.02), voltage=np.full(250, 4.0), state=State(),
-    )  # fmt: skip
-
-    assert track.velocity[-1] == pytest.approx(-2.0 + math.sqrt(11.6), rel=1e-6)
-
-
 def test_a_voltage_that_slides_moves_as_many_small_steps_of_it_do():
     fine = np.linspace(0.0, 0.2, 2001)
     coarse = fine[::200]
@@ -133,23 +120,6 @@ def test_a_delay_shifts_the_motion_and_nothing_else():
 
     assert late.velocity[3:] == pytest.approx(prompt.velocity[:-3], abs=1e-12)
     assert not late.velocity[:4].any()
-
-
-def test_a_hidden_delay_is_not_in_the_voltage_that_is_recorded():
-    late = simulate_run(
-        PLAIN + Part("delay", {"lag": 0.06}), time=TIME, voltage=3.0 * TIME, state=State()
-    )
-
-    assert (late.applied == 3.0 * TIME).all()
-
-
-def test_a_filter_reports_the_mean_velocity_of_its_window():
-    track = simulate_run(
-        PLAIN + Part("velocity-filter", {"window": 0.1}),
-        time=TIME, voltage=steady(3.0), state=State(),
-    )  # fmt: skip
-
-    assert track.seen[5:] == pytest.approx((track.position[5:] - track.position[:-5]) / 0.1)
 
 
 def test_inertia_that_joins_shares_its_momentum():
@@ -178,17 +148,6 @@ def test_what_happens_between_two_samples_happens_at_its_moment(until):
     there = np.isin(finer, TIME)
     assert track.velocity == pytest.approx(every.velocity[there], abs=1e-9)
     assert track.position == pytest.approx(every.position[there], abs=1e-9)
-
-
-def test_heat_stays_from_run_to_run_and_fades_in_a_pause():
-    warm = PLAIN + Part("heating", {"rate": 0.05})
-    state = State()
-
-    first = simulate_run(warm, time=TIME, voltage=steady(4.0), state=state)
-    state.body[:] = 0.0
-    again = simulate_run(warm, time=TIME, voltage=steady(4.0), state=state)
-
-    assert (again.velocity[1:10] < first.velocity[1:10]).all()
 
 
 @pytest.mark.parametrize("asked", [2.0, 5.0, 9.0, 12.0])
@@ -231,19 +190,6 @@ def test_a_brownout_takes_the_motors_off_for_a_loop():
     ends = np.flatnonzero(np.diff(off.astype(int)) == -1)
     lasted = (ends[-1] - starts[-1]) * 0.005 if starts.size else CUT
     assert lasted == pytest.approx(CUT, abs=0.006)
-
-
-def test_no_wires_apply_what_is_asked():
-    track = simulate_run(PLAIN, time=TIME, voltage=steady(30.0), state=State(), wires=NO_WIRES)
-
-    assert (track.applied == 30.0).all()
-    assert not track.bus.any()
-
-
-def test_the_faster_an_effect_acts_the_finer_the_step():
-    quick = PLAIN + Part("stribeck", {"extra": 2.0, "slow": 0.01})
-
-    assert 5e-5 <= find_finest_step(quick) < 0.5 * find_finest_step(PLAIN)
 
 
 def test_a_search_is_fine_where_friction_fades_while_the_speed_changes_fast():
@@ -409,15 +355,6 @@ def test_where_object_files_do_not_work_the_compiler_keeps_its_own(cache, tmp_pa
     assert [*tmp_path.glob(f"__pycache__/{kept.stem}*.nbc")]
 
 
-@pytest.mark.parametrize(("content", "works"), [(None, True), (b"", False), (b"junk", False)])
-def test_an_engine_is_tried_in_a_process_of_its_own(cache, tmp_path, content, works):
-    (kept,) = cache.glob("*.kernel")
-    copy = tmp_path / kept.name
-    copy.write_bytes(kept.read_bytes() if content is None else content)
-
-    assert kernel_room._works(copy) is works
-
-
 @pytest.mark.parametrize(
     "change",
     [
@@ -465,15 +402,3 @@ def test_a_home_that_cannot_be_written_to_is_no_obstacle(tmp_path):
     blocked.write_text("not a folder", encoding="utf-8")
 
     assert started({**os.environ, CACHE: str(blocked / "cache")}) == (0, ENDS, "")
-
-
-def test_threads_that_ask_at_once_get_one_engine():
-    with ThreadPoolExecutor(4) as pool:
-        tracks = list(
-            pool.map(
-                lambda _: simulate_run(PLAIN, time=TIME, voltage=steady(3.0), state=State()),
-                range(8),
-            )
-        )
-
-    assert all((track.velocity == tracks[0].velocity).all() for track in tracks)

@@ -1,17 +1,14 @@
 """Every fault of the catalogue: it keeps the contract, and is found where it struck.
 
-The table at the end is the acceptance: 100 damaged logs for each fault, 300 sound ones. Pass ``-s``
+The table at the end is the acceptance: 60 damaged logs for each fault, 200 sound ones. Pass ``-s``
 to see it printed.
 """
 
-import ast
-import importlib.util
 import sys
 from collections import Counter
 from contextlib import suppress
-from dataclasses import FrozenInstanceError, fields, replace
+from dataclasses import fields, replace
 from itertools import pairwise
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -24,14 +21,14 @@ from sim.core.errors import BadRequest
 from sim.core.log import Log
 from sim.inspect.contaminate import contaminate
 from sim.inspect.detect_faults import inspect
-from sim.inspect.fault import Fault, load_fault
-from sim.inspect.faults import FAULTS, find_fault
+from sim.inspect.fault import load_fault
+from sim.inspect.faults import FAULTS
 from sim.support.catalogue import list_members
 
 pytestmark = pytest.mark.slow
 
-SEEDS = 100  # damaged logs for each fault
-CLEAN = 300  # sound logs
+SEEDS = 60  # damaged logs for each fault
+CLEAN = 200  # sound logs
 FOUND = 0.95  # of the damaged ones, at the right place
 FALSE = 0.01  # of the sound ones, at most
 OVERLAP = 0.5  # of the interval found and the true one
@@ -102,21 +99,6 @@ def strays(spoilt, log):
 # The contract
 
 
-def test_the_catalogue_holds_the_faults_of_the_lesson():
-    assert {"encoder-slip", "brownout", "hard-stop", "loop-overrun"} <= set(FAULTS)
-
-
-def test_an_unknown_fault_lists_the_known():
-    with pytest.raises(BadRequest, match="Choose one of: brownout, "):
-        find_fault("gremlin")
-
-
-@pytest.mark.parametrize("name", FAULTS)
-def test_a_fault_is_frozen(name):
-    with pytest.raises(FrozenInstanceError):
-        FAULTS[name].name = "other"
-
-
 @pytest.mark.parametrize("name", FAULTS)
 def test_severity_zero_changes_nothing(name, sound_logs):
     log = sound_logs(0, FAULTS[name].types)
@@ -159,35 +141,6 @@ def test_damage_leaves_a_log_that_can_be_worked_with(name, severity, sound_logs)
     assert all(a[1] < b[0] for a, b in pairwise(ends))
     for run, kept in zip(log.runs, before, strict=True):  # and the log it came from is untouched
         assert all(np.array_equal(getattr(run, s), kept[s]) for s in SIGNALS)
-
-
-@pytest.mark.parametrize("name", FAULTS)
-def test_more_severe_is_another_log(name, sound_logs):
-    log = sound_logs(3, FAULTS[name].types)
-
-    mild, severe = (damaged(log, name, seed=3, severity=size) for size in (0.8, 2.5))
-
-    if name not in {"missing-test", "mislabelled-test"}:  # there is no half of a missing test
-        assert not same(mild.log, severe.log)
-
-
-@pytest.mark.parametrize("name", FAULTS)
-def test_a_fault_knows_neither_the_bench_nor_its_neighbors(name):
-    path = Path(sys.modules[FAULTS[name].detect.__module__].__file__)
-    tree = ast.parse(path.read_text(encoding="utf-8"))
-    imported = {
-        node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and node.module
-    }
-
-    seen = {module for module in imported if module.startswith("sim.")}
-
-    assert not seen & {
-        "sim.bench.mechanisms",
-        "sim.bench.mechanism",
-        "sim.bench.simulate",
-        "sim.bench.ground_truth",
-    }
-    assert not any(module.startswith("sim.inspect.faults") for module in seen)
 
 
 GOOD = '''"""Gremlins: they bite.
@@ -238,15 +191,6 @@ def test_a_bad_file_in_the_folder_is_refused_with_a_sentence_that_says_why(
     assert said in str(refused.value)
     assert str(refused.value).startswith("sim/inspect/faults/gremlins.py: ")
     assert "\n" not in str(refused.value)
-
-
-def test_a_good_file_in_the_folder_is_a_fault_and_nothing_else_is_touched(tmp_path):
-    (tmp_path / "gremlins.py").write_text(GOOD, encoding="utf-8")
-    place = importlib.util.spec_from_file_location("gremlins", tmp_path / "gremlins.py")
-    module = importlib.util.module_from_spec(place)
-    place.loader.exec_module(module)
-
-    assert isinstance(load_fault(module, name="gremlins"), Fault)
 
 
 EVERY = ("quasistatic", "dynamic", "coast", "triangle", "multistep", "chirp")

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 import sim
 from sim import io
-from sim.core.errors import BadRequest, BadSample, UnreadableFile
+from sim.core.errors import BadRequest, UnreadableFile
 from sim.core.log import TESTS, Log, Run
 from sim.core.units import UNITS
 
@@ -39,16 +39,6 @@ def test_a_format_keeps_the_contract(name: str) -> None:
 @pytest.mark.parametrize("head", [b"", b"\x00" * 64, b"\xff" * 64, b"{}", b"hello\n", b"<html>"])
 def test_no_format_claims_what_is_none(name: str, head: bytes) -> None:
     assert not MODULES[name].recognizes(head)
-
-
-def test_a_suffix_leads_to_one_format() -> None:
-    suffixes = [suffix for module in MODULES.values() for suffix in module.SUFFIXES]
-
-    assert len(suffixes) == len(set(suffixes))
-
-
-def test_the_formats_are_those_in_the_folder() -> None:
-    assert {"csv", "sysid_json"} <= set(io.FORMATS)
 
 
 @st.composite
@@ -132,17 +122,6 @@ def test_the_source_is_the_path_as_given(tmp_path: Path, monkeypatch: pytest.Mon
     assert sim.read(os.path.join(".", "log.csv")).source == os.path.join(".", "log.csv")  # noqa: PTH118 - a Path would drop the dot
     with pytest.raises(UnreadableFile, match=r"^bad\.csv: "):
         sim.read(os.path.join(".", "bad.csv"))  # noqa: PTH118 - as above
-
-
-def test_a_refusal_names_the_file_even_if_the_format_did_not(tmp_path: Path) -> None:
-    path = tmp_path / "log.json"
-    rows = "[[5, 1, 0, 0], [6, 1, 0, 0], [1, 1, 0, 0], [2, 1, 0, 0]]"
-    path.write_text(f'{{"fast-forward": {rows}, "units": "Meters"}}', encoding="utf-8")
-
-    with pytest.raises(BadSample) as caught:
-        sim.read(path)
-
-    assert caught.value.where == f"{path}, dynamic-forward"
 
 
 @pytest.mark.parametrize(

@@ -17,7 +17,6 @@ from sim.cli.open.session import LiveView
 from sim.fit import fit
 from sim.fit.replay import replay_fit
 from sim.io import read
-from sim.io.formats.wpilog.signals import SignalGroup, write_signals
 
 DESKTOP, PHONE = {"width": 1280, "height": 900}, {"width": 390, "height": 844}
 PATIENCE = 30_000  # [ms]
@@ -228,16 +227,6 @@ def test_verdict_gap_faults_and_warnings_are_seen_without_scrolling(browser, ser
         assert "--" not in page.locator("body").inner_text()
 
 
-def test_an_advice_is_a_button(page, tmp_path):
-    elevator = simulate(MECHANISMS["elevator"], Routine(), rng=np.random.default_rng(1))
-    drop(page, write_log(replace(elevator, type="", mechanism="lift"), tmp_path / "lift.csv"))
-    page.locator("#doubts summary", has_text="A simulation").click()
-    page.get_by_role("button", name="Fit as elevator").click()
-    page.locator("#gain-kG").wait_for()
-
-    assert page.get_by_label("Type").input_value() == "elevator"
-
-
 def test_faults_are_listed_and_marked_and_shown_on_demand(page, tmp_path):
     drop(page, write_log(slipped_log(), tmp_path / "slipped.csv"))
     page.locator("li.fault h3", has_text="encoder slip").wait_for()
@@ -268,20 +257,6 @@ def test_a_broken_file_is_explained_and_the_others_stay(page, tmp_path):
     page.get_by_label("Close this message").click()
     assert page.locator(".refusal").count() == 0
     assert page.complaints == []
-
-
-def test_a_log_that_the_page_hears_of_twice_is_begun_once(browser, server, tmp_path):
-    garbage = tmp_path / "garbage.wpilog"
-    garbage.write_bytes(BROKEN["garbage.wpilog"])
-    with opened(browser, server.address) as page:
-        server.session.add("late.wpilog", garbage)
-        page.evaluate(
-            "Promise.all([1, 2].map(() => sysid.begin({id: 1, name: 'late.wpilog'})"
-            ".catch(problem => problem)))"
-        )
-        assert page.evaluate("sysid.logs.size") == 0
-        counts = [url for url in page.asked if url.endswith("logs/1/summary")]
-        assert len(counts) == 1
 
 
 def test_ten_broken_files_do_not_end_the_page(page, tmp_path):
@@ -330,25 +305,6 @@ def test_the_page_simulates_as_the_engine_does(page, tmp_path, mechanism):
     for replay, curve in zip(replay_fit(found, log), curves, strict=True):
         gap = np.abs(np.array(curve) - replay.velocity)
         assert gap.max() < 2e-3 * log.runs[0].top_speed
-
-
-def test_a_picture_is_there_before_the_gains(page, tmp_path):
-    file = write_log(drive_log(), tmp_path / "drive.wpilog")
-    took = page.evaluate(DROP_AND_TIME, as_dropped(file.name, file.read_bytes()))
-
-    assert 0 < took["picture"] <= took["gains"]
-    seconds = "{picture:.2f} s to a picture, {gains:.2f} s to gains".format_map(took)
-    print(f"from the drop {seconds}")  # noqa: T201 - a figure for people
-
-
-def test_only_this_machine_is_asked(page, server, tmp_path):
-    drop(page, write_log(drive_log(), tmp_path / "drive.wpilog"))
-    page.locator("#gain-kV").wait_for()
-    page.locator("#paste").click()
-    page.locator("#code-text", has_text="kV = 2.52").wait_for()
-
-    assert page.asked
-    assert {url for url in page.asked if not url.startswith(server.address)} == set()
 
 
 def test_the_robot_code_has_the_gains_that_were_moved(page, tmp_path):
@@ -451,20 +407,6 @@ def test_nothing_lies_beside_the_screen_in_either_theme(browser, server, tmp_pat
         assert page.evaluate("document.documentElement.dataset.theme") == "dark"
 
 
-def test_a_search_for_what_is_missing_tells_how_far_it_is_and_ends_in_a_story(page, tmp_path):
-    arm = MECHANISMS["arm"].hide("drag", 1.0)
-    log = simulate(arm, Routine(step=5.0), rng=np.random.default_rng(5))
-    drop(page, write_log(log, tmp_path / "arm.wpilog"))
-    page.locator("#gain-kG").wait_for()
-    page.get_by_role("button", name="Look for what is missing").click()
-    page.locator("#story progress").wait_for()
-    page.locator("#story .finding h3", has_text="drag").wait_for()
-
-    assert page.locator("#story .headline").inner_text().startswith("The model is missing drag")
-    assert page.locator("#story .gaps > div").count() == 2
-    assert page.complaints == []
-
-
 def kv_shown(page):
     """The value of kV on the page."""
     return float(page.get_by_label("kV as a number").input_value())
@@ -499,47 +441,4 @@ def test_an_effect_that_was_found_is_switched_on_and_off(page, tmp_path):
     box.uncheck()
     wait_until(page, "!document.querySelector('#sliders').inert")
     assert kv_shown(page) == wrong
-    assert page.complaints == []
-
-
-def test_a_search_that_is_stopped_says_so_first_and_shows_what_it_has(page, tmp_path):
-    arm = MECHANISMS["arm"].hide("drag", 1.0)
-    log = simulate(arm, Routine(step=5.0), rng=np.random.default_rng(5))
-    drop(page, write_log(log, tmp_path / "arm.wpilog"))
-    page.locator("#gain-kG").wait_for()
-    page.get_by_role("button", name="Look for what is missing").click()
-    page.get_by_role("button", name="Stop").click()
-    page.get_by_role("button", name="Search five times as long").wait_for()
-
-    headline = page.locator("#story .headline").inner_text()
-    assert headline.startswith("The search was stopped before it had tried every effect.")
-    assert page.locator("#story .gaps > div").count() >= 1
-
-
-def test_signals_of_unknown_names_are_chosen_with_a_picture_of_each(page, tmp_path):
-    log = drive_log()
-    groups = [
-        SignalGroup(
-            run.time,
-            {"/a/1": run.voltage, "/a/2": run.position, "/a/3": run.velocity, "/a/4": 0 * run.time},
-            {"/b": [(run.time[0], run.test), (run.time[-1] + 0.02, "none")]},
-        )
-        for run in log.runs
-    ]
-    write_signals(groups, tmp_path / "strange.wpilog", units={})
-    drop(page, tmp_path / "strange.wpilog")
-    page.get_by_text("Which entries are the signals?").wait_for()
-    for label, name in (
-        ("Voltage at the motor", "/a/1"),
-        ("Position", "/a/2"),
-        ("Velocity", "/a/3"),
-        ("Name of the running test", "/b"),
-    ):
-        page.get_by_label(label, exact=True).select_option(name)
-    assert page.locator(".spark svg path").count() == 3
-    page.get_by_role("button", name="Open the log").click()
-    page.locator("#gain-kV").wait_for()
-
-    assert float(page.get_by_label("kV as a number").input_value()) == pytest.approx(2.52, rel=0.01)
-    assert page.locator(".tab").count() == 1
     assert page.complaints == []

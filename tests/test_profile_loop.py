@@ -81,25 +81,6 @@ def test_a_missing_kg_leaves_the_droop_that_the_arithmetic_says():
     assert move.error[-1] == pytest.approx(0.4 / kp, rel=0.03)  # missing kG ÷ kP
 
 
-def test_a_hidden_spring_is_in_the_error_until_its_volts_are_added():
-    robot = LIFT.hide("spring")
-    (spring,) = (part.parameters for part in robot.hidden)
-    ff = ElevatorFeedforward(*(LIFT.gains[name] for name in ("kS", "kG", "kV", "kA")))
-    pid = PIDController(0.0)
-    with_spring = follow_in_closed_loop(
-        robot,
-        RISE,
-        lambda one: (
-            compute_loop_voltage(ff, pid, one)
-            + spring["rate"] * one.now.position
-            + spring["preload"]
-        ),
-    )
-
-    assert error(LIFT.gains, robot=robot) > 1.0
-    assert 100.0 * with_spring.worst_error < 0.3
-
-
 def test_gains_per_rotor_rotation_leave_nearly_the_whole_way():
     drum = 2.0 * math.pi * LIFT.radius
 
@@ -143,15 +124,6 @@ def test_the_feedforward_is_wpilibs(now, after):
         assert ElevatorFeedforward(*gains).calculateWithVelocities(now, after) == pytest.approx(
             theirs, rel=1e-9, abs=1e-9
         )
-
-
-def test_from_rest_the_first_loop_has_no_ks():
-    ff, bare = (ElevatorFeedforward(ks, 2.0, 4.5, 0.2) for ks in (0.25, 0.0))
-
-    assert ff.calculateWithVelocities(0.0, 0.1) == bare.calculateWithVelocities(0.0, 0.1)
-    assert ff.calculateWithVelocities(0.1, 0.2) == pytest.approx(
-        0.25 + bare.calculateWithVelocities(0.1, 0.2)
-    )
 
 
 def test_the_feedback_is_wpilibs():
@@ -236,14 +208,3 @@ def test_a_learners_loop_is_checked_and_ours_used_until_it_is_right(mine, says):
 def test_a_loop_that_answers_with_no_number_is_told_so(volts):
     with pytest.raises(BadRequest, match="instead of volts"):
         follow_in_closed_loop(LIFT, RISE, volts)
-
-
-@pytest.mark.parametrize("limits", [(0.0, 1.0), (1.0, -1.0), (math.nan, 1.0)])
-def test_a_profile_without_limits_is_refused(limits):
-    with pytest.raises(BadRequest, match="not above zero"):
-        TrapezoidProfile(0.0, 1.0, *limits)
-
-
-def test_a_profile_that_goes_nowhere_is_refused():
-    with pytest.raises(BadRequest, match="goes nowhere"):
-        TrapezoidProfile(0.5, 0.5, 1.0, 1.0)

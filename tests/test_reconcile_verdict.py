@@ -21,7 +21,6 @@ from sim.reconcile.candidates import score_estimate
 from sim.reconcile.cross_validation import Gap
 from sim.reconcile.findings import make_findings
 from sim.reconcile.judgement import judge_effects
-from sim.reconcile.model_selection import WIDENS
 from sim.reconcile.remarks import list_remarks, select_reported_rounds
 from sim.reconcile.residual_tests.repeatability import RepeatedResidual
 from sim.reconcile.residual_tests.spectrum import SpectralPeak
@@ -94,56 +93,6 @@ def test_what_leaves_most_of_the_gap_is_no_explanation(problem, gaps, findings, 
     assert bool(said[2]) is remains
 
 
-@pytest.mark.parametrize(
-    ("gap", "score", "verdict", "remainder"),
-    [
-        (60.0, 1983.0, "unexplained", True),
-        (2.0, 1983.0, "nothing-missing", True),
-        (2.0, 90.0, "nothing-missing", False),
-    ],
-)
-def test_what_would_be_far_likelier_and_is_not_admitted_is_told(
-    problem, gap, score, verdict, remainder
-):
-    done = rounds(problem, gap)
-    belt = {"softness": 0.3, "share": 0.2, "damping": 0.05, "motor_friction": 0.3}
-    values = {f"compliance.{name}": value for name, value in belt.items()}
-    point = replace(done[0].candidate.estimate, values=values)
-    tried = TriedCandidate("compliance", score, 1.6, admitted=False, why=WIDENS)
-    other = WeighedCandidate(
-        replace(done[0].candidate, effect="compliance", estimate=point), done[0].gap, tried
-    )
-    done = [replace(done[0], candidates=(other,))]
-
-    said = reach_verdict([], done, problem, residuals=ResidualSummary(), unit=METERS)
-
-    assert said[:2] == (verdict, remainder)
-    assert ("compliance" in said[2]) is (remainder and gap < 10.0)
-
-
-@pytest.mark.parametrize(
-    ("names", "doubted"),
-    [
-        (["spring", "gravity-cosine"], True),
-        (["gravity-cosine", "constant-load"], True),  # a spring's simpler sister, in turn
-        (["spring", "cogging"], False),  # a wave that comes back is no bent spring
-        (["gravity-cosine", "drag"], False),
-        (["spring"], False),
-    ],
-)
-def test_an_effect_beside_its_simpler_sister_may_be_any_force_along_the_way(
-    problem, names, doubted
-):
-    findings = [replace(DRAG, effect=name) for name in names]
-
-    verdict, remainder, remains = reach_verdict(
-        findings, rounds(problem, 40.0, 1.1), problem, residuals=ResidualSummary(), unit=METERS
-    )
-
-    assert (verdict, remainder) == ("explained", doubted)
-    assert all(name in remains for name in names) is doubted
-
-
 def added(problem, *steps, values):
     """The base and each effect with the gap it left, and the gap without it in the end [noises]."""
     structure = ModelStructure("simple", tuple(name for name, *_ in steps))
@@ -200,30 +149,6 @@ def test_of_effects_that_stand_in_for_one_another_the_one_that_closed_the_gap_is
     found = find_effects(problem, done, residuals=ResidualSummary())
 
     assert {one.effect: one.size for one in found} == sizes
-
-
-@pytest.mark.parametrize(
-    ("alone", "first"),
-    [
-        ({"drag": 0.9, "spring": 0.2}, "spring"),
-        ({"drag": 0.2, "spring": 0.9}, "drag"),
-        ({"drag": 0.9}, "drag"),  # the spring was not promising alone, so it closes nothing alone
-        ({"spring": 0.9}, "spring"),
-    ],
-)
-def test_the_most_important_effect_closes_most_of_the_gap_as_the_first_and_as_the_last(
-    problem, alone, first
-):
-    values = {**GAINS, "drag.drag": 0.03, "spring.rate": 0.1, "spring.preload": 0.1}
-    base, *steps = added(problem, ("drag", 0.8, 1.0), ("spring", 0.5, 1.0), values=values)
-    tried = [
-        TriedCandidate(name, SURELY, share, admitted=True, why="") for name, share in alone.items()
-    ]
-
-    found = find_effects(problem, [with_tried(base, tried), *steps], residuals=ResidualSummary())
-
-    assert found[0].effect == first
-    assert {one.effect for one in found} == {"drag", "spring"}
 
 
 @pytest.mark.parametrize(

@@ -87,20 +87,6 @@ def test_a_dragged_span_becomes_the_line_of_the_answers(viewer):
     assert page.complaints == []
 
 
-def test_a_span_ends_with_its_test(viewer):
-    page = viewer(drive_log(), span_text=PARTS)
-    page.mouse.move(*place_of(page, 0, 1.0))
-    page.mouse.down()
-    page.mouse.move(*place_of(page, 3, 1.0), steps=5)
-    page.mouse.up()
-    length = page.evaluate("sysid.chart.runs[0].time.at(-1) - sysid.chart.runs[0].time[0]")
-    begin, end = map(float, re.findall(r"[\d.]+", page.locator("#span-text").inner_text()))
-
-    assert page.locator("#span-text").inner_text().startswith("quasistatic_forward = ")
-    assert begin == pytest.approx(1.0, abs=0.1)
-    assert end == pytest.approx(length, abs=0.02)
-
-
 def test_a_span_is_marked_from_the_keyboard(viewer):
     page = viewer(drive_log(), span_text=PARTS)
     page.locator("#moving").focus()
@@ -167,18 +153,6 @@ def test_axes_hold_zero_and_a_time_step_of_one_and_a_half_medians(viewer):
     assert ranges["step"][1] > late
 
 
-def test_a_velocity_in_another_unit_lies_beside_the_slope_of_its_position(viewer):
-    rng = np.random.default_rng(3)
-    spoiled = contaminate(drive_log(), "unit-error", severity=1.0, rng=rng).log
-    page = viewer(spoiled)
-    low, high = page.evaluate("sysid.chart.rangeOfPanel('velocity')")
-    slopes = page.evaluate("sysid.chart.derived.runs.flatMap(({slope}) => [...slope])")
-    speeds = np.concatenate([run.velocity for run in spoiled.runs])
-
-    assert low <= np.quantile(slopes, 0.02) <= np.quantile(slopes, 0.98) <= high
-    assert low <= speeds.min() <= speeds.max() <= high
-
-
 def test_nothing_is_told_of_a_damaged_log(viewer):
     page = viewer(slipped_log())
     page.wait_for_timeout(1500)
@@ -205,22 +179,6 @@ def test_the_server_refuses_what_would_give_the_answers(tmp_path):
     }
     assert summary["doubts"] == []
     assert samples == 200
-
-
-def test_the_page_of_a_fit_shows_the_signals_on_demand(browser, tmp_path):
-    (tmp_path / "session").mkdir()
-    file = write_log(slipped_log(), tmp_path / "drive.csv")
-    with served(tmp_path / "session", file) as server, opened(browser, server.address) as page:
-        page.locator("#gain-kV").wait_for()
-        page.locator("li.fault h3").wait_for()
-        page.get_by_role("button", name="Signals").click()
-        assert page.evaluate("Object.keys(sysid.chart.panels)") == [
-            "voltage", "velocity", "position", "step",
-        ]  # fmt: skip
-        assert page.evaluate("sysid.chart.faults.length") == 1  # here they are marked
-        page.get_by_role("button", name="Fit", exact=True).click()
-        assert "error" in page.evaluate("Object.keys(sysid.chart.panels)")
-        assert page.complaints == []
 
 
 @pytest.mark.parametrize("theme", ["light", "dark"])

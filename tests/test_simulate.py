@@ -9,14 +9,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from sim.bench.mechanism import Sensor
-from sim.bench.mechanisms import MECHANISMS, find_mechanism
+from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import move_gains_only, simulate
 from sim.core.errors import BadRequest
 from sim.core.log import FOUR_TESTS
 from sim.fit import fit
 from sim.physics.battery import Battery
-from sim.physics.motors import MOTORS, compute_theoretical_kv, find_motor
+from sim.physics.motors import MOTORS, compute_theoretical_kv
 
 GAINS = {"kS": 0.25, "kV": 2.0, "kA": 0.3}
 QUIET = Sensor(resolution=1e-12, velocity_noise=0.0, noise_speed=1.0, jitter=0.0)
@@ -42,23 +42,6 @@ def test_a_mechanism_drawn_at_random_is_fitted_to_its_own_truth(name, seed):
     assert gains["kS"] == pytest.approx(drawn.gains["kS"], abs=0.05)
     if drawn.lift:
         assert gains["kG"] == pytest.approx(drawn.gains["kG"], abs=0.03)
-
-
-@pytest.mark.parametrize("name", MECHANISMS)
-def test_a_mechanism_says_what_it_is(name):
-    built = MECHANISMS[name]
-
-    assert built.name == name
-    assert built.summary
-    assert all(value > 0 for value in built.gains.values())
-    for field, (least, most) in built.spread.items():
-        assert least < most, field
-        assert 0.0 <= getattr(built, field) <= most, field
-
-
-def test_an_unknown_mechanism_lists_the_known():
-    with pytest.raises(BadRequest, match="Choose one of: arm, cascade-elevator, counterweight"):
-        find_mechanism("trebuchet")
 
 
 def test_the_drivetrain_has_the_theory_of_its_parts():
@@ -92,17 +75,6 @@ def test_a_motor_has_the_constants_of_its_data_sheet(name, resistance, volts_per
     assert found.back_emf * 2 * math.pi == pytest.approx(exact, abs=1e-4)
 
 
-def test_theoretical_kv_counts_gears_and_wheel():
-    assert compute_theoretical_kv(
-        find_motor("krakenX60"), ratio=6.75, radius=0.0508
-    ) == pytest.approx(2.538, abs=1e-3)
-
-
-def test_an_unknown_motor_lists_the_known():
-    with pytest.raises(BadRequest, match="Choose one of: krakenX60"):
-        find_motor("hamster")
-
-
 def test_a_step_follows_the_exponential_of_the_text_book():
     time = np.arange(0, 2, 0.02)
 
@@ -111,27 +83,6 @@ def test_a_step_follows_the_exponential_of_the_text_book():
     top, tau = (7.0 - 0.25) / 2.0, 0.15
     assert velocity == pytest.approx(top * (1 - np.exp(-time / tau)), abs=1e-12)
     assert position == pytest.approx(top * (time - tau * (1 - np.exp(-time / tau))), abs=1e-12)
-
-
-@pytest.mark.parametrize("volts", [0.25, -0.25, 0.1, 0.0])
-def test_at_rest_it_stays_at_rest_while_friction_holds(volts):
-    time = np.arange(0, 1, 0.02)
-
-    position, velocity = move_gains_only(GAINS, time=time, voltage=np.full(time.size, volts))
-
-    assert not position.any()
-    assert not velocity.any()
-
-
-def test_coasting_it_comes_to_rest_and_stays_there():
-    time = np.arange(0, 3, 0.02)
-    volts = np.where(time < 1.0, 4.0, 0.0)
-
-    _, velocity = move_gains_only(GAINS, time=time, voltage=volts)
-
-    assert velocity[50] > 1.5
-    assert velocity[-1] == 0.0
-    assert (np.diff(velocity[50:]) <= 0).all()
 
 
 def test_a_turn_within_one_step_is_met_at_its_exact_time():
@@ -171,14 +122,6 @@ def test_no_speed_exceeds_what_the_voltage_allows(volts, ks):
     )
 
     assert np.abs(velocity).max() <= max(0.0, np.abs(volts).max() - ks) / 2.0 + 1e-12
-
-
-def test_the_same_state_of_chance_gives_the_same_log():
-    one, two = (simulate(MECHANISMS["shooter"], Routine(), rng=rng()) for _ in range(2))
-
-    for a, b in zip(one.runs, two.runs, strict=True):
-        assert (a.velocity == b.velocity).all()
-        assert (a.time == b.time).all()
 
 
 def test_a_log_has_the_four_tests_in_order_and_no_overlap():

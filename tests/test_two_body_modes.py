@@ -12,9 +12,7 @@ from sim.physics.engine import NO_CORRECTION, RunBatch, State, filter_runs, simu
 from sim.physics.engine.two_body_modes import (
     MOVES,
     ROW,
-    STANDS,
     TABLES_SIZE,
-    apply_row,
     make_table,
     make_table_from_half,
     prepare_series,
@@ -100,45 +98,6 @@ def numbers(tables, at):
     return tables[at : at + 4 * ROW].reshape(4, ROW)
 
 
-def test_a_table_is_kept_for_the_next_step_and_made_anew_for_another():
-    tables = np.zeros(TABLES_SIZE)
-    prepare_series(tables, MOVES, 2.0, 0.1, 0.2, 50.0, 0.1)
-    first = numbers(tables, make_table_from_half(tables, MOVES, 0.01, 0)).copy()
-    half = numbers(tables, make_table_from_half(tables, MOVES, 0.01, 1)).copy()
-    kept = tables.copy()
-
-    make_table_from_half(tables, MOVES, 0.01, 0)
-    make_table(tables, MOVES, 0.01, 1)
-    assert (tables == kept).all()
-
-    assert numbers(tables, make_table_from_half(tables, MOVES, 0.005, 0)) == pytest.approx(half)
-
-    prepare_series(tables, MOVES, 2.0, 0.1, 0.3, 50.0, 0.1)
-    assert numbers(tables, make_table_from_half(tables, MOVES, 0.01, 0)) != pytest.approx(first)
-
-
-def test_a_load_that_stands_has_tables_of_its_own():
-    tables = np.zeros(TABLES_SIZE)
-    prepare_series(tables, MOVES, 2.0, 0.1, 0.2, 50.0, 0.1)
-    first = numbers(tables, make_table_from_half(tables, MOVES, 0.01, 0)).copy()
-
-    prepare_series(tables, STANDS, 2.0, 0.1, 1e9, 50.0, 0.1)
-    stands = numbers(tables, make_table_from_half(tables, STANDS, 0.01, 0))
-
-    assert stands[2].tolist() == pytest.approx([0.0, 0.0, 1.0, 0.0, 0.0], abs=1e-6)
-    assert (numbers(tables, make_table_from_half(tables, MOVES, 0.01, 0)) == first).all()
-
-
-def test_a_row_is_what_a_motion_and_its_pushes_become():
-    tables = np.zeros(TABLES_SIZE)
-    prepare_series(tables, MOVES, 0.0, 0.1, 0.2, 50.0, 0.0)
-    at = make_table_from_half(tables, MOVES, 0.01, 0)
-
-    fallen = apply_row(tables, at + 2 * ROW, 0.0, 0.0, 0.0, 0.0, -0.3)
-
-    assert fallen == pytest.approx(-0.01 * 0.3 / 0.2, rel=0.01)
-
-
 @pytest.mark.parametrize("share", SHARES)
 @pytest.mark.parametrize("swing", [2.0, 8.0, 30.0])
 @pytest.mark.parametrize("volts", VOLTAGES)
@@ -171,18 +130,6 @@ def test_teeth_meet_and_part_when_they_do_in_steps_a_thousand_times_as_fine(
     top, way = np.abs(right.velocity).max(), np.ptp(right.position)
     assert quick[:, 1] == pytest.approx(right.velocity, abs=3e-3 * top)
     assert quick[:, 0] == pytest.approx(right.position, abs=2e-4 * way)
-
-
-def test_play_on_a_spring_moves_as_in_fine_steps():
-    model = loose(BODIES["heavy"], moment=0.004, share=0.3)
-    model += sprung(BODIES["heavy"], swing=6.0, share=0.3).parts[0]
-    asked = VOLTAGES["there and back"]
-
-    right = simulate_run(model, time=TIME, voltage=asked, state=State(), step=FINE)
-
-    quick = searched(model, asked)
-    top = np.abs(right.velocity).max()
-    assert quick[:, 1] == pytest.approx(right.velocity, abs=5e-3 * top)
 
 
 def test_a_spring_between_two_bodies_that_rest_stays_as_it_is():

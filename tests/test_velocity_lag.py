@@ -8,8 +8,6 @@ import pytest
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.core.log import Run
-from sim.inspect.detect_faults import inspect
 from sim.physics.velocity_lag import estimate_velocity_lag
 
 GENTLE = Routine(ramp=0.5, step=3.5)
@@ -79,18 +77,3 @@ def test_runs_that_disagree_have_a_large_error():
     assert estimate_velocity_lag(log.runs).error < 0.003
     assert estimate_velocity_lag(spread.runs).error > 0.01
     assert np.isnan(estimate_velocity_lag(log.runs[:1]).error)
-
-
-def test_a_velocity_of_another_motion_has_no_delay():
-    log = each(bench(), lambda run: replace(run, velocity=4.2 * run.position))
-
-    assert not estimate_velocity_lag(log.runs[:2]).matched
-    assert "velocity-lags" not in {doubt.code for doubt in inspect(log).doubts}
-
-
-def test_what_stands_has_no_delay():
-    time = np.arange(100) * 0.02
-    still = Run("dynamic-forward", time, np.ones(100), np.zeros(100), np.zeros(100))
-
-    assert estimate_velocity_lag([]) is None
-    assert estimate_velocity_lag([still]) is None

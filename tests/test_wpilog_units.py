@@ -60,23 +60,23 @@ TURN = math.tau
 
 
 @pytest.mark.parametrize(
-    ("units", "asked", "name", "factors", "doubts"),
+    ("units", "asked", "expected", "doubts"),
     [
-        (("volt", "turn", "rpm"), {}, "rotations", (1, TURN, TURN / 60), ["converted-units"]),
-        (("volt", "turn", "rpm"), {"units": "rotations"}, "rotations", (1, TURN, TURN / 60),
+        (("volt", "turn", "rpm"), {}, ("rotations", 1, TURN, TURN / 60), ["converted-units"]),
+        (("volt", "turn", "rpm"), {"units": "rotations"}, ("rotations", 1, TURN, TURN / 60),
          ["converted-units"]),
-        (("volt", "Degree", "Radian per Second"), {}, "degrees", (1, TURN / 360, 1),
+        (("volt", "Degree", "Radian per Second"), {}, ("degrees", 1, TURN / 360, 1),
          ["converted-units"]),
-        (("millivolt", *METERS[1:]), {}, "meters", (0.001, 1, 1), ["converted-units"]),
-        (("volt", "millimeter", METERS[2]), {}, "meters", (1, 0.001, 1), ["converted-units"]),
-        (METERS, {"units": "inches"}, "inches", (1, 0.0254, 0.0254), ["contradicting-units"]),
-        (NOT_STATED, {"type": "simple"}, "meters", (1, 1, 1), ["units-assumed"] * 2),
-        (NOT_STATED, {}, "radians", (1, 1, 1), ["units-assumed"] * 2),  # it is named an arm
-        (NOT_STATED, {"type": "arm"}, "radians", (1, 1, 1), ["units-assumed"] * 2),
-        (NOT_STATED, {"units": "feet"}, "feet", (1, 0.3048, 0.3048), []),
-        (("", "turn", ""), {}, "rotations", (1, TURN, TURN), ["units-assumed"]),
-        (("", "", "turns_per_second"), {}, "rotations", (1, TURN, TURN), ["units-assumed"]),
-        (("percent", "furlong", "{broken"), {"units": "feet"}, "feet", (1, 0.3048, 0.3048),
+        (("millivolt", *METERS[1:]), {}, ("meters", 0.001, 1, 1), ["converted-units"]),
+        (("volt", "millimeter", METERS[2]), {}, ("meters", 1, 0.001, 1), ["converted-units"]),
+        (METERS, {"units": "inches"}, ("inches", 1, 0.0254, 0.0254), ["contradicting-units"]),
+        (NOT_STATED, {"type": "simple"}, ("meters", 1, 1, 1), ["units-assumed"] * 2),
+        (NOT_STATED, {}, ("radians", 1, 1, 1), ["units-assumed"] * 2),  # it is named an arm
+        (NOT_STATED, {"type": "arm"}, ("radians", 1, 1, 1), ["units-assumed"] * 2),
+        (NOT_STATED, {"units": "feet"}, ("feet", 1, 0.3048, 0.3048), []),
+        (("", "turn", ""), {}, ("rotations", 1, TURN, TURN), ["units-assumed"]),
+        (("", "", "turns_per_second"), {}, ("rotations", 1, TURN, TURN), ["units-assumed"]),
+        (("percent", "furlong", "{broken"), {"units": "feet"}, ("feet", 1, 0.3048, 0.3048),
          ["unknown-unit"] * 2),
     ],
 )  # fmt: skip
@@ -84,14 +84,14 @@ def test_odd_units_are_converted_with_a_doubt(
     tmp_path: Path,
     units: tuple[str, str, str],
     asked: dict[str, str],
-    name: str,
-    factors: tuple[float, float, float],
+    expected: tuple[str, float, float, float],
     doubts: list[str],
 ) -> None:
     log = sim.read(saved(tmp_path, Motor("main", units=units)), **asked)
 
+    name, *factors = expected
     assert log.units == name
-    assert scales(log) == pytest.approx(factors, rel=1e-14)
+    assert scales(log) == pytest.approx(tuple(factors), rel=1e-14)
     assert codes(log) == doubts
     assert all("main-Arm" in doubt.message for doubt in log.doubts)
 
