@@ -135,22 +135,6 @@ def test_inside_an_environment_it_installs_into_that(world, monkeypatch, capsys,
     assert said.count("\n") == 2
 
 
-def test_the_second_process_installs_where_the_first_sent_it(world, monkeypatch):
-    monkeypatch.setenv(bootstrap.HOPPED, "1")
-
-    assert bootstrap.main(["start"]) == 0
-    assert "pip" in world.quiet[0]
-
-
-def test_an_installation_that_does_not_help_is_not_tried_again(world, monkeypatch, capsys):
-    inside(monkeypatch)
-    monkeypatch.setenv(bootstrap.INSTALLED, "1")
-
-    assert bootstrap.main(["start"]) == 2
-    assert "click, numpy is still missing after installing" in capsys.readouterr().err
-    assert world.quiet == []
-
-
 def test_when_pip_fails_its_last_words_are_shown_and_what_to_do(world, monkeypatch, capsys, reads):
     inside(monkeypatch)
     chatter = "\n".join(f"  Downloading {number}" for number in range(50))

@@ -68,28 +68,6 @@ def test_what_is_asked_for_is_read(text, asked):
     assert parse_fault_request(text) == asked
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "",
-        ":2",
-        "@dynamic-forward",
-        "brownout:",
-        "brownout:lots",
-        "brownout@",
-        "brownout@+3",
-        "brownout@dynamic-forward+soon",
-        "brownout@dynamic-forward+",
-    ],
-)
-def test_what_is_misspelled_is_one_line_with_the_right_spelling(text, reads):
-    with pytest.raises(BadRequest) as refused:
-        parse_fault_request(text)
-
-    reads(str(refused.value))
-    assert "encoder-slip:0.5@dynamic-forward+0.4" in str(refused.value)
-
-
 @given(st.text(max_size=40))
 def test_whatever_is_typed_is_read_or_refused(text):
     try:
@@ -178,14 +156,6 @@ def test_it_strikes_where_it_is_told(drive):
         assert np.array_equal(spoilt.log.runs[index].velocity, drive.runs[index].velocity)
 
 
-def test_left_to_chance_it_strikes_while_it_moves(elevator):
-    for seed in range(20):
-        (where,) = contaminate(elevator, "encoder-slip", rng=rng(seed)).where
-        run = elevator.runs[where.run]
-        speed = np.abs(run.velocity[np.searchsorted(run.time, where.start)])
-        assert speed > 0.05 * np.abs(run.velocity).max()
-
-
 @pytest.mark.parametrize("suffix", [".csv", ".wpilog"])
 def test_the_command_writes_what_can_be_read_and_says_where_the_damage_is(
     tmp_path, drive, suffix, reads
@@ -206,17 +176,6 @@ def test_the_command_writes_what_can_be_read_and_says_where_the_damage_is(
     bad = read(tmp_path / f"bad{suffix}")
     assert [run.test for run in bad.runs] == [run.test for run in drive.runs]
     assert len(bad.runs[1]) < len(drive.runs[1])
-
-
-def test_the_same_seed_gives_the_same_file(tmp_path, drive):
-    write(drive, tmp_path / "drive.csv")
-    for name in ("a.csv", "b.csv"):
-        sysid(
-            "contaminate", "drive.csv", "--fault", "brownout", "--seed", 1, "-o", name,
-            folder=tmp_path,
-        )  # fmt: skip
-
-    assert (tmp_path / "a.csv").read_bytes() == (tmp_path / "b.csv").read_bytes()
 
 
 @pytest.mark.parametrize(

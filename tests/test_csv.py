@@ -5,7 +5,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 from csv_text import HEADER, PLAIN, read_text
-from known_answers import ANSWERS
 
 import sim
 from sim.core.errors import BadRequest
@@ -69,33 +68,6 @@ def test_one_log_reads_the_same_in_every_dress(tmp_path: Path, text: str) -> Non
     assert log.doubts == ()
 
 
-def test_the_file_says_no_units_and_no_type(tmp_path: Path) -> None:
-    log = read_text(tmp_path, PLAIN)
-
-    assert (log.units, log.type, log.mechanism) == ("meters", "", "")
-
-
-@pytest.mark.parametrize(
-    ("asked", "units", "first"),
-    [
-        pytest.param({"units": "feet"}, "feet", 0.3048, id="feet"),
-        pytest.param({"type": "arm"}, "radians", 1.0, id="an arm is in radians"),
-        pytest.param({"type": "arm", "units": "degrees"}, "degrees", np.pi / 180, id="degrees"),
-        pytest.param({"type": "elevator"}, "meters", 1.0, id="an elevator in meters"),
-    ],
-)
-def test_positions_become_si_by_the_units_one_says(
-    tmp_path: Path, asked: dict[str, str], units: str, first: float
-) -> None:
-    log = read_text(tmp_path, PLAIN, **asked)
-
-    assert log.units == units
-    assert log.type == asked.get("type", "")
-    assert log.runs[0].position[0] == first
-    assert log.runs[0].velocity[0] == first * 0.25
-    assert log.runs[0].voltage[0] == 0.5
-
-
 @pytest.mark.parametrize(
     ("rows", "lengths"),
     [
@@ -114,19 +86,6 @@ def test_without_a_run_column_a_run_begins_at(
     log = read_text(tmp_path, "\n".join([HEADER, *lines]))
 
     assert [len(run) for run in log.runs] == lengths
-
-
-def test_a_run_column_tells_runs_apart_and_gathers_their_rows(tmp_path: Path) -> None:
-    text = f"""run,{HEADER}
-first,dynamic-forward,0,1,0,0
-2nd,dynamic-forward,0,2,0,0
-first,dynamic-forward,1,3,0,0
-2nd,dynamic-forward,1,4,0,0
-"""
-
-    log = read_text(tmp_path, text)
-
-    assert [run.voltage.tolist() for run in log.runs] == [[1.0, 3.0], [2.0, 4.0]]
 
 
 def test_current_and_bus_voltage_are_read_where_a_run_has_them(tmp_path: Path) -> None:
@@ -192,36 +151,3 @@ def test_what_is_written_reads_back_as_the_same_bits(tmp_path: Path) -> None:
             one, other = getattr(ours, name), getattr(theirs, name)
             assert (one is None) == (other is None)
             assert one is None or one.tobytes() == other.tobytes()
-
-
-@pytest.mark.parametrize(
-    ("tests", "header"),
-    [
-        pytest.param(["dynamic-forward", "dynamic-reverse"], HEADER, id="each test once"),
-        pytest.param(["dynamic-forward"] * 2, f"run,{HEADER}", id="a test twice"),
-    ],
-)
-def test_the_run_column_is_written_where_it_is_needed(
-    tmp_path: Path, tests: list[str], header: str
-) -> None:
-    runs = [Run(test, [0.0, 0.1], [1.0, 2.0], [0.0, 0.5], [0.0, 1.5]) for test in tests]
-
-    sim.write(Log(tuple(runs)), tmp_path / "log.csv")
-    lines = (tmp_path / "log.csv").read_bytes().split(b"\n")
-
-    assert lines[0].decode() == header
-    assert lines[2].endswith(b"dynamic-forward,0.1,2.0,0.5,1.5")
-    assert [len(run) for run in sim.read(tmp_path / "log.csv").runs] == [2, 2]
-
-
-@pytest.mark.shared
-def test_the_reference_logs_read_whole(shared: Path) -> None:
-    paths = sorted(ANSWERS.glob("*.csv"))
-    paths += sorted((shared / "data" / "hidden-effects").glob("00*/*.csv"))
-    assert len(paths) > 30
-
-    for path in paths:
-        log = sim.read(path)
-        rows = path.read_text("utf-8").strip().count("\n")
-        assert sum(len(run) for run in log.runs) == rows
-        assert log.doubts == ()

@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-import sim
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
@@ -124,19 +123,3 @@ def test_a_clean_log_gives_no_reason_to_speak(name, seed, period):
     codes = set(doubts_by_code(log))
 
     assert codes == ({"short-rise"} if "short-rise" in codes and too_quick else set())
-
-
-@pytest.mark.shared
-@pytest.mark.parametrize(
-    ("file", "code", "words"),
-    [
-        # data/README.md: velocity lags position by about 140 ms
-        ("frc4646-2022-drivetrain", "velocity-lags", "140 ms"),
-        # the same file's table: kV 34.9 up, 32.2 down
-        ("sciborgs-2023-elevator", "back-emf-differs", "Forward takes 3"),
-    ],
-)
-def test_what_is_known_of_a_real_log_is_said(shared, file, code, words):
-    log = sim.read(shared / "data" / "real" / f"{file}.json")
-
-    assert words in doubts_by_code(log)[code]

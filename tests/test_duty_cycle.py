@@ -7,9 +7,7 @@ import pytest
 
 import sim
 from sim.bench.duty_cycle import Battery, simulate_duty_cycle
-from sim.bench.simulate import simulate
 from sim.core.errors import BadRequest
-from sim.fit import fit
 
 DRIVE = sim.MECHANISMS["drivetrain"]
 ROUTINE = sim.Routine(ramp=0.5, step=3.5)
@@ -18,12 +16,6 @@ TIRED = Battery(rest=12.2, resistance=0.035)
 
 def driven(battery, *, mechanism=DRIVE, routine=ROUTINE, seed=2):
     return simulate_duty_cycle(mechanism, routine, battery=battery, rng=np.random.default_rng(seed))
-
-
-def asked(log):
-    """The log of a program that writes down what it asked for."""
-    runs = (replace(run, voltage=12.0 * run.voltage / run.bus_voltage) for run in log.runs)
-    return replace(log, runs=tuple(runs))
 
 
 def test_a_step_from_rest_sags_by_ohms_law():
@@ -46,24 +38,6 @@ def test_power_out_of_the_battery_is_power_into_the_motors(name, battery):
         current = (run.voltage - back_emf) / motor.resistance * mechanism.motor_count
         drawn = (battery.rest - run.bus_voltage) / battery.resistance
         assert run.bus_voltage * drawn == pytest.approx(run.voltage * current, abs=1e-2)
-
-
-def test_what_was_asked_for_can_be_told_from_the_log():
-    for run, plain in zip(
-        asked(driven(TIRED)).runs,
-        simulate(DRIVE, ROUTINE, rng=np.random.default_rng(2)).runs,
-        strict=True,
-    ):
-        shortest = min(len(run), len(plain))
-        assert run.voltage[:shortest] == pytest.approx(plain.voltage[:shortest], rel=1e-9)
-
-
-def test_logging_what_arrived_gives_the_gains_and_logging_what_was_asked_for_does_not():
-    log = driven(TIRED)
-    arrived, wanted = fit(log, method="sysid").gains, fit(asked(log), method="sysid").gains
-    assert arrived["kA"] == pytest.approx(DRIVE.gains["kA"], rel=0.08)
-    assert wanted["kA"] > 1.3 * DRIVE.gains["kA"]
-    assert wanted["kV"] == pytest.approx(DRIVE.gains["kV"], rel=0.05)
 
 
 def test_a_brownout_that_a_real_robot_would_have_is_a_doubt():

@@ -48,15 +48,6 @@ def wave(seed, size=4.0):
     return np.repeat(levels, 25)[: TIME.size]
 
 
-def names():
-    return {
-        "constant-load", "gravity-cosine", "stribeck", "asymmetric-friction",
-        "asymmetric-back-emf", "drag", "spring", "battery-sag", "current-limit", "voltage-limit",
-        "deadband", "delay", "velocity-filter", "backlash", "compliance", "cogging",
-        "inertia-change", "velocity-scale", "heating", "wheel-slip",
-    }  # fmt: skip
-
-
 @pytest.mark.parametrize("name", EFFECTS)
 def test_an_effect_is_written_as_the_contract_asks(name):
     found = EFFECTS[name]
@@ -131,58 +122,6 @@ def test_effects_that_are_the_same_in_motion_move_alike(name, step):
     plain = simulate_run(base, time=TIME, voltage=np.full(TIME.size, step), state=State()).velocity
     assert speeds(name) == pytest.approx(speeds(EFFECTS[name].same_in_motion), rel=1e-9)
     assert np.abs(speeds(name) - plain).max() > 0.01 * np.abs(plain).max()
-
-
-@pytest.mark.parametrize("name", ["backlash", "compliance"])
-def test_a_joint_that_is_stiff_or_tight_moves_as_one_body(name):
-    base = MECHANISMS["drivetrain"].model
-    tight = {"backlash": {"slack": 0.0}, "compliance": {"softness": 1e-5}}[name]
-
-    one = simulate_run(base, time=TIME, voltage=np.full(TIME.size, 3.0), state=State())
-    two = simulate_run(
-        base + Part(name, {**tight, "share": 0.3, "damping": 0.3, "motor_friction": 0.3}),
-        time=TIME, voltage=np.full(TIME.size, 3.0), state=State(),
-    )  # fmt: skip
-
-    assert two.velocity[-1] == pytest.approx(one.velocity[-1], rel=1e-3)
-    assert np.abs(two.position - one.position).max() < 0.01 * np.ptp(one.position)
-
-
-def spin_wheels_in_small_steps(gains, volts, *, grip, share, drag):
-    """(n,) [m/s] of the wheels by the plainest integrator: Euler's, 10 µs a step."""
-    step, speeds, wheel, robot = 1e-5, [], 0.0, 0.0
-    for volt in volts:
-        speeds.append(wheel)
-        for _ in range(round(0.02 / step)):
-            friction = gains["kS"] * np.sign(wheel if abs(wheel) > 1e-9 else volt)
-            push = volt - gains["kV"] * wheel - friction
-            pull = drag * robot * abs(robot)
-            needed = (1.0 - share) * (push - pull) + pull
-            slips = abs(wheel - robot) > 1e-5 or abs(needed) > grip
-            side = np.sign(wheel - robot) if abs(wheel - robot) > 1e-5 else np.sign(needed)
-            held = side * grip if slips else needed
-            before = wheel - robot
-            wheel += step * (push - held) / (share * gains["kA"])
-            robot += step * (held - pull) / ((1.0 - share) * gains["kA"])
-            if not slips or (before and before * (wheel - robot) < 0.0):
-                wheel = robot
-    return np.array(speeds)
-
-
-@pytest.mark.parametrize("drag", [0.0, 0.05])
-@pytest.mark.parametrize("share", [0.06, 0.3])
-def test_slipping_wheels_agree_with_small_steps(share, drag):
-    gains = {"kS": 0.12, "kV": 2.5, "kA": 0.4}
-    volts = np.repeat([5.0, 1.0, 6.0, -4.0], 25)  # spin up, hold, spin up again, slide backward
-    model = Model("simple", gains) + Part("wheel-slip", {"grip": 2.0, "share": share})
-    if drag:
-        model += Part("drag", {"drag": drag})
-
-    track = simulate_run(model, time=TIME, voltage=volts, state=State())
-
-    expected = spin_wheels_in_small_steps(gains, volts, grip=2.0, share=share, drag=drag)
-    assert np.abs(track.velocity - expected).max() < 0.003 * np.abs(expected).max()
-    assert np.abs(track.position - track.load_position).max() > 0.05
 
 
 @pytest.mark.parametrize(("name", "kind"), PAIRS)
@@ -324,19 +263,6 @@ def test_two_bodies_left_alone_only_slow_down(name, seed):
             model, time=np.array([0.0, 0.005]), voltage=np.zeros(2), state=state,
             step=0.2 * find_finest_step(model),
         )  # fmt: skip
-
-
-@pytest.mark.parametrize("name", [n for n in EFFECTS if EFFECTS[n].stored_energy is not None])
-def test_what_a_term_pulls_is_the_slope_of_what_it_stores(name):
-    kind = next(kind for one, kind in PAIRS if one == name)
-    values = MECHANISMS[kind].hide(name).hidden[0].parameters
-    found = EFFECTS[name]
-    for x in np.linspace(-2.0, 2.0, 17).tolist():
-        slope = (
-            found.stored_energy(x + 1e-5, **values) - found.stored_energy(x - 1e-5, **values)
-        ) / 2e-5
-        force = asked(found.hooks["force"], x=x, v=0.0, **values)
-        assert force == pytest.approx(slope, abs=1e-6)
 
 
 NEAR = {  # parameter that the best start should have nearly right, and how nearly (a factor)

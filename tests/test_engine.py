@@ -30,7 +30,6 @@ from sim.physics.engine import (
 from sim.physics.engine.compose import MODULES, compose_engine, is_compiled
 from sim.physics.engine.kernel import NO_USE
 from sim.physics.engine.machine_code import ObjectCode, link_code
-from sim.physics.engine.power_path import CUT
 from sim.physics.engine.two_body_modes import TABLES_SIZE
 from sim.physics.model import Model, Part
 from sim.support.work.cache import CACHE, find_cache_folder
@@ -61,16 +60,6 @@ def test_the_compiled_engine_does_what_the_plain_text_says(name):
     assert fast.position == pytest.approx(slow.position, abs=1e-9)
     assert fast.seen == pytest.approx(slow.seen, abs=1e-7)
     assert fast.applied == pytest.approx(slow.applied, abs=1e-9)
-
-
-def test_an_arm_that_is_let_go_swings_through_and_settles_below():
-    arm = Model("arm", {"kS": 0.0, "kV": 0.05, "kA": 0.1, "kG": 1.0, "offset_rad": 0.0})
-    time = np.arange(0.0, 60.0, 0.02)
-
-    track = simulate_run(arm, time=time, voltage=np.zeros(time.size), state=State.cold_at(0.3))
-
-    assert track.position[-1] == pytest.approx(-math.pi / 2.0, abs=1e-3)
-    assert track.position.min() < -math.pi / 2.0 - 0.5
 
 
 def test_an_elevator_on_its_stop_lifts_when_the_ramp_exceeds_weight_and_friction():
@@ -148,48 +137,6 @@ def test_what_happens_between_two_samples_happens_at_its_moment(until):
     there = np.isin(finer, TIME)
     assert track.velocity == pytest.approx(every.velocity[there], abs=1e-9)
     assert track.position == pytest.approx(every.position[there], abs=1e-9)
-
-
-@pytest.mark.parametrize("asked", [2.0, 5.0, 9.0, 12.0])
-@pytest.mark.parametrize("speed", [0.0, 1.5, -1.5, 4.0])
-def test_wires_keep_every_limit_and_ohms_law(asked, speed):
-    built = MECHANISMS["drivetrain"]
-    wires = make_power_path_array(built)
-    wires[7] = 0.0  # no brownout here
-    state = State.cold_at(0.0, speed)
-
-    track = simulate_run(
-        built.model, time=np.array([0.0, 1e-6]), voltage=np.full(2, asked), state=state, wires=wires
-    )
-    u, current, bus = (float(part[0]) for part in (track.applied, track.current, track.bus))
-
-    emf = built.motor.back_emf * built.ratio / built.radius * speed
-    assert current == pytest.approx((u - emf) / built.motor.resistance)
-    assert abs(current) <= built.stator * (1 + 1e-9)
-    assert u * current <= built.supply * bus * (1 + 1e-9)
-    assert abs(u) <= bus * (1 + 1e-9)
-    drawn = built.motor_count * u * current / bus
-    assert bus == pytest.approx(built.battery.rest - built.battery.resistance * drawn)
-    if abs(current) < 0.999 * built.stator and u * current < 0.999 * built.supply * bus:
-        assert u == pytest.approx(min(asked, bus))
-
-
-def test_a_brownout_takes_the_motors_off_for_a_loop():
-    built = replace(MECHANISMS["drivetrain"], stator=400.0, supply=400.0)
-    time = np.arange(0.0, 0.5, 0.005)
-
-    track = simulate_run(
-        built.model, time=time, voltage=np.full(time.size, 11.0), state=State(),
-        wires=make_power_path_array(built),
-    )  # fmt: skip
-
-    off = track.applied == 0.0
-    assert off.any()
-    assert not off[-1]  # at speed it draws less, and the battery recovers
-    starts = np.flatnonzero(np.diff(off.astype(int)) == 1)
-    ends = np.flatnonzero(np.diff(off.astype(int)) == -1)
-    lasted = (ends[-1] - starts[-1]) * 0.005 if starts.size else CUT
-    assert lasted == pytest.approx(CUT, abs=0.006)
 
 
 def test_a_search_is_fine_where_friction_fades_while_the_speed_changes_fast():

@@ -7,7 +7,7 @@ to see it printed.
 import sys
 from collections import Counter
 from contextlib import suppress
-from dataclasses import fields, replace
+from dataclasses import fields
 from itertools import pairwise
 
 import numpy as np
@@ -206,25 +206,6 @@ def test_what_coasts_to_rest_or_is_stepped_down_onto_its_stop_is_sound(name, pac
 
     assert {run.kind for run in log.runs} == set(EVERY)
     assert not found
-
-
-@pytest.mark.parametrize("share", [0.3, 0.6])
-def test_a_stop_in_the_way_of_a_slow_ramp_is_a_stop_and_no_brownout(share):
-    rng = np.random.default_rng(6)
-    log = simulate(MECHANISMS["arm"].draw(rng), Routine(), rng=rng)
-    run = log.runs[0]
-    at = int(np.searchsorted(np.abs(run.velocity), share * run.top_speed))
-    stops = np.arange(len(run)) >= at
-    stood = replace(
-        run,
-        velocity=np.where(stops, 0.0, run.velocity),
-        position=np.where(stops, run.position[at], run.position),
-    )
-
-    (damage,) = inspect(replace(log, runs=(stood, *log.runs[1:]))).damages
-
-    assert (damage.fault, damage.where.run) == ("hard-stop", 0)
-    assert damage.where.start == pytest.approx(run.time[at], abs=0.05)
 
 
 # The acceptance

@@ -207,11 +207,3 @@ def test_a_pooled_value_lies_within_its_parts(parts):
 
     assert min(values) <= value <= max(values)
     assert error >= 0.99 * min(errors) / len(errors) ** 0.5
-
-
-def test_parts_with_equal_errors_that_scatter_have_the_error_of_a_plain_mean():
-    # the standard error of the mean of 1, 2, 3 is 1/sqrt(3)
-    value, error = pool_values([1.0, 2.0, 3.0], [0.01, 0.01, 0.01])
-
-    assert value == pytest.approx(2.0)
-    assert error == pytest.approx(3.0**-0.5, rel=1e-3)

@@ -3,7 +3,6 @@
 import os
 import subprocess
 import sys
-from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
 
@@ -14,7 +13,7 @@ from hypothesis import strategies as st
 
 import sim
 from sim import io
-from sim.core.errors import BadRequest, UnreadableFile
+from sim.core.errors import BadRequest
 from sim.core.log import TESTS, Log, Run
 from sim.core.units import UNITS
 
@@ -22,23 +21,6 @@ MODULES = {name: import_module(f"sim.io.formats.{name}") for name in io.FORMATS}
 WRITERS = sorted(name for name, module in MODULES.items() if hasattr(module, "write"))
 SAYS_NO_UNITS = {"csv"}  # whoever reads such a file has to say them
 LOG = Log((Run("dynamic-forward", [0.0, 0.1], [7.0, 7.0], [0.0, 0.1], [0.0, 2.0]),))
-
-
-@pytest.mark.parametrize("name", MODULES)
-def test_a_format_keeps_the_contract(name: str) -> None:
-    module = MODULES[name]
-
-    assert module.SUFFIXES
-    assert all(one == one.lower() and one.startswith(".") for one in module.SUFFIXES)
-    assert isinstance(module.recognizes(b""), bool)
-    assert callable(module.read)
-    assert module.__doc__
-
-
-@pytest.mark.parametrize("name", MODULES)
-@pytest.mark.parametrize("head", [b"", b"\x00" * 64, b"\xff" * 64, b"{}", b"hello\n", b"<html>"])
-def test_no_format_claims_what_is_none(name: str, head: bytes) -> None:
-    assert not MODULES[name].recognizes(head)
 
 
 @st.composite
@@ -99,31 +81,6 @@ def test_only_the_format_in_use_is_imported(tmp_path: Path, root: Path) -> None:
     assert not {f"sim.io.formats.{name}" for name in io.FORMATS if name != "csv"} & loaded
 
 
-@pytest.mark.parametrize("kind", [str, Path])
-@pytest.mark.parametrize("name", ["log.csv", "log.txt", "log", "log.wpilog", "log.csv.json"])
-def test_a_file_is_known_by_what_is_in_it(
-    tmp_path: Path, name: str, kind: Callable[[Path], str | Path]
-) -> None:
-    sim.write(LOG, tmp_path / "x.csv")
-    path = (tmp_path / "x.csv").rename(tmp_path / name)
-
-    log = sim.read(kind(path))
-
-    assert log.source == str(path)
-    assert len(log.runs) == 1
-
-
-def test_the_source_is_the_path_as_given(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
-    sim.write(LOG, "log.csv")
-    Path("bad.csv").write_text("test,time_s,voltage,position,velocity\n", encoding="utf-8")
-
-    assert sim.read(Path("log.csv")).source == "log.csv"
-    assert sim.read(os.path.join(".", "log.csv")).source == os.path.join(".", "log.csv")  # noqa: PTH118 - a Path would drop the dot
-    with pytest.raises(UnreadableFile, match=r"^bad\.csv: "):
-        sim.read(os.path.join(".", "bad.csv"))  # noqa: PTH118 - as above
-
-
 @pytest.mark.parametrize(
     ("asked", "said"),
     [
@@ -138,29 +95,6 @@ def test_an_unknown_word_is_refused_with_the_known_ones(
 
     with pytest.raises(BadRequest, match=said):
         sim.read(tmp_path / "log.csv", **asked)
-
-
-@pytest.mark.parametrize(
-    ("test", "asked", "type_", "codes"),
-    [
-        ("Arm", None, "arm", []),
-        ("Arm", "arm", "arm", []),
-        ("Arm", "elevator", "elevator", ["contradicting-type"]),
-    ],
-)
-def test_a_type_one_says_goes_before_that_of_the_file(
-    tmp_path: Path, test: str, asked: str | None, type_: str, codes: list[str]
-) -> None:
-    path = tmp_path / "log.json"
-    path.write_text(
-        f'{{"fast-forward": [[0, 1, 2, 3]], "units": "Radians", "test": "{test}"}}', "utf-8"
-    )
-
-    log = sim.read(path, type=asked)
-
-    assert log.type == type_
-    assert [doubt.code for doubt in log.doubts] == codes
-    assert all("of type arm; it is taken as elevator" in doubt.message for doubt in log.doubts)
 
 
 @pytest.mark.parametrize(
@@ -205,16 +139,6 @@ def test_a_file_is_written_whole_or_stays_as_it_was(
     assert [entry.name for entry in tmp_path.iterdir()] == ["log.csv"]
     if isinstance(trouble, OSError):
         assert "(No space left on device). Choose a folder" in str(caught.value)
-
-
-def test_an_existing_file_is_replaced(tmp_path: Path) -> None:
-    path = tmp_path / "LOG.CSV"
-    path.write_text("old", encoding="utf-8")
-
-    sim.write(LOG, path)
-
-    assert sim.read(path).runs[0].test == "dynamic-forward"
-    assert [entry.name for entry in tmp_path.iterdir()] == ["LOG.CSV"]
 
 
 def test_a_link_stays_a_link(tmp_path: Path) -> None:

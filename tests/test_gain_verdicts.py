@@ -60,12 +60,6 @@ def test_each_gain_is_judged_in_its_own_measure(gains, errors, said):
     assert write_gain_verdict(replace(FOUND, gains=gains, errors=errors)) == said
 
 
-def test_a_grave_doubt_makes_no_gain_usable(reads):
-    grave = replace(FOUND, doubts=(Doubt("x", "It cannot be.", grave=True),))
-
-    reads(write_gain_verdict(grave, LOG))
-
-
 def test_gain_that_a_warning_is_about_is_not_usable():
     errors = FOUND.errors | {"kA": 0.01}
     sure = replace(FOUND, errors=errors, doubts=(Doubt("x", "It is.", gains=("kA", "kG")),))

@@ -87,17 +87,6 @@ def test_noise_alone_is_nowhere_beyond_doubt():
     assert sum(alarms) <= 4
 
 
-def test_a_place_says_how_much_and_how_sure():
-    (place, *_) = map_gap(
-        runs_of("quasistatic-forward", plant=lambda at: -2.0 * (at.v > 0.0)), noise=NOISE
-    ).find_places(1)
-
-    # 380 samples move: 2 noises, known to one noise/√380
-    assert place.error == pytest.approx(-2.0, abs=0.2)
-    assert place.sure == pytest.approx(2.0 * np.sqrt(380), rel=0.15)
-    assert "the robot is slower than in the model, by 2" in place.sentence
-
-
 def test_sorted_by_noisy_measurements_rest_would_show_what_is_not_there():
     rng = np.random.default_rng(3)
     still = Residuals(
@@ -127,21 +116,6 @@ def test_the_places_do_not_depend_on_the_unit(unit):
 
     assert [place.where for place in mine] == [place.where for place in other]
     assert [place.error for place in mine] == pytest.approx([place.error for place in other])
-
-
-def test_what_wanders_is_less_sure_than_what_stands_alone():
-    rng = np.random.default_rng(5)
-    (run,) = runs_of("quasistatic-forward")
-    noise = rng.normal(size=400)
-    wander = np.zeros(400)
-    for i in range(1, 400):
-        wander[i] = 0.97 * wander[i - 1] + noise[i]
-    wandering = replace(run, error=NOISE.velocity * np.column_stack([np.zeros(400), wander]))
-
-    sure = np.abs(map_gap([wandering], noise=NOISE).by_run.significance[VELOCITY])
-    naive = np.abs(map_gap([wandering], noise=NOISE).by_run.mean[VELOCITY]) * np.sqrt(400 / 12)
-
-    assert sure.max() < 0.4 * naive.max()
 
 
 # -- steps ---------------------------------------------------------------------------------------
@@ -204,15 +178,3 @@ def test_what_comes_again_is_told_from_what_does_not(plant, other, verdict):
 
 
 # -- edges ---------------------------------------------------------------------------------------
-
-
-@pytest.mark.filterwarnings("error")
-@pytest.mark.parametrize("samples", [1, 2, 3, 8])
-def test_a_few_samples_are_no_trouble(samples):
-    (run,) = runs_of("dynamic-forward")
-    few = Residuals(
-        run.test, run.time[:samples], run.voltage[:samples], run.predicted[:samples],
-        run.error[:samples],
-    )  # fmt: skip
-
-    assert map_gap([few], noise=NOISE).find_places(5) == ()

@@ -1,7 +1,6 @@
 """CTRE's `.hoot`: converted by owlet where it is installed, refused in one line where it is not."""
 
 import os
-import shutil
 import sys
 from pathlib import Path
 
@@ -78,15 +77,6 @@ def test_a_hoot_is_read_as_what_owlet_makes_of_it(hoot, owlet, tmp_path):
     assert len(list_entries(hoot)[0].numbers())  # nothing is read later, when its file is gone
 
 
-def test_owlet_is_found_on_path(hoot, owlet, tmp_path, monkeypatch):
-    write_log(drive_log(), tmp_path / "drive.wpilog")
-    program = owlet(copies(tmp_path / "drive.wpilog"))
-    monkeypatch.delenv("SYSID_OWLET")
-    monkeypatch.setenv("PATH", f"{program.parent}{os.pathsep}{os.environ['PATH']}")
-
-    assert len(read(hoot).runs) == 4
-
-
 def test_without_owlet_it_is_said_how_to_get_the_log_read(hoot, monkeypatch, tmp_path):
     monkeypatch.delenv("SYSID_OWLET", raising=False)
     monkeypatch.setenv("PATH", str(tmp_path))
@@ -125,10 +115,3 @@ def test_nothing_of_the_conversion_is_left_behind(hoot, owlet, tmp_path, monkeyp
     assert list(scratch.iterdir()) == []
     assert not any(str(scratch) in doubt.message for doubt in log.doubts)
     assert not Path(hoot.with_suffix(".wpilog")).exists()
-
-
-def test_a_wpilog_that_is_only_named_hoot_needs_no_owlet(tmp_path, monkeypatch):
-    monkeypatch.setenv("PATH", "")
-    shutil.move(write_log(drive_log(), tmp_path / "drive.wpilog"), tmp_path / "drive.hoot")
-
-    assert len(read(tmp_path / "drive.hoot").runs) == 4

@@ -53,16 +53,6 @@ def test_an_elevator_that_only_goes_up_tells_friction_from_weight_never():
     assert math.isfinite(errors["kA"])
 
 
-def test_what_up_only_tells_of_friction_and_weight_is_their_sum():
-    about = compute_information(UP, type="elevator", noise=0.05).compute_pair_information(
-        "kS", "kG"
-    )
-    values, vectors = np.linalg.eigh(about)
-    assert values[0] == pytest.approx(0.0, abs=1e-9 * values[1])
-    assert abs(vectors[0, 1]) == pytest.approx(abs(vectors[1, 1]))
-    assert vectors[0, 1] * vectors[1, 1] > 0.0  # both together, not one against the other
-
-
 @pytest.mark.parametrize(
     ("ask", "advice"),
     [

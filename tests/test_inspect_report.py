@@ -29,11 +29,6 @@ def each(log, change):
     return replace(log, runs=tuple(change(run) for run in log.runs))
 
 
-def held(run, n):
-    latest = np.arange(len(run)) // n * n
-    return replace(run, position=run.position[latest], velocity=run.velocity[latest])
-
-
 def browned_out(*, seed=5, step=3.5):
     """A weak battery under a drivetrain: the controller takes its motors off again and again."""
     weak = replace(MECHANISMS["drivetrain"], battery=Battery(11.6, 0.035))
@@ -48,19 +43,6 @@ def printed(log, tmp_path):
 
 
 # One paragraph for each kind
-
-
-def test_a_kind_of_fault_is_said_once_with_all_its_places(tmp_path):
-    log = contaminate(bench(), "unit-error", rng=np.random.default_rng(1)).log
-
-    code, lines = printed(log, tmp_path)
-
-    assert code == 1
-    assert lines[0].endswith("4 runs, 1 fault found.")
-    assert [line for line in lines if line.startswith("unit-error")] == [
-        "unit-error: runs 0, 1, 2, 3 (sure, 0.95)"
-    ]
-    assert len(inspect(log).to_json()["faults"]) == 4
 
 
 def test_many_faults_fit_on_a_screen(tmp_path):
@@ -85,28 +67,6 @@ def test_many_faults_fit_on_a_screen(tmp_path):
 
 
 # Frames that repeat
-
-
-def test_frames_of_20_ms_are_how_a_robot_records_and_slower_ones_are_a_fault(tmp_path):
-    usual = each(bench(period=0.005), lambda run: held(run, 4))
-    slow = each(bench(period=0.005), lambda run: held(run, 12))
-
-    found, lines = inspect(usual), printed(usual, tmp_path)[1]
-
-    assert found.is_clean
-    assert {damage.fault for damage in found.damages} == {"stale-samples"}
-    assert found.to_json()["faults"] == []
-    assert sum(doubt.code == "stale-samples" for doubt in found.doubts) == 1
-    assert lines[0].endswith("no fault found.")
-    assert {fault.fault for fault in inspect(slow).faults} == {"stale-samples"}
-
-
-def test_a_velocity_that_is_measured_every_40_ms_is_how_its_controller_works():
-    def slow(run):
-        latest = np.arange(len(run)) // 8 * 8
-        return replace(held(run, 4), velocity=run.velocity[latest])
-
-    assert inspect(each(bench(period=0.005), slow)).is_clean
 
 
 # Brownouts

@@ -52,14 +52,6 @@ def test_what_cannot_be_a_measurement_is_refused_with_its_place(changes, reads):
     assert str(refused.value).startswith("dynamic-forward: ")
 
 
-def test_a_log_finds_its_runs_by_test():
-    log = Log((run(), run(test="dynamic-reverse"), run()), units="Rotations")
-
-    assert len(log.list_runs_of_test("dynamic-forward")) == 2
-    assert log.list_runs_of_test("coast-forward") == ()
-    assert log.units == "rotations"
-
-
 def test_two_logs_join_unless_one_is_an_angle(reads):
     meters = Log((run(),), source="a.csv")
     turned = Log((run(),), units="degrees", source="b.csv")
@@ -117,24 +109,11 @@ def stepped(voltage, test="dynamic-forward"):
     return Run(test, np.arange(count) * 0.02, voltage, [0.0] * count, [0.0] * count)
 
 
-def test_a_voltage_that_is_held_does_not_slide():
-    assert not stepped([0.0, 5.0, 5.0, 5.0]).voltage_slide.any()
-    assert not stepped([0.0, 5.0, 5.0, 5.0]).voltage_error.any()
-
-
 def test_under_a_limit_the_voltage_slides_after_the_step():
     run = stepped([0.0, 3.9, 4.4, 4.8, 5.0, 5.0])
 
     assert run.voltage_slide == pytest.approx([0.0, 0.5, 0.4, 0.2, 0.0, 0.0])
     assert run.voltage_error[1:4] == pytest.approx([0.5 / 8, 0.3 / 8, 0.4 / 8])
-
-
-@pytest.mark.parametrize("first", [-6.8, -4.0])
-def test_a_slide_within_one_sample_may_end_anywhere_between(first):
-    run = stepped([first, -7.0, -7.0])
-
-    assert run.voltage_slide == pytest.approx([-7.0 - first, 0.0, 0.0])
-    assert run.voltage_error[0] == pytest.approx((7.0 + first) / 12**0.5)
 
 
 @pytest.mark.parametrize("test", ["quasistatic-forward", "triangle-forward", "chirp-reverse"])

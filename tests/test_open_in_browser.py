@@ -244,21 +244,6 @@ def test_faults_are_listed_and_marked_and_shown_on_demand(page, tmp_path):
     assert page.locator("#readout .run dd").inner_text() == "quasistatic-forward"
 
 
-def test_a_broken_file_is_explained_and_the_others_stay(page, tmp_path):
-    good = write_log(drive_log(), tmp_path / "good.csv")
-    broken = tmp_path / "garbage.wpilog"
-    broken.write_bytes(BROKEN["garbage.wpilog"])
-    drop(page, broken, good)
-    page.locator(".refusal h3", has_text="garbage.wpilog").wait_for()
-    page.locator("#gain-kV").wait_for()
-
-    assert page.locator(".tab").count() == 1
-    assert page.locator(".refusal .advice").inner_text()
-    page.get_by_label("Close this message").click()
-    assert page.locator(".refusal").count() == 0
-    assert page.complaints == []
-
-
 def test_ten_broken_files_do_not_end_the_page(page, tmp_path):
     page.evaluate(DROP, [as_dropped(*one) for one in BROKEN.items()])
     wait_until(
@@ -351,28 +336,6 @@ def test_the_chart_is_moved_by_wheel_hand_and_keyboard(page, tmp_path):
     assert page.locator("#readout dd").nth(1).inner_text() != before
     page.keyboard.press("+")
     assert page.complaints == []
-
-
-def test_a_second_log_is_laid_over_the_first(page, tmp_path):
-    drop(page, write_log(drive_log(), tmp_path / "first.csv"))
-    page.locator("#gain-kV").wait_for()
-    drop(page, write_log(drive_log(2, step=5.0), tmp_path / "second.csv"))
-    page.get_by_label("Lay second.csv over the log that is seen").click()
-
-    wait_until(page, "sysid.chart.others.length === 4")
-    assert page.locator(".legend .other").is_visible()
-
-
-def test_another_unit_is_read_anew(page, tmp_path):
-    drop(page, write_log(drive_log(), tmp_path / "drive.csv"))
-    page.locator("#gain-kV").wait_for()
-    before = error_shown(page)
-    page.get_by_label("Units").select_option("feet")
-    page.locator("#meter .quiet", has_text="ft/s").wait_for()
-
-    assert error_shown(page) == pytest.approx(before, rel=0.01)  # the numbers are feet now
-    page.get_by_label("Type").select_option("arm")
-    page.locator("#verdict-card.wrong, .refusal").first.wait_for()
 
 
 def test_logs_named_on_the_command_line_are_open(browser, tmp_path):

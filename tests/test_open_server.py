@@ -139,31 +139,6 @@ def test_a_log_that_grows_is_fitted_anew_from_the_tests_that_have_ended(tmp_path
     assert closed == []
 
 
-def test_another_type_and_other_units_are_read_anew(tmp_path, drive):
-    with served(tmp_path / "session", drive) as server:
-        (tmp_path / "session").mkdir()
-        _, feet = ask_json(server, "logs/1/summary?units=feet")
-        status, refused = ask_json(server, "logs/1/fit?type=arm")
-
-    assert feet["units"]["symbol"] == "ft"
-    assert status == 422
-    assert "must be an angle" in refused["refusal"]["what"]
-    assert refused["refusal"]["where"] == "drive one.wpilog"
-
-
-def test_code_holds_the_gains_and_those_that_were_moved_by_hand_have_no_error(tmp_path, drive):
-    with served(tmp_path / "session", drive) as server:
-        fitted = ask_json(server, "logs/1/code?language=java")[1]["code"]
-        moved = ask_json(server, "logs/1/code?language=python&season=2027&kV=3.25")[1]["code"]
-        wrong = ask_json(server, "logs/1/code?kV=inf&language=cobol")
-
-    assert "kV = 2.5" in fitted
-    assert "±" in fitted
-    assert "3.25" in moved
-    assert moved.startswith("# Moved by hand, not measured: kV\n")
-    assert wrong[0] == 422
-
-
 def test_the_report_is_that_of_the_fit(tmp_path, drive):
     with served(tmp_path / "session", drive) as server:
         status, content = ask(server, "logs/1/report.html")

@@ -2,7 +2,7 @@
 
 import math
 from dataclasses import replace
-from itertools import chain, combinations
+from itertools import combinations
 
 import numpy as np
 import pytest
@@ -122,18 +122,6 @@ def test_any_kinds_of_test_will_do(kinds):
     assert set(found.samples_used) == set(routine.tests)
 
 
-def test_repeated_runs_are_all_used_and_make_the_errors_smaller():
-    mechanism = MECHANISMS["arm"]
-    one = simulate(mechanism, GENTLE, rng=rng(1))
-    more = [simulate(mechanism, GENTLE, rng=rng(seed)) for seed in (2, 3, 4)]
-    together = replace(one, runs=tuple(chain(one.runs, *(log.runs for log in more))))
-
-    alone, four = fit(one), fit(together)
-
-    assert four.errors["kA"] < 0.7 * alone.errors["kA"]
-    assert four.gains["kA"] == pytest.approx(mechanism.gains["kA"], rel=0.01)
-
-
 @pytest.mark.parametrize("kind", ["drivetrain", "elevator", "arm", "turret"])
 def test_a_late_and_averaged_velocity_is_allowed_for_and_told(kind):
     mechanism = MECHANISMS[kind].hide("velocity-filter").hide("delay", 0.7)
@@ -156,28 +144,6 @@ def test_an_answer_a_millisecond_late_does_not_pass_for_inertia(late):
     assert found.gains["kA"] == pytest.approx(mechanism.gains["kA"], rel=0.002)
     assert found.position_delay == pytest.approx(late, abs=1e-4)
     assert "late-answer" not in [doubt.code for doubt in found.doubts]
-
-
-def test_frames_logged_four_times_over_are_counted_once():
-    mechanism = replace(
-        MECHANISMS["drivetrain"], sensor=replace(MECHANISMS["drivetrain"].sensor, frame=0.02)
-    )
-    log = simulate(mechanism, GENTLE, rng=rng(3), period=0.005)
-
-    found = fit(log)
-
-    assert found.gains["kA"] == pytest.approx(mechanism.gains["kA"], rel=0.05)
-    assert fit(log, method="sysid").gains["kA"] < 0.7 * mechanism.gains["kA"]
-
-
-def test_signs_opposed_are_told_and_fitted_as_they_are():
-    log = simulate(MECHANISMS["drivetrain"], GENTLE, rng=rng(1))
-    turned = replace(log, runs=tuple(replace(r, voltage=-r.voltage) for r in log.runs))
-
-    found = fit(turned)
-
-    assert found.gains["kV"] == pytest.approx(-MECHANISMS["drivetrain"].gains["kV"], rel=1e-3)
-    assert "sign-opposed" in [doubt.code for doubt in found.doubts if doubt.grave]
 
 
 def in_coarse_frames(run, *, position, velocity, every):
@@ -255,18 +221,6 @@ def test_a_model_that_lacks_something_is_doubted_and_reconcile_named(effect, cod
     said = [doubt.text for doubt in found.doubts if doubt.code == code]
     assert said
     assert "sysid reconcile" in said[0]
-
-
-def test_gains_of_a_model_that_strays_are_those_that_simulate_best():
-    # the likeliest innovations are those of twice to twentyfold the inertia
-    mechanism = MECHANISMS["drivetrain"].hide("asymmetric-back-emf", 2.0)
-
-    found = fit(simulate(mechanism, GENTLE, rng=rng(1)))
-
-    assert found.gains["kV"] == pytest.approx(mechanism.gains["kV"], rel=0.1)
-    assert found.gains["kA"] == pytest.approx(mechanism.gains["kA"], rel=0.25)
-    assert abs(found.gains["kA"] - mechanism.gains["kA"]) < found.errors["kA"]
-    assert "model-strays" in [doubt.code for doubt in found.doubts]
 
 
 @pytest.mark.parametrize(

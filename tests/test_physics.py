@@ -89,25 +89,6 @@ def test_quiet_about_a_clean_log_and_true_parts(kind, method):
     assert said == gravity_advice(mechanism) + fast
 
 
-@pytest.mark.parametrize("kind", PARTED)
-@pytest.mark.parametrize("seed", [11, 12])
-def test_quiet_about_others_like_it_unless_they_rub_or_are_fast(kind, seed):
-    mechanism = MECHANISMS[kind].draw(rng(seed))
-    gains = mechanism.gains
-    truly = {
-        "friction-watch": gains["kS"] > 0.5,  # a stiff intake
-        "fast-mechanism": gains["kA"] / gains["kV"] < 0.02,  # and a light one
-        "kv-drag": mechanism.drag > 0.08,
-    }
-    log = recorded(mechanism, seed)
-
-    said = check_plausibility(fit(log), parts=true_parts(mechanism))
-
-    expected = {code for code, holds in truly.items() if holds} | set(gravity_advice(mechanism))
-    assert set(codes(said)) == expected
-    assert compare_directions(log, mechanism.type) == ()
-
-
 @pytest.mark.parametrize(
     ("kind", "factor"),
     [
@@ -232,25 +213,6 @@ def test_friction_has_a_band_to_watch_and_a_red_flag(kind, ks, code):
     assert [doubt.grave for doubt in said] == ([code == "friction-stop"] if code else [])
 
 
-@pytest.mark.parametrize(
-    ("method", "period", "doubted"),
-    [
-        ("output-error", 0.005, False),
-        ("output-error", 0.02, False),  # 29 ms, but sure of it
-        ("sysid", 0.02, True),  # biased there, and does not know
-        ("sysid", 0.005, False),
-        ("output-error", 0.04, True),
-    ],
-)
-def test_a_timescale_shorter_than_the_sampling_is_told(method, period, doubted):
-    found = replace(found_in("intake"), method=method)
-    said = check_plausibility(found, period=period)
-
-    assert codes(said) == ["fast-mechanism"] * doubted
-    assert all("kA/kV = 29 ms" in doubt.message for doubt in said)
-    assert all("Log every 7" in doubt.message for doubt in said)
-
-
 @pytest.mark.parametrize("kind", ["drivetrain", "shooter", "turret", "arm", "intake"])
 @pytest.mark.parametrize(
     ("effect", "gain"), [("asymmetric-friction", "kS"), ("asymmetric-back-emf", "kV")]
@@ -282,15 +244,6 @@ def test_two_sides_are_compared_gain_by_gain(changes, gains):
 
     assert [doubt.message.partition(" ")[0] for doubt in said] == gains
     assert set(codes(said)) <= {"sides-differ"}
-
-
-def test_units_shown_are_the_owners_and_the_unit_of_the_fit_does_not_matter():
-    found, parts = found_in("turret"), replace(true_parts(MECHANISMS["turret"]), ratio=60.0)
-
-    said = check_plausibility(found, parts=parts)
-
-    assert "V·s/deg" in about(said, "kv-below-theory")
-    assert check_plausibility(found.in_log_units(), parts=parts) == said
 
 
 @pytest.mark.parametrize(

@@ -102,14 +102,6 @@ def test_the_same_picture_is_the_same_text(name):
     assert PICTURES[name]().svg == drawn(name)[1]
 
 
-@each_picture
-def test_a_notebook_gets_words_and_picture_and_a_terminal_gets_words(name):
-    picture, _, bundle = drawn(name)
-    assert set(bundle) == {"text/plain", "text/html"}
-    assert bundle["text/plain"].startswith(picture.alt)
-    assert picture.alt in str(picture)
-
-
 def test_choices_say_by_how_much_each_is_off():
     picture = plot_choices({"low": 1.5, "near": 2.002, "high": 3.0}, truth=2.0, name="kA")
     assert [row[2] for row in picture.table.rows] == ["−25 %", "+0.1 %", "+50 %"]

@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from handmade import FOUR, log_of, with_gaps
-from matplotlib import rcParams
 from matplotlib.colors import same_color
 from matplotlib.patches import Rectangle
 
@@ -13,7 +12,6 @@ from sim.core.errors import BadRequest
 from sim.core.log import Log, Run
 from sim.inspect.fault import Damage, LogInterval
 from sim.plot import (
-    Line,
     plot_time_series,
     plot_timesteps,
     plot_voltage_velocity,
@@ -51,30 +49,6 @@ def test_damage_is_framed_around_its_own_curve(run, panels):
         assert bottom < within.min()
         assert top > within.max()
         assert same_color(color, COLORS[run % 2])  # of the curve: forward or reverse
-
-
-def test_damage_is_named_with_its_run_and_its_time():
-    picture = plot_time_series(
-        FOUR, damages=[_damage("encoder-slip", 0, 2.0, 2.3), _damage("brownout", 3, 0.1, 0.4)]
-    )
-    assert (
-        "fault “encoder-slip”. quasistatic-forward is damaged from 2.00 to 2.30 s." in picture.alt
-    )
-    assert "fault “brownout”. dynamic-reverse is damaged from 0.10 to 0.40 s." in picture.alt
-    (legend,) = picture.figure.legends
-    assert [text.get_text() for text in legend.get_texts()][-2:] == [
-        "A: encoder-slip",
-        "B: brownout",
-    ]
-
-
-def test_damage_of_one_sample_can_still_be_seen():
-    (_, left, right, *_), _ = _boxes(
-        plot_time_series(FOUR, damages=[_damage("spike", 0, 3.0, 3.0)])
-    )
-    low, high = plot_time_series(FOUR).figure.axes[0].get_xlim()
-    assert right - left > 0.01 * (high - low)
-    assert (left + right) / 2 == pytest.approx(3.0)
 
 
 @pytest.mark.parametrize(
@@ -132,22 +106,3 @@ def test_a_huge_log_makes_a_small_picture_that_counts_every_sample(draw, huge):
     picture = draw(huge)
     assert len(picture.svg) < 300_000
     assert any(count in str(picture.table) for count in ("20000", "19999"))
-
-
-def test_thinning_keeps_the_one_sample_that_matters(huge):
-    for axes in plot_time_series(huge).figure.axes[2:]:
-        assert max(line.get_ydata().max() for line in axes.lines) > 30.0
-    whole = plot_voltage_velocity(huge).figure.axes[0]
-    assert max(line.get_xdata().max() for line in whole.lines) > 30.0
-
-
-def test_drawing_changes_nothing_in_matplotlib_and_nothing_in_the_log():
-    before, time = dict(rcParams), FOUR.runs[0].time.copy()
-    for picture in (
-        plot_time_series(FOUR, damages=[_damage("x", 0, 1.0, 2.0)]),
-        plot_timesteps(FOUR),
-        plot_voltage_velocity(FOUR, lines={"a": Line(0.2, 2.0)}),
-    ):
-        assert picture.svg
-    assert dict(rcParams) == before
-    assert np.array_equal(FOUR.runs[0].time, time)

@@ -51,16 +51,6 @@ def test_a_number_lies_in_its_band(value, band):
 
 
 @pytest.mark.parametrize(
-    ("value", "ends"),
-    # a twentieth of the scale is left beyond a mark outside: (6 + 4)/20 = 0.5, (14 - 0)/20 = 0.7
-    [(0.0, (0.0, 6.0)), (6.0, (0.0, 6.0)), (-4.0, (-4.5, 6.0)), (14.0, (0.0, 14.7))],
-)
-def test_a_mark_outside_the_bands_does_not_stand_on_the_edge(value, ends):
-    (axes,) = plot_gauge({"x": value}, BANDS, label="kS [V]", good="fine").figure.axes
-    assert axes.get_xlim() == pytest.approx(ends)
-
-
-@pytest.mark.parametrize(
     ("draw", "advice"),
     [
         (lambda: plot_tracking_error(TIME, TIME, {}), "Give one or more"),

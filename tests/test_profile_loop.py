@@ -10,7 +10,6 @@ from hypothesis import strategies as st
 
 from sim.bench.mechanisms import MECHANISMS
 from sim.core.errors import BadRequest
-from sim.core.units import convert_gains
 from sim.teaching.profile_loop import (
     LOOP,
     ONBOARD,
@@ -79,21 +78,6 @@ def test_a_missing_kg_leaves_the_droop_that_the_arithmetic_says():
     move = follow_in_closed_loop(SMOOTH, slow, lambda one: compute_loop_voltage(ff, pid, one))
 
     assert move.error[-1] == pytest.approx(0.4 / kp, rel=0.03)  # missing kG ÷ kP
-
-
-def test_gains_per_rotor_rotation_leave_nearly_the_whole_way():
-    drum = 2.0 * math.pi * LIFT.radius
-
-    def worst(meters):
-        gains = convert_gains(LIFT.gains, factor=meters) | {"kP": 5.0 * meters}
-        move = follow_in_closed_loop(
-            LIFT, RISE, lambda one: compute_phoenix_voltage(gains, one, meters_per_rotation=drum),
-            period=ONBOARD,
-        )  # fmt: skip
-        return move.worst_error
-
-    assert worst(drum) < 0.001  # [m]
-    assert worst(drum / LIFT.ratio) > 0.3
 
 
 @given(st.floats(-2.0, 2.0), st.floats(-2.0, 2.0), st.floats(0.1, 3.0), st.floats(0.2, 20.0))

@@ -8,10 +8,7 @@ import tarfile
 from dataclasses import dataclass, field
 
 import pytest
-from click.testing import CliRunner
 
-from sim.cli.inspect import LINES
-from sim.cli.inspect import inspect as command
 from sim.inspect.detect_faults import inspect
 from sim.io import read
 
@@ -137,14 +134,3 @@ def test_the_delay_of_the_velocity_is_told_and_none_made_up(inspected, name):
     else:
         told = int(said[0].message.split(" ms")[0].rsplit(" ", 1)[1])
         assert told == pytest.approx(lag, abs=15)
-
-
-@pytest.mark.parametrize("name", LOOKED_AT)
-def test_the_report_fits_on_a_screen_and_says_each_kind_once(logs, name):
-    shown = CliRunner().invoke(command, [str(logs / f"{name}.json")])
-
-    lines = shown.output.splitlines()
-    kinds = [line.split(":")[0] for line in lines if line.endswith(")") and ": run" in line]
-    assert 0 < len(lines) <= LINES
-    assert len(kinds) == len(set(kinds))
-    assert sum("a new reading arrives only" in line for line in lines) <= 1

@@ -5,11 +5,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reconcile_made import based, bench, rubbing, session
+from reconcile_made import based, rubbing
 
 from sim.estimation.optimize import compute_parameter_covariance, compute_standard_errors
-from sim.estimation.run_nuisance import RunNuisance
-from sim.reconcile import reconcile
 from sim.reconcile.cross_validation import (
     Fold,
     compute_open_loop_errors,
@@ -18,7 +16,6 @@ from sim.reconcile.cross_validation import (
     select_usable_folds,
 )
 from sim.reconcile.local_minimum import minimize
-from sim.reconcile.residual_tests.whiteness import find_worst_window
 
 GAINS = {"kS": 0.5, "kV": 0.5, "kA": 0.05}
 NOISE = (1e-3, 1e-2)  # [m] and [m/s]
@@ -34,14 +31,6 @@ def fitted():
 def excluded(problem, *runs):
     records = [one.exclude() if n in runs else one for n, one in enumerate(problem.records)]
     return replace(problem, records=tuple(records))
-
-
-def test_a_motor_is_as_warm_in_the_predicted_run_as_the_runs_before_made_it():
-    mechanism = bench("turret", "heating", size=2.0)
-
-    story = reconcile(session(mechanism, "log"), type=mechanism.type)
-
-    assert [one.effect for one in story.findings if one.size == "major"] == ["heating"]
 
 
 def test_which_samples_are_compared_does_not_depend_on_the_model(fitted):
@@ -81,19 +70,3 @@ def test_standard_errors_are_those_of_the_covariance_and_say_what_is_not_known(f
     assert list(errors.values()) == pytest.approx(np.sqrt(variance).tolist())
     assert unknown["deadband.band"] == math.inf
     assert unknown["kV"] == pytest.approx(errors["kV"], rel=0.05)
-
-
-def test_windows_with_excluded_samples_do_not_count_as_windows_without_error(fitted):
-    problem, point = fitted
-    half = excluded(problem, 0, 1)
-    nuisance = RunNuisance.at_first_samples(4)
-    here = half.evaluate(point.structure, point.values, nuisance, point.process_noise)
-    alone = problem.select_runs([2, 3])
-    there = alone.evaluate(
-        point.structure, point.values, nuisance.select_runs([2, 3]), point.process_noise
-    )
-
-    assert find_worst_window(half, here).size == pytest.approx(
-        find_worst_window(alone, there).size, rel=1e-6
-    )
-    assert find_worst_window(problem, point).size > 0.0

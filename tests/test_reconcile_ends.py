@@ -18,7 +18,7 @@ from sim.reconcile.cross_validation import (
     compute_validation_gap,
     make_folds,
 )
-from sim.reconcile.local_minimum import minimize, minimize_fully
+from sim.reconcile.local_minimum import minimize
 from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound
 from sim.reconcile.thresholds import LEAST_SCORE
@@ -71,19 +71,6 @@ def test_a_wave_along_a_long_way_is_weighed_beside_friction_that_is_simulated():
     assert eased < 0.3 * bare  # which was wider, where friction was only extrapolated
 
 
-@pytest.mark.parametrize("off", [4.0, 0.3])
-def test_gains_that_are_far_off_are_found_from_where_much_seems_to_push(off):
-    problem = PredictionErrorProblem.from_records(make_run_records(session(step=4.0)))
-    far = {"kS": 0.0, "kV": off * GAINS["kV"], "kA": 20.0 * GAINS["kA"]}
-    begun = at(problem, far, process_noise=4.0**6)
-
-    found = minimize_fully(problem, begun)
-
-    assert found.cost <= minimize(problem, begun).cost
-    assert found.values == pytest.approx(GAINS, rel=0.02)
-    assert found.process_noise < problem.noise.velocity**2
-
-
 def test_an_effect_that_needs_fewer_parameters_by_now_gives_way_to_its_sister():
     log = session(Part("constant-load", {"load": 0.3}), step=4.0)
     problem = PredictionErrorProblem.from_records(make_run_records(log))
@@ -99,19 +86,6 @@ def test_an_effect_that_needs_fewer_parameters_by_now_gives_way_to_its_sister():
     assert [one.candidate.effect for one in told] == ["", "constant-load"]
     assert told[-1].candidate.estimate.structure.effects == ("constant-load",)
     assert told[-1].candidate.estimate.values["constant-load.load"] == pytest.approx(0.3, abs=0.02)
-
-
-def test_an_effect_that_needs_its_parameters_keeps_them():
-    log = session(Part("spring", {"rate": 0.1, "preload": 0.0}), step=4.0)
-    problem = PredictionErrorProblem.from_records(make_run_records(log))
-    parts = make_folds([one.session for one in problem.records])
-    base = score_estimate(problem, minimize(problem, at(problem, GAINS)))
-    values = {**GAINS, "spring.rate": 0.1, "spring.preload": 0.0}
-    taken = score_estimate(problem, minimize(problem, at(problem, values, "spring")), "spring")
-    gaps = [compute_validation_gap(problem, one.estimate, parts) for one in (base, taken)]
-    done = make_rounds([base, taken], gaps)
-
-    assert simplify_effects(SelectionData(log, problem, parts), done) == done
 
 
 @pytest.mark.parametrize("others", [("constant-load",), ("constant-load", "stribeck")])

@@ -16,16 +16,11 @@ from sim.physics.effects import EFFECTS
 from sim.physics.engine import State
 from sim.physics.model import Model, Part
 from sim.physics.voltage_residual import list_run_start_times
-from sim.reconcile import model_selection
-from sim.reconcile.candidates import score_estimate
-from sim.reconcile.cross_validation import Gap, make_folds
 from sim.reconcile.judgement import is_contradicted
 from sim.reconcile.local_minimum import minimize, rate_starts
-from sim.reconcile.onset_scan import flip_duration, refine_onset, scan_onsets
+from sim.reconcile.onset_scan import refine_onset, scan_onsets
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.residual_tests.whiteness import WorstWindow
-from sim.reconcile.selection_data import SelectionData
-from sim.reconcile.selection_round import SelectionRound
 
 PERIOD, LATER = 0.02, 1e6  # [s]
 JOINS = 0.6  # [1] of kA
@@ -126,35 +121,6 @@ def test_its_moment_is_where_the_innovations_change(dynamic, shared, after, last
     assert found["extra"] == pytest.approx(0.02, rel=0.5)
 
 
-@pytest.mark.parametrize(
-    ("effect", "score", "admitted"),
-    [("inertia-change", 120.0, False), ("inertia-change", 140.0, True), ("drag", 120.0, True)],
-)
-def test_what_may_be_one_runs_accident_has_to_be_likelier(monkeypatch, effect, score, admitted):
-    log = log_with(())
-    problem = PredictionErrorProblem.from_records(make_run_records(log))
-    base = score_estimate(
-        problem,
-        problem.evaluate(
-            ModelStructure("simple"),
-            GAINS,
-            RunNuisance.at_first_samples(4),
-            problem.noise.velocity**2,
-        ),
-    )
-    other = replace(base, effect=effect, bic=base.bic - score)
-    gap = Gap(1.0, 1.0)
-    monkeypatch.setattr(model_selection, "rank_candidates", lambda *_, **__: [other])
-    monkeypatch.setattr(model_selection, "compute_validation_gap", lambda *_: Gap(0.9, 0.9))
-
-    (one,) = model_selection.weigh_candidates(
-        SelectionData(log, problem, make_folds([0, 0, 0, 0])),
-        SelectionRound.make_base(base, gap),
-    )
-
-    assert one.report.admitted is admitted
-
-
 @pytest.fixture(scope="module")
 def joined(dynamic):
     """A log in which inertia joins for good, and the point of it that has it over with its run."""
@@ -167,22 +133,6 @@ def joined(dynamic):
     return problem, problem.evaluate(
         structure, values, RunNuisance.at_first_samples(4), problem.noise.velocity**2
     )
-
-
-def test_what_was_over_with_its_run_is_tried_for_good(joined):
-    problem, point = joined
-
-    others = [minimize(problem, one) for one in flip_duration(problem, point)]
-
-    assert len(others) == 3  # two ends of it, each with and without a share of the momentum
-    best = min(others, key=lambda one: one.cost)
-    assert best.values["inertia-change.until"] == LATER
-    assert best.values["inertia-change.extra"] == pytest.approx(0.02, rel=0.05)
-    assert best.cost < minimize(problem, point).cost - 100.0
-    plain = problem.evaluate(
-        ModelStructure("simple"), GAINS, RunNuisance.at_first_samples(4), point.process_noise
-    )
-    assert not list(flip_duration(problem, plain))
 
 
 @pytest.mark.parametrize("shared", [0.0, 1.0])

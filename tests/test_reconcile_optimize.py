@@ -12,10 +12,7 @@ from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import make_joint_jacobian
 from sim.estimation.run_nuisance import RunNuisance
 from sim.estimation.run_records import make_run_records
-from sim.physics.effects import EFFECTS
 from sim.physics.model import Part
-from sim.physics.voltage_residual import compute_voltage_residual
-from sim.reconcile.candidates import refine_threshold
 from sim.reconcile.local_minimum import rate_starts
 from sim.reconcile.thresholds import MAJOR
 
@@ -36,20 +33,6 @@ def test_a_threshold_far_below_where_the_ramps_begin_is_found(band):
     first = story.findings[0]
     assert first.effect == "deadband"
     assert first.parameters["band"].value == pytest.approx(band, rel=0.1)
-
-
-def test_a_threshold_that_is_a_little_off_is_moved():
-    built = replace(bench("drivetrain"), hidden=(Part("deadband", {"band": 0.6}),))
-    problem = PredictionErrorProblem.from_records(make_run_records(session(built, "log")))
-    structure = ModelStructure("simple") + "deadband"
-    values = {**{name: built.gains[name] for name in structure.names[:3]}, "deadband.band": 0.56}
-    nuisance = RunNuisance.at_first_samples(len(problem.records))
-    off = problem.evaluate(structure, values, nuisance, problem.noise.velocity**2)
-
-    moved = refine_threshold(problem, off)
-
-    assert moved.cost < off.cost
-    assert moved.values["deadband.band"] == pytest.approx(0.6, rel=0.03)  # it was 7 % off
 
 
 def test_a_start_that_is_far_too_large_is_halved():
@@ -116,31 +99,6 @@ def test_a_start_that_goes_the_wrong_way_or_too_far_is_turned(part):
 
 
 # -- what is no alarm -----------------------------------------------------------------------------
-
-
-def bumped(where, *, wide):
-    """A drivetrain on a floor with a bump: half a volt, there and nowhere else."""
-    log = session(bench("drivetrain"), "log")
-    runs = [
-        replace(run, voltage=run.voltage + 0.5 * np.exp(-(((run.position - where) / wide) ** 2)))
-        for run in log.runs
-    ]
-    return replace(log, runs=tuple(runs))
-
-
-@pytest.mark.parametrize("wide", [0.2, 0.6])
-def test_what_does_not_come_back_is_not_begun_as_a_wave(wide):
-    log = bumped(0.4, wide=wide)
-    evidence = compute_voltage_residual(log, dict(bench("drivetrain").gains), type="simple")
-    way = float(np.ptp(evidence.position))
-
-    waves = [
-        start["turns"] * way / (2.0 * math.pi)
-        for start in EFFECTS["cogging"].start_values(evidence)
-    ]
-
-    assert waves
-    assert min(waves) >= 4.0
 
 
 def test_a_ripple_that_any_robot_has_is_no_finding_however_much_of_the_gap_it_takes():

@@ -2,14 +2,12 @@
 
 import math
 from dataclasses import replace
-from types import SimpleNamespace
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from sim.physics.effects import EFFECTS
-from sim.reconcile.judgement import list_rival_scores
 from sim.reconcile.model_selection import is_ordinary_size
 from sim.reconcile.probability import (
     Evidence,
@@ -21,7 +19,6 @@ from sim.reconcile.residual_tests.repeatability import RepeatedResidual
 from sim.reconcile.residual_tests.spectrum import SpectralPeak
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.residual_tests.whiteness import NO_WINDOW
-from sim.reconcile.story import TriedCandidate
 from sim.reconcile.thresholds import (
     FARTHEST,
     LARGEST_SIZE,
@@ -115,16 +112,3 @@ def test_a_rival_counts_only_if_it_lasts_as_the_effect_does(own, others):
 
     assert 0.0 <= share <= 1.0
     assert share == pytest.approx(min(max(max(lasting, default=0.0) / own, 0.0), 1.0))
-
-
-def test_no_other_effect_of_the_last_model_is_a_rival():
-    before = SimpleNamespace(
-        tried=[
-            TriedCandidate(name, score, 0.9, admitted=True, why="")
-            for name, score in (("heating", 90.0), ("battery-sag", 80.0), ("drag", 30.0))
-        ]
-    )
-
-    found = list_rival_scores(before, ("heating", "battery-sag"), "battery-sag")
-
-    assert found == {"battery-sag": 80.0, "drag": 30.0}

@@ -1,19 +1,16 @@
 """Friction that is each run's own: found beside what all runs have, and no finding."""
 
-import math
-
 import numpy as np
 import pytest
 from reconcile_made import rubbing
 
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
-from sim.estimation.optimize import append_prior_rows, compute_standard_errors, make_joint_jacobian
+from sim.estimation.optimize import compute_standard_errors
 from sim.estimation.random_friction import get_friction_sd
 from sim.estimation.run_nuisance import RunNuisance
 from sim.estimation.run_records import make_run_records
-from sim.physics.engine import NO_CORRECTION, RunBatch, filter_runs
-from sim.physics.model import Model, Part
+from sim.physics.model import Part
 from sim.reconcile.cross_validation import (
     compute_open_loop_errors,
     compute_rms_gap,
@@ -34,38 +31,6 @@ def begun(problem, *effects, **values):
     structure = ModelStructure("simple", effects)
     nuisance = RunNuisance.at_first_samples(len(problem.records))
     return problem.evaluate(structure, {**GAINS, **values}, nuisance, problem.noise.velocity**2)
-
-
-def followed(model, time, volts, *, rubs):
-    count = len(rubs)
-    nothing, still = np.full((count * time.size, 2), np.nan), np.zeros(count)
-    course = RunBatch(
-        edges=np.arange(count + 1.0) * time.size, time=np.tile(time, count),
-        voltage=np.tile(volts, count),
-        voltage_slide=np.zeros(count * time.size), measured=nothing, position=still, velocity=still,
-        low=still - math.inf, high=still + math.inf, clocks=still, memory_groups=still,
-    )  # fmt: skip
-    return filter_runs(
-        model,
-        course,
-        kalman_gain=NO_CORRECTION,
-        position_offset=still,
-        backlash_phase=still,
-        friction_offset=np.array(rubs),
-        lag_offset=still,
-    )
-
-
-@pytest.mark.parametrize("rubs", [0.1, -0.1, -0.6])
-def test_a_run_with_more_friction_moves_as_a_model_with_more(rubs):
-    time = np.arange(0.0, 2.0, 0.02)
-    volts = 3.0 * np.sin(4.0 * time)
-    model = Model("simple", {**GAINS, "kS": max(GAINS["kS"] + rubs, 0.0)})
-
-    tracks = followed(Model("simple", GAINS), time, volts, rubs=[0.0, rubs])
-
-    assert tracks[time.size :] == pytest.approx(followed(model, time, volts, rubs=[0.0]), abs=1e-12)
-    assert np.ptp(tracks[: time.size, 0]) != pytest.approx(np.ptp(tracks[time.size :, 0]), rel=1e-3)
 
 
 def test_each_runs_friction_is_found_and_is_no_other_gain():
@@ -96,25 +61,6 @@ def test_a_standard_error_knows_of_frictions_that_differ():
     assert np.mean(off < 2.0) > 0.7
     assert np.mean(off < 0.05) < 0.3  # nor are they far too large
     assert np.median(errors) == pytest.approx(0.04 * GAINS["kS"] / 2.0, rel=0.3)
-
-
-def test_what_a_point_adjusts_to_is_what_the_priors_allow():
-    problem = session(SHARES)
-    point = begun(problem)
-    kept = make_joint_jacobian(problem, point)
-    white = problem.whiten(point, point.innovations)
-
-    table, rest = append_prior_rows(problem, point)
-    by, *_ = np.linalg.lstsq(table, rest, rcond=None)
-    left = rest - table @ by
-    prior = rest[white.size :]
-
-    assert kept.compute_residual_square(white) + float(prior @ prior) == pytest.approx(
-        float(left @ left), rel=1e-6
-    )
-    along, size = kept.compute_residual_products(white, white)
-    assert 0.0 < size <= float(white @ white)
-    assert along == pytest.approx(size - kept.basis.T @ white @ kept.prior, rel=1e-6)
 
 
 @pytest.mark.parametrize("share", [0.93, 0.97, 1.02, 1.055, 1.1])

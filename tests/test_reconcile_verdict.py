@@ -1,6 +1,5 @@
 """The verdict: what the findings and what is left of the gap come to."""
 
-import math
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -244,26 +243,6 @@ def test_while_something_remains_a_name_has_to_take_much_of_it_away(problem, res
 
 
 @pytest.mark.parametrize(
-    ("effect", "name", "size", "named"),
-    [
-        ("constant-load", "load", 0.02, False),
-        ("constant-load", "load", -0.02, False),
-        ("constant-load", "load", 0.05, True),
-        ("asymmetric-friction", "lean", -0.02, False),
-        ("asymmetric-friction", "lean", -0.05, True),
-    ],
-)
-def test_what_frictions_of_single_runs_add_up_to_is_not_named(problem, effect, name, size, named):
-    done = added(problem, (effect, 1.9, 2.0), values={**GAINS, f"{effect}.{name}": size})
-
-    found = find_effects(problem, done, residuals=ResidualSummary())
-    told = list_remarks(problem, done, found, (), ResidualSummary())
-
-    assert [one.effect for one in found] == [effect] * named
-    assert any(f"a little {effect}" in sentence for sentence in told) is not named
-
-
-@pytest.mark.parametrize(
     ("score", "others", "named"),
     [
         (400.0, {}, True),
@@ -295,17 +274,3 @@ def test_an_effect_is_a_finding_if_it_is_likelier_right_than_wrong(problem, scor
     # A likely effect may be no finding for another reason, and is then not called unlikely.
     unnamed = list_remarks(problem, done, [], [judged], ResidualSummary())
     assert any("only" in one for one in unnamed) is not named
-
-
-@pytest.mark.parametrize(("swings", "judged"), [(0.5, True), (1.5, False)])
-def test_a_joint_that_swings_within_a_sample_is_no_finding(problem, swings, judged):
-    period = float(np.median(np.diff(problem.records[0].measurements.time)))
-    reduced = 0.3 * 0.7 * GAINS["kA"]
-    soft = (period / (2.0 * math.pi * swings)) ** 2 / reduced
-    joint = {"softness": soft, "share": 0.3, "damping": 0.1, "motor_friction": 0.5}
-    values = {**GAINS, **{f"compliance.{name}": value for name, value in joint.items()}}
-    done = added(problem, ("compliance", 1.0, 2.0), values=values)
-
-    found = judge_effects(problem, done, ResidualSummary(), damaged=False)
-
-    assert [one.effect for one in found] == ["compliance"] * judged

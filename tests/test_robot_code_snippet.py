@@ -144,22 +144,6 @@ def test_the_numbers_come_back_within_a_tenth_of_their_errors(type_, language, s
         assert read[f"k{loop.capitalize()}D"] == pytest.approx(gains.kd, rel=5e-3)
 
 
-@pytest.mark.parametrize(
-    ("language", "season", "call"),
-    [
-        ("java", 2026, "FEEDFORWARD.calculateWithVelocities({}velocity, nextVelocity)"),
-        ("java", 2027, "FEEDFORWARD.calculate({}velocity, nextVelocity)"),
-        ("python", 2026, "FEEDFORWARD.calculate({}velocity, nextVelocity)"),
-        ("python", 2027, "FEEDFORWARD.calculate({}velocity, nextVelocity)"),
-    ],
-)
-def test_the_call_is_the_seasons_and_an_arms_takes_the_angle_first(language, season, call):
-    assert call.format("") in write_robot_code(found("simple"), language=language, season=season)
-    assert call.format("angle, ") in write_robot_code(
-        found("arm"), language=language, season=season
-    )
-
-
 @pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("units", ["rotations", "degrees"])
 def test_an_arm_counted_in_turns_is_pasted_per_radian_and_says_so(units, language):
@@ -209,25 +193,6 @@ def test_the_object_that_robotpy_makes_calculates_our_formula(type_):
     assert rising == pytest.approx(
         discrete(type_, gains, now=0.7, then=0.75, angle=angle), abs=slack
     )
-
-
-@pytest.mark.parametrize(
-    ("value", "error", "text"),
-    [
-        (0.161339, 0.0043663, "0.1613"),
-        (2.523321, 0.0026523, "2.5233"),
-        (0.000123456, 0.0000071, "0.0001235"),
-        (1234.567, 40.0, "1235.0"),
-        (123456.7, 4000.0, "123500.0"),
-        (0.00123456, 5.0, "0.00123"),  # an error above the value leaves three digits, never a zero
-        (2.5233214987, 1e-12, "2.5233"),  # and one of nothing leaves five
-        (-0.372849, 0.0066, "-0.3728"),
-        (0.0, 0.1, "0.0"),
-        (1e-9, math.inf, "0.000000001"),
-    ],
-)
-def test_a_number_has_the_digits_its_error_deserves(value, error, text):
-    assert round_to_error(value, error) == text
 
 
 @given(

@@ -9,7 +9,6 @@ from open_page import ask, ask_json, drive_log, served, slipped_log, write_log
 from test_open_in_browser import DESKTOP, PHONE, opened, wait_until
 
 from sim.cli.open.view import PageView, SpanText
-from sim.inspect.contaminate import contaminate
 
 pytestmark = [pytest.mark.slow, pytest.mark.browser]
 
@@ -99,22 +98,6 @@ def test_a_span_is_marked_from_the_keyboard(viewer):
     assert page.evaluate("sysid.chart.spans.size") == 0
 
 
-@pytest.mark.parametrize("way", ["shift", "button"])
-def test_a_log_is_moved_instead_of_marked(viewer, way):
-    page = viewer(drive_log())
-    page.get_by_role("button", name="Show run 2, dynamic-forward").click()
-    before = page.evaluate("sysid.chart.view[0]")
-    if way == "button":
-        page.get_by_role("button", name="Move", exact=True).click()
-    else:
-        page.keyboard.down("Shift")
-    drag(page, 2, 2.0, 1.0)
-    page.keyboard.up("Shift")
-
-    assert page.evaluate("sysid.chart.view[0]") > before
-    assert page.evaluate("sysid.chart.spans.size") == 0
-
-
 def test_one_cursor_tells_all_values_at_a_time(viewer):
     log = drive_log()
     page = viewer(log)
@@ -135,22 +118,6 @@ def test_one_cursor_tells_all_values_at_a_time(viewer):
     assert float(values["time step"].split()[0]) == pytest.approx(
         1e3 * (run.time[sample] - run.time[sample - 1]), abs=0.06
     )
-
-
-def test_axes_hold_zero_and_a_time_step_of_one_and_a_half_medians(viewer):
-    rng = np.random.default_rng(3)
-    page = viewer(contaminate(drive_log(4), "loop-overrun", severity=1.0, rng=rng).log)
-    median, late = page.evaluate("[sysid.chart.derived.median, sysid.chart.derived.late]")
-    ranges = {
-        name: page.evaluate(f"sysid.chart.rangeOfPanel('{name}')")
-        for name in ("voltage", "velocity", "position", "step")
-    }
-
-    assert all(low <= 0.0 <= high for low, high in ranges.values())
-    assert median == pytest.approx(20.0, rel=0.05)
-    assert ranges["step"][0] == 0.0
-    assert late == pytest.approx(1.5 * median)
-    assert ranges["step"][1] > late
 
 
 def test_nothing_is_told_of_a_damaged_log(viewer):

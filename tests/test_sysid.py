@@ -96,12 +96,18 @@ def test_gains_that_cannot_be_right_give_exit_code_1(drive):
 
 
 @pytest.mark.parametrize(
-    "content",
-    [b"", b"\x00\xff" * 500, b"test,time_s\n", "Straße;1,5\n".encode("latin-1"), b"{", b"WPILOG"],
+    ("suffix", "content"),
+    [
+        (".csv", b""),
+        ("", b"\x00\xff" * 500),
+        (".json", b"test,time_s\n"),
+        (".csv", "Straße;1,5\n".encode("latin-1")),
+        (".json", b"{"),
+        (".wpilog", b"WPILOG"),
+    ],
     ids=["empty", "binary", "header only", "not UTF-8", "a bracket", "a magic word"],
 )
-@pytest.mark.parametrize("suffix", [".csv", ".wpilog", ".json", ""])
-def test_a_file_of_nonsense_is_one_line_whatever_its_name(tmp_path, content, suffix):
+def test_a_file_of_nonsense_is_one_line_whatever_its_name(tmp_path, suffix, content):
     (tmp_path / f"odd{suffix}").write_bytes(content)
 
     refused = sysid("fit", f"odd{suffix}", folder=tmp_path)

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
-from old_tools import COUNT, RUNS, document, motion, only_doubt, read_json, scaled, sysid
+from old_tools import RUNS, document, motion, read_json, scaled, sysid
 
 import sim
 
@@ -36,20 +36,6 @@ def test_rows_of_four_are_one_mechanism(tmp_path: Path, test: str, type_: str) -
         assert run.bus_voltage is None
 
 
-def test_rows_of_six_have_the_battery_and_no_word_about_units(tmp_path: Path) -> None:
-    log = read_json(tmp_path, document(6))
-
-    assert (log.type, log.mechanism, log.units) == ("", "", "meters")
-    assert only_doubt(log).code == "units-unknown"
-    assert "taken as meters" in only_doubt(log).text
-    assert "--units" in only_doubt(log).text
-    (run,) = log.list_runs_of_test("dynamic-forward")
-    assert run.voltage[-1] == 6.0
-    assert run.velocity[-1] == 3.0
-    assert run.bus_voltage is not None
-    assert run.bus_voltage.tolist() == [12.5] * COUNT
-
-
 @pytest.mark.parametrize(
     ("asked", "units"),
     [
@@ -64,18 +50,6 @@ def test_units_a_file_leaves_open_are_settled_by_asking(
 
     assert log.units == units
     assert [doubt.code for doubt in log.doubts] == ([] if "units" in asked else ["units-unknown"])
-
-
-def test_units_one_says_go_before_those_of_the_file_with_a_doubt(tmp_path: Path) -> None:
-    log = read_json(tmp_path, sysid(4, "Simple"), units="feet")
-
-    assert log.units == "feet"
-    assert log.list_runs_of_test("dynamic-forward")[0].velocity[-1] == pytest.approx(
-        3.0 * 0.5 * 0.3048
-    )
-    assert only_doubt(log).code == "contradicting-units"
-    assert "Meters" in only_doubt(log).text
-    assert read_json(tmp_path, sysid(4, "Simple"), units="meters").doubts == ()
 
 
 @pytest.mark.parametrize("motor", [None, "left", "right", "combined"])

@@ -6,8 +6,6 @@ import numpy as np
 import pytest
 from old_tools import RUNS, document, motion, only_doubt, read_json, scaled, sysid
 
-import sim
-
 
 def test_an_angular_drivetrain_is_half_the_difference_of_its_sides(tmp_path: Path) -> None:
     made = sysid(9, "Drivetrain (Angular)")
@@ -114,19 +112,3 @@ def test_signs_that_come_and_go_are_doubted(tmp_path: Path) -> None:
 
     assert only_doubt(log).code == "unclear-sign"
     assert "left, dynamic-forward" in only_doubt(log).message
-
-
-@pytest.mark.shared
-@pytest.mark.parametrize("motor", ["left", "right", None])
-@pytest.mark.parametrize("name", ["frc4646-2022-drivetrain", "frc501-2020-drivetrain"])
-def test_both_sides_of_a_real_drivetrain_go_the_way_they_are_pushed(
-    shared: Path, name: str, motor: str | None
-) -> None:
-    log = sim.read(shared / "data" / "real" / f"{name}.json", motor=motor)
-
-    for run in log.runs:
-        way = 1.0 if run.direction == "forward" else -1.0
-        assert (way * run.voltage >= 0).all()
-        assert (way * run.velocity >= 0).all()
-        assert way * (run.position[-1] - run.position[0]) > 0.5
-        assert (run.bus_voltage is not None) == ("2020" in name)

@@ -47,17 +47,6 @@ def test_a_planted_delay_is_found_to_five_milliseconds(name, period, lag):
     assert estimate_velocity_lag(log.runs).lag == pytest.approx(lag, abs=0.005)
 
 
-@pytest.mark.parametrize("factor", [180.0 / np.pi, 8.46, 1.0 / 60.0, -1.0])
-def test_another_scale_is_a_scale_and_no_delay(factor):
-    log = each(bench(), lambda run: replace(run, velocity=run.velocity * factor))
-
-    found = estimate_velocity_lag(log.runs)
-
-    assert found.lag == pytest.approx(0.0, abs=0.005)
-    assert found.scale == pytest.approx(factor, rel=0.01)
-    assert found.matched
-
-
 def test_an_average_is_a_delay_of_half_its_window():
     log = each(bench(), lambda run: averaged(run, window=0.1))
 

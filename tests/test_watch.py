@@ -202,14 +202,6 @@ def test_a_step_that_a_current_limit_held_down_is_repeated_with_what_it_let_thro
     assert find_voltage_limit(freed.list_runs_of_test("dynamic-forward")[0]) is None
 
 
-def test_a_step_without_a_limit_is_not_one():
-    runs = [run for seed in range(5) for run in drive_log(seed).runs]
-    robot, rng = MECHANISMS["drivetrain"], np.random.default_rng(3)
-    sagging = simulate(robot, Routine(step=3.5), rng=rng, duty_cycle=True).runs
-
-    assert {find_voltage_limit(run) for run in [*runs, *sagging]} == {None}
-
-
 def test_a_step_that_met_its_end_is_repeated_with_one_that_settles_before():
     log = drive_log()
     log = contaminate(

@@ -189,15 +189,3 @@ def test_a_test_whose_begin_nobody_saw_does_not_count(start, port, tmp_path):
 def test_what_is_no_address_is_refused(tmp_path, address):
     with pytest.raises(BadRequest, match="no address|no team"):
         NetworkTablesSource(address, folder=tmp_path)
-
-
-def test_a_recording_never_replaces_a_file(start, watched, tmp_path):
-    kept = tmp_path / "kept" / "networktables-1.wpilog"
-    kept.write_text("mine", encoding="utf-8")
-    robot = start()
-    wait_for_values(watched)
-    robot.publish(0)
-    update = wait_for(lambda one: one, watched.poll)
-
-    assert [path.name for path in update.paths] == ["networktables-2.wpilog"]
-    assert kept.read_text(encoding="utf-8") == "mine"

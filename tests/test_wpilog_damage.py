@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from wpilog_file import FOUR, HEADER, Logger, Motor, finish, record, routine, start
+from wpilog_file import FOUR, HEADER, Logger, Motor, record, routine
 
 import sim
 import sim.io
@@ -142,10 +142,3 @@ def test_a_file_with_flipped_bits_is_read_or_refused(tmp_path: Path, flips: dict
     said = read_or_refuse(path)
 
     assert isinstance(said, Log) or said.advice
-
-
-def test_the_end_of_an_entry_that_never_started_is_passed_over(tmp_path: Path) -> None:
-    path = tmp_path / "log.wpilog"
-    path.write_bytes(HEADER + record(0, 1, finish(9)) + record(0, 2, start(1, "a", "double")))
-
-    assert [entry.name for entry in sim.io.list_entries(path)] == ["a"]

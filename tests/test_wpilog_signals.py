@@ -3,7 +3,6 @@
 The logs come from the little robot in ``wpilog_file``.
 """
 
-import math
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +10,7 @@ import pytest
 from wpilog_file import FOUR, Logger, Motor, codes, motion, routine, saved
 
 import sim
-from sim.core.errors import BadSample, MissingSignal
+from sim.core.errors import MissingSignal
 
 METERS = ("volt", "meter", "meters_per_second")
 
@@ -71,43 +70,24 @@ def test_what_lies_beyond_a_signal_is_not_made_up(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("leave_out", "expected", "missing"),
+    ("leave_out", "expected"),
     [
-        pytest.param(("voltage",), "voltage-main-Arm", "", id="voltage"),
-        pytest.param(
-            ("position", "velocity"),
-            "position-main-Arm",
-            "velocity missing too",
-            id="position and velocity",
-        ),
-        pytest.param(
-            ("voltage", "position", "velocity"),
-            "voltage-<motor>-Arm",
-            "position and velocity missing too",
-            id="all three",
-        ),
+        (("voltage",), "voltage-main-Arm"),
+        (("position", "velocity"), "position-main-Arm"),
+        (("voltage", "position", "velocity"), "voltage-<motor>-Arm"),
     ],
 )
-def test_a_missing_entry_is_named(
-    tmp_path: Path, leave_out: tuple[str, ...], expected: str, missing: str, reads
-) -> None:
+def test_missing_entry_is_named(tmp_path: Path, leave_out: tuple[str, ...], expected: str) -> None:
     logger = Logger()
     logger.start("/Arm/AppliedVolts")
-    logger.start("/Wrist/encoder/velocity")
-    for time in range(3):
-        logger.put("/Arm/AppliedVolts", time, 1.0)
-        logger.put("/Wrist/encoder/velocity", time, 1.0)
+    logger.put("/Arm/AppliedVolts", 1, 1.0)
     routine(logger, Motor("main", leave_out=leave_out))
 
     with pytest.raises(MissingSignal) as caught:
         sim.read(logger.save(tmp_path / "log.wpilog"))
 
-    signal = expected.split("-", maxsplit=1)[0]
-    assert caught.value.what.startswith(f"no {signal} entry: expected '{expected}' (double)")
-    assert missing in caught.value.what
+    assert f"'{expected}' (double)" in caught.value.what
     assert "'/Arm/AppliedVolts'" in caught.value.what
-    assert f"Log the {'applied ' * (signal == 'voltage')}{signal}" in caught.value.advice
-    reads(caught.value.advice)
 
 
 def foreign(tmp_path: Path) -> Path:
@@ -133,25 +113,6 @@ ENTRIES = {
     "position": "/Arm/Encoder/Angl",
     "velocity": "/Arm/Encoder/Spee",
 }
-
-
-def test_entries_of_any_name_can_be_given(tmp_path: Path) -> None:
-    log = sim.read(foreign(tmp_path), entries=ENTRIES)
-
-    assert [run.test for run in log.runs] == list(FOUR)
-    assert (log.mechanism, log.units) == ("", "rotations")
-    assert log.doubts == ()
-
-
-def test_an_entry_that_names_tests_is_taken_whatever_its_name(tmp_path: Path, reads) -> None:
-    named = {signal: name for signal, name in ENTRIES.items() if signal != "state"}
-
-    log = sim.read(foreign(tmp_path), entries=named)
-
-    assert [run.test for run in log.runs] == list(FOUR)
-    with pytest.raises(MissingSignal) as refused:
-        sim.read(foreign(tmp_path))
-    reads(refused.value)
 
 
 def test_an_entry_given_wins_over_one_found(tmp_path: Path) -> None:
@@ -185,22 +146,3 @@ def test_an_entry_that_cannot_be_used_is_refused(
         sim.read(foreign(tmp_path), entries=ENTRIES | {signal: name})
 
     reads(str(caught.value))
-
-
-@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf, 1e300], ids=str)
-@pytest.mark.parametrize("signal", ["voltage", "position", "velocity"])
-def test_a_value_that_is_no_measurement_is_refused(
-    tmp_path: Path, signal: str, value: float
-) -> None:
-    logger = Logger()
-    for name in ("voltage", "position", "velocity"):
-        logger.start(f"{name}-m-Arm")
-    logger.start("sysid-test-state-Arm", "string")
-    for loop in range(20):
-        for name in ("voltage", "position", "velocity"):
-            bad = name == signal and loop == 7
-            logger.put(f"{name}-m-Arm", loop * 20_000, value if bad else float(loop))
-        logger.put("sysid-test-state-Arm", loop * 20_000, "dynamic-forward")
-
-    with pytest.raises(BadSample, match=f"dynamic-forward: {signal} is .* at sample 7"):
-        sim.read(logger.save(tmp_path / "log.wpilog"), units="meters")

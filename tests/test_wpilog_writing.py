@@ -59,12 +59,12 @@ def test_every_record_is_the_one_that_a_robot_would_write(tmp_path: Path) -> Non
 @pytest.mark.parametrize(
     ("begins", "ends_up"),
     [
-        pytest.param((1.0, 2.0, 5.0), (1.0, 2.0, 5.0), id="in order: as they are"),
-        pytest.param((0.0, 0.0, 0.0), (0.0, 1.040001, 2.080002), id="each from zero"),
-        pytest.param((5.0, 1.0, 20.0), (5.0, 6.040001, 20.0), id="one that goes back"),
-        pytest.param((0.0, 0.04, 0.08), (0.0, 1.040001, 2.080002), id="each at the other's end"),
-        pytest.param((0.0, 0.06, 0.12), (0.0, 0.06, 0.12), id="with no pause between"),
-        pytest.param((-3.0, 7.0, 8.0), (0.0, 7.0, 8.0), id="before zero"),
+        ((1.0, 2.0, 5.0), (1.0, 2.0, 5.0)),
+        ((0.0, 0.0, 0.0), (0.0, 1.040001, 2.080002)),
+        ((5.0, 1.0, 20.0), (5.0, 6.040001, 20.0)),
+        ((0.0, 0.04, 0.08), (0.0, 1.040001, 2.080002)),
+        ((0.0, 0.06, 0.12), (0.0, 0.06, 0.12)),
+        ((-3.0, 7.0, 8.0), (0.0, 7.0, 8.0)),
     ],
 )
 def test_runs_are_laid_one_behind_the_other(
@@ -75,15 +75,6 @@ def test_runs_are_laid_one_behind_the_other(
     assert [one.time[0] for one in log.runs] == pytest.approx(ends_up, abs=1e-9)
     for one in log.runs:
         np.testing.assert_allclose(np.diff(one.time), 0.02, atol=1e-9)
-
-
-def test_times_closer_than_a_microsecond_are_kept_apart(tmp_path: Path) -> None:
-    close = Run("dynamic-forward", [0.0, 1e-7, 2e-7, 1.0], [1.0] * 4, [1.0] * 4, [1.0] * 4)
-
-    log, _ = written(tmp_path, close)
-
-    assert log.runs[0].time.tolist() == [0.0, 1e-6, 2e-6, 1.0]
-    assert log.doubts == ()
 
 
 @pytest.mark.parametrize(
