@@ -152,20 +152,3 @@ def test_times_in_milliseconds_are_told_to_be_given_in_seconds_and_nothing_else(
     assert "--velocity-scale" not in said
     assert run_command(sysid, name="sysid", arguments=["inspect", str(path)]) == 1
     assert capsys.readouterr().out.splitlines()[0].endswith("4 runs, not inspected.")
-
-
-@pytest.mark.parametrize(
-    ("factor", "says"), [(1 / 12, "probably a duty cycle"), (1000.0, "probably millivolts")]
-)
-def test_a_voltage_that_is_no_voltage_is_told_first(factor, says, tmp_path, capsys):
-    path = tmp_path / "log.csv"
-    sim.write(change_runs(voltage=factor), path)
-
-    fitted = run_command(sysid, name="sysid", arguments=["fit", str(path)])
-    first = capsys.readouterr().out.partition("Verdict")[0]
-    inspected = run_command(sysid, name="sysid", arguments=["inspect", str(path)])
-    said = " ".join(capsys.readouterr().out.split())
-
-    assert says in first
-    assert says in said
-    assert (fitted, inspected) == (1, 1)

@@ -12,6 +12,8 @@ import ipywidgets
 import numpy as np
 import pytest
 from html_tags import Tags
+from test_plot_gravity import PICTURES as GRAVITY
+from test_plot_motor import PICTURES as MOTOR
 
 import sim
 from sim.bench.simulate import simulate
@@ -64,6 +66,7 @@ PICTURES = {
         [1, 2], [2, 5], intercept=0, slope=2, xlabel="x [m]", ylabel="y [V]"
     ),
 }
+PICTURES |= GRAVITY | MOTOR
 each_picture = pytest.mark.parametrize("name", PICTURES)
 
 

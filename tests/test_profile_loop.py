@@ -3,6 +3,7 @@
 import math
 from dataclasses import replace
 from itertools import pairwise
+from operator import attrgetter
 
 import pytest
 from hypothesis import given
@@ -119,65 +120,31 @@ def test_the_feedback_is_wpilibs():
         assert mine.calculate(measured, wanted) == pytest.approx(theirs.calculate(measured, wanted))
 
 
+def loop_of(now="now.velocity", after="after.velocity", measured="position", wanted="now.position"):
+    """A learner's loop that hands these numbers of a moment to the feedforward and the feedback."""
+    of = attrgetter(now, after, measured, wanted)
+
+    def loop(ff, pid, one):
+        velocity, later, seen, asked = of(one)
+        return ff.calculateWithVelocities(velocity, later) + pid.calculate(seen, asked)
+
+    return loop
+
+
 @pytest.mark.parametrize(
     ("mine", "says"),
     [
         (compute_loop_voltage, RIGHT),
+        (loop_of(), RIGHT),
         (lambda *_: ..., "still empty"),
-        (lambda *_: None, "still empty"),
-        (lambda *_: nothing, "stops with an error: name 'nothing'"),  # noqa: F821 - meant
-        (
-            lambda ff, _, one: ff.calculateWithVelocities(one.now.velocity, one.after.velocity),
-            "The feedback is missing",
-        ),
-        (
-            lambda _, pid, one: pid.calculate(one.position, one.now.position),
-            "The feedforward is missing",
-        ),
-        (
-            lambda ff, pid, one: (
-                ff.calculateWithVelocities(one.now.velocity, one.after.velocity)
-                + pid.calculate(one.now.position, one.position)
-            ),
-            "takes the measurement first",
-        ),
-        (
-            lambda ff, pid, one: (
-                ff.calculateWithVelocities(one.now.velocity, one.now.velocity)
-                + pid.calculate(one.position, one.now.position)
-            ),
-            "kA does nothing",
-        ),
-        (
-            lambda ff, pid, one: (
-                ff.calculateWithVelocities(
-                    one.now.velocity, (one.after.velocity - one.now.velocity) / 0.02
-                )
-                + pid.calculate(one.position, one.now.position)
-            ),
-            "not an acceleration",
-        ),
-        (
-            lambda ff, pid, one: (
-                ff.calculateWithVelocities(one.now.position, one.after.position)
-                + pid.calculate(one.position, one.now.position)
-            ),
-            "needs velocities",
-        ),
-        (
-            lambda ff, pid, one: (
-                ff.calculateWithVelocities(one.velocity, one.after.velocity)
-                + pid.calculate(one.position, one.now.position)
-            ),
-            "never at what is measured",
-        ),
-        (
-            lambda ff, pid, one: (
-                ff.calculateWithVelocities(one.now.velocity, one.after.velocity)
-                + pid.calculate(one.velocity, one.now.velocity)
-            ),
-            "controls a position",
-        ),
+        (lambda *_: nothing, "stops with an error"),  # noqa: F821 - meant
+        (lambda ff, _, one: loop_of()(ff, PIDController(0.0), one), "The feedback is missing"),
+        (lambda _, pid, one: pid.calculate(one.position, one.now.position), "The feedforward is"),
+        (loop_of(measured="now.position", wanted="position"), "takes the measurement first"),
+        (loop_of(after="now.velocity"), "kA does nothing"),
+        (loop_of(now="now.position", after="after.position"), "needs velocities"),
+        (loop_of(now="velocity"), "never at what is measured"),
+        (loop_of(measured="velocity", wanted="now.velocity"), "controls a position"),
         (lambda *_: 1.0, "Add two things"),
     ],
 )
@@ -185,7 +152,7 @@ def test_a_learners_loop_is_checked_and_ours_used_until_it_is_right(mine, says):
     found = check_loop(mine)
 
     assert says in found.report
-    assert found.loop is (mine if says == RIGHT else compute_loop_voltage)
+    assert found.loop is (mine if says is RIGHT else compute_loop_voltage)
 
 
 @pytest.mark.parametrize("volts", [lambda _: math.nan, lambda _: ..., lambda _: "12"])

@@ -21,7 +21,6 @@ from sim.reconcile.cross_validation import (
 from sim.reconcile.local_minimum import minimize
 from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound
-from sim.reconcile.thresholds import LEAST_SCORE
 
 GAINS = {"kS": 0.5, "kV": 0.5, "kA": 0.05}
 NOISE = (1e-3, 1e-2)  # [m] and [m/s]
@@ -109,28 +108,3 @@ def test_effects_that_a_later_one_has_made_needless_are_removed(others):
     assert base is done[0]
     assert drag.candidate.effect == "drag"
     assert drag.candidate.estimate.structure.effects == ("drag",)
-
-
-def test_needed_effects_stay_each_with_the_model_that_lacks_it():
-    log = session(
-        Part("drag", {"drag": 0.2}), Part("spring", {"rate": 0.2, "preload": 0.0}), step=4.0
-    )
-    problem = PredictionErrorProblem.from_records(make_run_records(log))
-    folds = make_folds([one.session for one in problem.records])
-    values = {**GAINS, "drag.drag": 0.2, "spring.rate": 0.2, "spring.preload": 0.0}
-    models = [(), ("drag",), ("drag", "spring")]
-    found = [
-        score_estimate(
-            problem, minimize(problem, at(problem, values, *one)), one[-1] if one else ""
-        )
-        for one in models
-    ]
-    gaps = [compute_validation_gap(problem, one.estimate, folds) for one in found]
-    done = make_rounds(found, gaps)
-
-    _, drag, spring = remove_needless_effects(SelectionData(log, problem, folds), done)
-
-    assert drag.without.estimate.structure.effects == ("spring",)
-    assert spring.without.estimate.structure.effects == ("drag",)
-    assert all(one.without.bic > spring.candidate.bic + LEAST_SCORE for one in (drag, spring))
-    assert all(one.gap_without.velocity > spring.gap.velocity for one in (drag, spring))

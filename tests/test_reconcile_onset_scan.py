@@ -18,7 +18,7 @@ from sim.physics.model import Model, Part
 from sim.physics.voltage_residual import list_run_start_times
 from sim.reconcile.judgement import is_contradicted
 from sim.reconcile.local_minimum import minimize, rate_starts
-from sim.reconcile.onset_scan import refine_onset, scan_onsets
+from sim.reconcile.onset_scan import scan_onsets
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.residual_tests.whiteness import WorstWindow
 
@@ -133,30 +133,6 @@ def joined(dynamic):
     return problem, problem.evaluate(
         structure, values, RunNuisance.at_first_samples(4), problem.noise.velocity**2
     )
-
-
-@pytest.mark.parametrize("shared", [0.0, 1.0])
-@pytest.mark.parametrize("off", [-0.011, 0.007])
-def test_a_moment_is_found_between_two_samples(dynamic, shared, off):
-    onset = dynamic + 0.0934
-    given = {"extra": 0.03, "onset": onset, "until": LATER, "shared": shared}
-    problem = PredictionErrorProblem.from_records(
-        make_run_records(log_with((Part("inertia-change", given),)))
-    )
-    begun = {
-        **GAINS,
-        **{f"inertia-change.{n}": v for n, v in {**given, "onset": onset + off}.items()},
-    }
-    structure = ModelStructure("simple") + "inertia-change"
-    point = problem.evaluate(
-        structure, begun, RunNuisance.at_first_samples(4), problem.noise.velocity**2
-    )
-
-    found = refine_onset(problem, point)
-
-    assert found.values["inertia-change.onset"] == pytest.approx(onset, abs=problem.period / 8.0)
-    assert found.cost < point.cost
-    assert refine_onset(problem, found) is found
 
 
 @pytest.mark.parametrize(

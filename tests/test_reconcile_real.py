@@ -1,8 +1,8 @@
 """Logs of real robots: what is known to be missing is named, what is known to be broken is told.
 
-What they hold is known from their teams' code and from looking at them: an arm whose zero is
-59 degrees off horizontal and that lost its motor's voltage every 0.22 s, an elevator with the same trouble, and a drivetrain whose velocity
-comes some 140 ms late.
+What they hold is known from their teams' code and from looking at them: an arm whose zero is 59
+degrees off horizontal and that lost its motor's voltage every 0.22 s, an elevator with the same
+trouble, and a drivetrain whose velocity comes some 140 ms late.
 """
 
 import json

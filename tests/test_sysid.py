@@ -146,23 +146,6 @@ REAL = [
 ]
 
 
-@pytest.mark.shared
-@pytest.mark.parametrize(("name", "asked"), REAL, ids=lambda value: "-".join(value) or "all"
-                         if isinstance(value, list) else value)  # fmt: skip
-def test_a_real_robots_log_gives_gains_with_errors(shared, tmp_path, name, asked):
-    file = shared / "data" / "real" / name
-    if not file.exists():
-        pytest.skip(f"{name} is not there")
-
-    found = sysid("fit", file, *asked, "--json", folder=tmp_path)
-
-    assert found.returncode in {0, 1}, found.stderr
-    data = json.loads(found.stdout)
-    assert {"kS", "kV", "kA"} <= set(data["gains"])
-    assert data["gains"]["kV"] > 0
-    assert all(error > 0 for error in data["errors"].values())
-
-
 def test_a_fit_is_held_against_the_motor_that_drives_it(drive):
     right = ["--driven-by", "krakenX60", "--count", 4, "--ratio", 6.75, "--load", 60]
     there = sysid("fit", drive, *right, "--radius", 0.0508, folder=drive.parent)

@@ -4,7 +4,6 @@ WPILib's formulas, and where they were read, stand in ``wpilib_twins.py``. A tol
 two integrators leave, and a bench that is wrong by 3 % has to miss it by a hundred times as much.
 """
 
-import math
 from collections.abc import Mapping
 from dataclasses import replace
 
@@ -176,39 +175,6 @@ def test_the_battery_sinks_as_in_wpilib(name):
     built = quiet(MECHANISMS[name])
 
     assert apart_in_volts(built, built.battery) < SAME_FORMULA
-
-
-@pytest.fixture
-def robot_battery():
-    """The battery of the simulated robot controller, which clamps what a simulation is given."""
-    yield wpilib.RoboRioSim.setVInVoltage
-    wpilib.RoboRioSim.resetData()
-
-
-def test_all_the_battery_has_is_what_wpilib_comes_to(robot_battery):
-    """Current, battery, clamp, and again: what a robot program does loop by loop, until it rests.
-
-    One loop changes the next by -Rb/R, here -0.35, so that 40 leave 1e-18. (Four Kraken X60 would
-    never come to rest: -2.4.)
-    """
-    built = replace(bare("intake"), battery=Battery(rest=12.0, resistance=0.02))
-    rest, ohm = built.battery.rest, built.battery.resistance
-    wheel = wpilib.FlywheelSim(
-        wpimath.LinearSystemId.flywheelSystem(gearbox(built.motor, 1), built.load, built.ratio),
-        gearbox(built.motor, 1),
-    )
-    for run in log_of(built, Routine(step=12.0, timeout=0.5, kinds=("dynamic",))).runs:
-        for k in range(len(run)):
-            bus = rest
-            wheel.setVelocity(run.velocity[k])
-            for _ in range(40):
-                robot_battery(bus)
-                wheel.setInputVoltage(math.copysign(12.0, run.voltage[k]))
-                bus = wpilib.BatterySim.calculate(rest, ohm, [wheel.getCurrentDraw()])
-
-            assert run.bus_voltage[k] == pytest.approx(bus, rel=SAME_FORMULA)
-            assert run.voltage[k] == pytest.approx(wheel.getInputVoltage(), rel=SAME_FORMULA)
-        assert run.bus_voltage[0] < 0.8 * rest  # a motor at rest takes a quarter of it
 
 
 @pytest.mark.parametrize("wrong", [{"spin": 0.03}, {"drag": 0.03}, {"friction": 0.05}])
