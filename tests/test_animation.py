@@ -1,5 +1,6 @@
 """Animations: whole in themselves, sized to their scenes, and refused where numbers do not fit."""
 
+import json
 import re
 import shutil
 import subprocess
@@ -14,6 +15,7 @@ from sim.core.errors import BadRequest
 from sim.plot.animation import (
     Choice,
     Gain,
+    Knob,
     Motion,
     Panel,
     Scene,
@@ -103,3 +105,20 @@ def test_the_script_is_one_module_without_a_fault(tmp_path):
     script.write_text(read_script(), encoding="utf-8")
     done = subprocess.run([NODE, "--check", script], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
+
+
+def test_error_is_against_what_was_asked_for():
+    asked = Motion("target", position=TIME, asked=True)
+    late = Motion("robot", position=TIME - 0.25)
+    scene = Scene(TIME, (asked, late))
+    assert asked.curve("error", scene, {}) is None
+    np.testing.assert_allclose(late.curve("error", scene, {}), -0.25)
+
+
+def test_data_of_a_page_is_json_with_short_numbers():
+    knob = Knob("kS", "kS [V]", low=0.0, high=1.0, step=0.1, value=0.2)
+    scene = Scene(TIME, (Motion("robot", gains=GAINS | {"kS": Gain("kS")}, voltage=SPEED),))
+    found = json.loads(json.dumps(animated(scenes=scene, knobs=(knob,)).data, allow_nan=False))
+    (motion,) = found["scenes"][""]["motions"]
+    assert motion["gains"]["kS"] == {"knob": "kS", "times": 1.0, "plus": 0.0}
+    assert max(len(str(value)) for value in motion["voltage"]) <= 9

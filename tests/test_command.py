@@ -152,3 +152,10 @@ def test_times_in_milliseconds_are_told_to_be_given_in_seconds_and_nothing_else(
     assert "--velocity-scale" not in said
     assert run_command(sysid, name="sysid", arguments=["inspect", str(path)]) == 1
     assert capsys.readouterr().out.splitlines()[0].endswith("4 runs, not inspected.")
+
+
+@pytest.mark.parametrize("name", ["", *sysid.list_commands(click.Context(sysid))])
+def test_every_command_has_help_that_fits_a_screen(name, capsys):
+    assert run_command(sysid, name="sysid", arguments=[*name.split(), "--help"]) == 0
+
+    assert max(map(len, capsys.readouterr().out.splitlines())) <= 100

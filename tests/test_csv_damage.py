@@ -4,19 +4,8 @@ from pathlib import Path
 
 import pytest
 from csv_text import HEADER, PLAIN, read_text
-from hypothesis import given
-from hypothesis import strategies as st
 
-import sim
 from sim.core.errors import BadSample, MissingSignal, Refusal, UnreadableFile
-from sim.core.log import Log
-
-
-def read_or_refusal(path: Path) -> Log | Refusal:
-    try:
-        return sim.read(path)
-    except Refusal as refusal:
-        return refusal
 
 
 def row(**cells: str) -> str:
@@ -70,23 +59,3 @@ def test_file_that_is_not_sound_is_refused(
 ) -> None:
     with pytest.raises(refusal, match=r"log\.csv"):
         read_text(tmp_path, text)
-
-
-@given(
-    st.text('0123456789.,-+einf;\t\n\r" abc_#\u00e9\x00'),
-    st.integers(0, len(PLAIN)),
-    st.integers(0, 20),
-)
-def test_any_damage_is_read_or_refused_in_one_line(
-    tmp_path_factory: pytest.TempPathFactory, junk: str, at: int, cut: int
-) -> None:
-    path = tmp_path_factory.getbasetemp() / "damaged.csv"
-    path.write_bytes((PLAIN[:at] + junk + PLAIN[at + cut :]).encode("utf-8"))
-
-    outcome = read_or_refusal(path)
-
-    if isinstance(outcome, Refusal):
-        assert str(path) in str(outcome)
-        assert "\n" not in str(outcome)
-    else:
-        assert all(len(run) for run in outcome.runs)

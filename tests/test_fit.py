@@ -1,21 +1,18 @@
 """Method sysid: SysId's own figures, its silent failures spoken aloud, and the metrics it shows."""
 
 import json
-import math
 from dataclasses import replace
 from functools import partial
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from known_answers import NAMES, known_answer
 
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.core.errors import BadRequest, NotIdentifiable
-from sim.core.log import FOUR_TESTS, Log, Run
+from sim.core.log import FOUR_TESTS
 from sim.fit import fit as any_fit
 
 fit = partial(any_fit, method="sysid")
@@ -171,23 +168,3 @@ def test_a_request_that_makes_no_sense_lists_what_does(drive, asked, said):
         fit(drive, **asked)
 
     assert said in str(refused.value)
-
-
-@settings(max_examples=200)
-@given(
-    st.lists(st.floats(-1e8, 1e8), min_size=12, max_size=60),
-    st.lists(st.floats(-1e8, 1e8), min_size=12, max_size=60),
-    st.sampled_from(["simple", "elevator", "arm"]),
-)
-def test_any_table_of_numbers_gives_finite_gains_or_a_refusal(volts, speeds, type_):
-    n = min(len(volts), len(speeds))
-    runs = tuple(
-        Run(test, np.arange(n) * 0.02, volts[:n], np.cumsum(speeds[:n]) * 0.02, speeds[:n])
-        for test in FOUR_TESTS
-    )
-    try:
-        found = fit(Log(runs, units="radians"), type=type_)
-    except (NotIdentifiable, BadRequest):
-        return
-    assert all(math.isfinite(value) for value in found.gains.values())
-    json.dumps(found.to_json(), allow_nan=False)

@@ -9,7 +9,7 @@ from sim.core.errors import BadRequest
 from sim.feedback import Plant
 from sim.feedback.following import follow_profile
 from sim.feedback.profile import STEP, make_brisk_profile, make_return_profile
-from sim.plot.consequence import Trace, plot_consequence
+from sim.plot.consequence import Trace, make_profile_traces, plot_consequence
 
 DRIVE = {"kS": 0.15, "kV": 2.5, "kA": 0.2}
 LIFT = {"kS": 0.25, "kV": 4.5, "kA": 0.2, "kG": 2.0}
@@ -87,3 +87,16 @@ def test_what_cannot_be_drawn_is_refused(reads):
     with pytest.raises(BadRequest) as refused:
         plot_consequence([], words="")
     reads(refused.value)
+
+
+def test_picture_shows_the_wanted_and_the_resulting_motion():
+    one = followed("elevator", kG=0.0)
+
+    drawn = plot_consequence(make_profile_traces(one), words=one.description)
+
+    speed, height = drawn.figure.axes
+    wanted, done = height.get_lines()
+    assert one.description in drawn.alt
+    assert speed.get_ylabel() == "velocity [m/s]"
+    assert wanted.get_ydata()[0] == done.get_ydata()[0] == 0.5
+    assert done.get_ydata().min() == 0.0 < wanted.get_ydata().min()

@@ -6,65 +6,17 @@ import sys
 from importlib import import_module
 from pathlib import Path
 
-import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 import sim
 from sim import io
 from sim.core.errors import BadRequest
-from sim.core.log import TESTS, Log, Run
-from sim.core.units import UNITS
+from sim.core.log import Log, Run
 
 MODULES = {name: import_module(f"sim.io.formats.{name}") for name in io.FORMATS}
 WRITERS = sorted(name for name, module in MODULES.items() if hasattr(module, "write"))
 SAYS_NO_UNITS = {"csv"}  # whoever reads such a file has to say them
 LOG = Log((Run("dynamic-forward", [0.0, 0.1], [7.0, 7.0], [0.0, 0.1], [0.0, 2.0]),))
-
-
-@st.composite
-def runs(draw: st.DrawFn) -> Run:
-    """A run of any test, on a clock of whole microseconds as a robot's is."""
-    size = draw(st.integers(2, 8))  # one sample is no motion: a format need not keep it
-    steps = draw(st.lists(st.integers(1_000, 500_000), min_size=size, max_size=size))
-    values = st.lists(st.floats(-1e6, 1e6), min_size=size, max_size=size)
-    return Run(
-        draw(st.sampled_from(TESTS)),
-        (draw(st.integers(0, 10**9)) + np.cumsum(steps)) * 1e-6,
-        draw(values),
-        draw(values),
-        draw(values),
-    )
-
-
-@pytest.mark.parametrize("name", WRITERS)
-@given(
-    log=st.builds(
-        lambda runs, units: Log(tuple(runs), units=units),
-        st.lists(runs(), min_size=1, max_size=6),
-        st.sampled_from(list(UNITS)),
-    )
-)
-def test_any_log_that_is_written_reads_back(
-    name: str, log: Log, tmp_path_factory: pytest.TempPathFactory
-) -> None:
-    path = tmp_path_factory.getbasetemp() / f"written{MODULES[name].SUFFIXES[0]}"
-
-    sim.write(log, path)
-    back = sim.read(path, units=log.units if name in SAYS_NO_UNITS else None)
-
-    assert back.units == log.units
-    assert back.source == str(path)
-    assert [run.test for run in back.runs] == [run.test for run in log.runs]
-    for ours, theirs in zip(log.runs, back.runs, strict=True):
-        # A format may move a run in time as a whole, and keep time in microseconds.
-        np.testing.assert_allclose(
-            theirs.time - theirs.time[0], ours.time - ours.time[0], rtol=0.0, atol=2e-6
-        )
-        assert np.array_equal(theirs.voltage, ours.voltage)
-        np.testing.assert_allclose(theirs.position, ours.position, rtol=1e-12, atol=1e-300)
-        np.testing.assert_allclose(theirs.velocity, ours.velocity, rtol=1e-12, atol=1e-300)
 
 
 def test_only_the_format_in_use_is_imported(tmp_path: Path, root: Path) -> None:

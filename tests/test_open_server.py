@@ -249,3 +249,12 @@ def test_the_first_requests_may_come_all_at_once(tmp_path, drive):
     )  # fmt: skip
 
     assert (done.stdout.strip(), done.stderr) == ("True", "")
+
+
+def test_example_is_simulated(tmp_path):
+    with served(tmp_path) as server:
+        _, opened = ask_json(server, "example", body=b"")
+        _, faults = ask_json(server, f"logs/{opened['id']}/faults")
+
+    assert opened["name"] == "example drivetrain.wpilog"
+    assert "encoder-slip" in [one["fault"] for one in faults["faults"]]

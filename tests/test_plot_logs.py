@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from handmade import FOUR, log_of, with_gaps
+from handmade import FOUR, log_of, run_of, with_gaps
 from matplotlib.colors import same_color
 from matplotlib.patches import Rectangle
 
@@ -106,3 +106,20 @@ def test_a_huge_log_makes_a_small_picture_that_counts_every_sample(draw, huge):
     picture = draw(huge)
     assert len(picture.svg) < 300_000
     assert any(count in str(picture.table) for count in ("20000", "19999"))
+
+
+@pytest.mark.parametrize(
+    "where",
+    [
+        LogInterval(None, "", 0.0, 0.0),
+        LogInterval(None, "dynamic-reverse", 0.0, 0.0),
+        LogInterval(1, "quasistatic-reverse", 0.0, 99.0),
+        LogInterval(4, "coast-forward", 35.0, 36.0),
+    ],
+    ids=["the log", "no run", "a whole run", "a test of another kind"],
+)
+def test_whole_run_of_damage_that_no_box_can_show_is_told(where):
+    log = replace(FOUR, runs=(*FOUR.runs, run_of("coast-forward")))
+    picture = plot_time_series(log, damages=[where])
+    assert where.test in picture.alt
+    assert len(_boxes(picture)) == (2 if where.run == 1 else 0)

@@ -106,14 +106,3 @@ def test_any_object_is_read_or_refused_in_one_line(
     outcome = read_or_refusal(path, json.dumps(made).encode())
 
     assert isinstance(outcome, Log) or (str(path) in str(outcome) and "\n" not in str(outcome))
-
-
-@given(st.binary(max_size=8), st.integers(0, len(TEXT)), st.integers(0, 60))
-def test_any_damage_is_read_or_refused_in_one_line(
-    tmp_path_factory: pytest.TempPathFactory, junk: bytes, at: int, cut: int
-) -> None:
-    path = tmp_path_factory.getbasetemp() / "damaged.json"
-
-    outcome = read_or_refusal(path, TEXT[:at].encode() + junk + TEXT[at + cut :].encode())
-
-    assert isinstance(outcome, Log) or (str(path) in str(outcome) and "\n" not in str(outcome))

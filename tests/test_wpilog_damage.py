@@ -128,17 +128,3 @@ def test_a_part_of_a_file_is_read_as_far_as_it_goes(tmp_path: Path, length: int)
     lost = sum(map(len, part.runs)) < sum(map(len, whole.runs))
     ended = [run.test for run in part.runs] == [run.test for run in whole.runs[: len(part.runs)]]
     assert part.doubts or (ended and lost)
-
-
-@TMP
-@given(flips=st.dictionaries(st.integers(0, len(CONTENT) - 1), st.integers(1, 255), min_size=1))
-def test_a_file_with_flipped_bits_is_read_or_refused(tmp_path: Path, flips: dict[int, int]) -> None:
-    content = bytearray(CONTENT)
-    for at, flip in flips.items():
-        content[at] ^= flip
-    path = tmp_path / "log.wpilog"
-    path.write_bytes(content)
-
-    said = read_or_refuse(path)
-
-    assert isinstance(said, Log) or said.advice
