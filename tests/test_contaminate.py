@@ -94,11 +94,11 @@ def test_whatever_is_typed_is_read_or_refused(text):
     ],
     ids=lambda value: str(value)[:50],
 )
-def test_impossible_damage_is_one_line_with_advice(drive, name, how, reads):
+def test_impossible_damage_is_one_line_with_advice(drive, name, how):
     with pytest.raises(BadRequest) as refused:
         contaminate(drive, name, rng=rng(), **how)
 
-    reads(str(refused.value))
+    assert refused.value.advice
     assert "\n" not in str(refused.value)
 
 
@@ -157,9 +157,7 @@ def test_it_strikes_where_it_is_told(drive):
 
 
 @pytest.mark.parametrize("suffix", [".csv", ".wpilog"])
-def test_the_command_writes_what_can_be_read_and_says_where_the_damage_is(
-    tmp_path, drive, suffix, reads
-):
+def test_the_command_writes_what_can_be_read_and_says_where_the_damage_is(tmp_path, drive, suffix):
     write(drive, tmp_path / "drive.csv")
 
     made = sysid(
@@ -169,10 +167,9 @@ def test_the_command_writes_what_can_be_read_and_says_where_the_damage_is(
     )  # fmt: skip
 
     assert made.returncode == 0, made.stderr
-    slip, overrun, written = made.stdout.splitlines()
+    slip, overrun, _ = made.stdout.splitlines()
     assert slip.startswith("encoder-slip: dynamic-forward")
     assert overrun.startswith("loop-overrun: quasistatic-reverse")
-    reads(written)
     bad = read(tmp_path / f"bad{suffix}")
     assert [run.test for run in bad.runs] == [run.test for run in drive.runs]
     assert len(bad.runs[1]) < len(drive.runs[1])

@@ -312,8 +312,8 @@ def test_an_effect_written_wrongly_is_named_with_what_is_wrong(change, said):
     ],
     ids=["unknown", "missing", "sign", "twice", "cannot", "size", "nan", "hidden twice"],
 )  # fmt: skip
-def test_what_is_no_physics_is_refused(make, reads):
+def test_what_is_no_physics_is_refused(make):
     with pytest.raises(BadRequest) as refused:
         make()
 
-    reads(str(refused.value))
+    assert refused.value.advice

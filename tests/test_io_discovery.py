@@ -193,13 +193,13 @@ def test_records_before_their_entry_starts_are_left_out_and_counted(tmp_path):
         "Timestamp,a,b\n1.0,2.0,\n",
     ],
 )
-def test_an_export_that_cannot_be_read_says_where(tmp_path, text, reads):
+def test_an_export_that_cannot_be_read_says_where(tmp_path, text):
     path = tmp_path / "log.csv"
     path.write_text(text, encoding="utf-8")
 
     with pytest.raises(Refusal) as refused:
         sim.read(path)
-    reads(refused.value)
+    assert refused.value.advice
 
 
 def test_the_command_lists_entries_and_what_they_seem_to_be(tmp_path, capsys):
@@ -252,7 +252,7 @@ def one_after_another(path, *, states):
         ("Mode", "Mode"),
     ],
 )
-def test_several_mechanisms_are_a_numbered_list_to_pick_from(tmp_path, capsys, states, reads):
+def test_several_mechanisms_are_a_numbered_list_to_pick_from(tmp_path, capsys, states):
     path = one_after_another(tmp_path / "a.wpilog", states=states)
 
     def ran(*more):
@@ -261,7 +261,6 @@ def test_several_mechanisms_are_a_numbered_list_to_pick_from(tmp_path, capsys, s
 
     code, said = ran()
     assert code == 2
-    reads(said.err)
     assert "such as --pick 1" in said.err
     for number, mechanism in enumerate(("shooter", "intake"), start=1):
         code, said = ran("--pick", str(number))

@@ -44,25 +44,25 @@ def test_a_run_cannot_be_changed_through_its_arrays_or_theirs():
     ],
     ids=lambda value: next(iter(value)) if isinstance(value, dict) else "",
 )
-def test_what_cannot_be_a_measurement_is_refused_with_its_place(changes, reads):
+def test_what_cannot_be_a_measurement_is_refused_with_its_place(changes):
     with pytest.raises(BadSample) as refused:
         run(**changes)
 
-    reads(str(refused.value))
+    assert refused.value.advice
     assert str(refused.value).startswith("dynamic-forward: ")
 
 
-def test_two_logs_join_unless_one_is_an_angle(reads):
+def test_two_logs_join_unless_one_is_an_angle():
     meters = Log((run(),), source="a.csv")
     turned = Log((run(),), units="degrees", source="b.csv")
 
     assert len(meters.join(Log((run(),), units="feet")).runs) == 2
     with pytest.raises(BadRequest) as refused:
         meters.join(turned)
-    reads(refused.value)
+    assert refused.value.advice
 
 
-def test_raw_columns_become_si_and_repeated_times_are_said(reads):
+def test_raw_columns_become_si_and_repeated_times_are_said():
     signals = {
         "time": np.array([0.0, 0.02, 0.02, 0.04]),
         "voltage": np.ones(4),
@@ -74,11 +74,10 @@ def test_raw_columns_become_si_and_repeated_times_are_said(reads):
 
     assert made.velocity.tolist() == [0.0, 2.0, 4.0]
     assert made.position.tolist() == [0.0, 1.0, 2.0]
-    (doubt,) = doubts
-    reads(doubt.message)
+    assert [doubt.code for doubt in doubts] == ["repeated-time"]
 
 
-def test_raw_columns_are_refused_with_file_run_and_time(reads):
+def test_raw_columns_are_refused_with_file_run_and_time():
     signals = dict.fromkeys(("time", "voltage", "position"), np.arange(3.0))
 
     with pytest.raises(BadSample) as refused:
@@ -89,7 +88,7 @@ def test_raw_columns_are_refused_with_file_run_and_time(reads):
             where="x.csv",
         )
 
-    reads(str(refused.value))
+    assert refused.value.advice
 
 
 @pytest.mark.parametrize(
