@@ -165,25 +165,6 @@ def test_a_folder_that_is_something_else_is_left_alone(world, capsys):
     assert (world.root / ".venv" / "diary.txt").is_file()
 
 
-@pytest.mark.parametrize(
-    ("prefix", "folders", "own"),
-    [
-        ("venv", (), True),
-        ("base", (), False),
-        ("base", ("conda-meta",), True),
-        ("base", ("conda-meta", "condabin"), False),
-    ],
-    ids=["virtual", "system", "conda", "conda's base"],
-)
-def test_it_knows_an_environment_of_ones_own(tmp_path, monkeypatch, prefix, folders, own):
-    for folder in folders:
-        (tmp_path / prefix / folder).mkdir(parents=True)
-    monkeypatch.setattr(sys, "prefix", str(tmp_path / prefix))
-    monkeypatch.setattr(sys, "base_prefix", str(tmp_path / "base"))
-
-    assert bootstrap.is_in_environment() is own
-
-
 @pytest.mark.parametrize("command", [["start"], ["test"], ["exercise4"], []])
 def test_what_is_missing_is_what_the_project_asks_for(monkeypatch, command):
     def nothing(name):

@@ -123,28 +123,6 @@ def test_the_places_do_not_depend_on_the_unit(unit):
 SINCE = PERIOD * np.arange(100)
 
 
-@pytest.mark.parametrize(
-    ("volts", "speed", "jumps"),
-    [
-        (np.where(SINCE < 0.999, 0.0, 4.0), 0.0, [50]),
-        (np.full(100, 4.0), 0.0, [0]),
-        (np.full(100, 4.0), 1.0, []),
-        (4.0 * np.sin(2.0 * np.pi * 2.0 * SINCE), 1.0, []),
-        (0.5 * SINCE, 0.0, []),
-        (np.where(SINCE < 0.999, 3.0, -3.0), 1.0, [50]),
-    ],
-    ids=["a step", "on from the start, at rest", "on before the start", "a chirp", "a ramp",
-         "a reversal"],
-)  # fmt: skip
-def test_only_jumps_are_jumps(volts, speed, jumps):
-    motion = np.column_stack([SINCE, np.full(100, speed)])
-    run = Residuals("dynamic-forward", SINCE, volts, motion, np.zeros((100, 2)))
-
-    since, _ = run.find_steps(largest=4.0, still=0.02)
-
-    assert np.flatnonzero(since == 0.0).tolist() == jumps
-
-
 # -- repeats -------------------------------------------------------------------------------------
 
 

@@ -112,20 +112,6 @@ def test_a_team_whose_forward_is_our_reverse_has_mislabelled_nothing():
 # Advice from this log
 
 
-@pytest.mark.parametrize(("scale", "words"), [(3.7, "faster than 9"), (0.2, "slower than 1.2")])
-def test_a_drivetrain_that_cannot_be_is_in_another_unit(scale, words):
-    log = each(
-        bench(),
-        lambda run: replace(run, position=run.position * scale, velocity=run.velocity * scale),
-    )
-
-    (fault,) = inspect(log).faults
-
-    assert (fault.fault, fault.where.run) == ("unit-error", None)
-    assert words in fault.evidence
-    assert inspect(replace(log, mechanism="shooter")).is_clean
-
-
 # Several files
 
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from chromium import LEAST_CONTRAST, least_contrast
-from open_page import BROKEN, drive_log, served, slipped_log, write_log, write_old_json
+from open_page import drive_log, served, slipped_log, write_log, write_old_json
 
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
@@ -219,20 +219,6 @@ def test_faults_are_listed_and_marked_and_shown_on_demand(page, tmp_path):
     assert page.evaluate("sysid.chart.faults.length") == 1
     assert view[1] - view[0] < 3.0
     assert page.locator("#readout .run dd").inner_text() == "quasistatic-forward"
-
-
-def test_ten_broken_files_do_not_end_the_page(page, tmp_path):
-    page.evaluate(DROP, [as_dropped(*one) for one in BROKEN.items()])
-    wait_until(
-        page,
-        "document.querySelectorAll('.refusal').length + document.querySelectorAll('.tab').length"
-        f" === {len(BROKEN)}",
-    )
-    drop(page, write_log(drive_log(), tmp_path / "good.csv"))
-    page.locator(".tab .name", has_text="good.csv").click()
-    page.locator("#gain-kV").wait_for()
-
-    assert page.complaints == []
 
 
 def test_a_dragged_gain_moves_the_curve_and_the_error_in_time(page, tmp_path):

@@ -12,7 +12,7 @@ from sim.bench.simulate import simulate
 from sim.core.errors import BadRequest
 from sim.core.units import find_unit
 from sim.fit import fit
-from sim.fit.physics import Parts, check_plausibility, compare_directions, compare_sides
+from sim.fit.physics import Parts, check_plausibility, compare_sides
 from sim.physics.motors import MOTORS, find_motor
 
 GENTLE = Routine(ramp=0.5, step=3.5)
@@ -211,39 +211,6 @@ def test_friction_has_a_band_to_watch_and_a_red_flag(kind, ks, code):
 
     assert codes(said) == ([code] if code else [])
     assert [doubt.grave for doubt in said] == ([code == "friction-stop"] if code else [])
-
-
-@pytest.mark.parametrize("kind", ["drivetrain", "shooter", "turret", "arm", "intake"])
-@pytest.mark.parametrize(
-    ("effect", "gain"), [("asymmetric-friction", "kS"), ("asymmetric-back-emf", "kV")]
-)
-def test_directions_that_differ_are_told_by_the_gain(kind, effect, gain):
-    mechanism = MECHANISMS[kind].hide(effect)
-
-    (doubt,) = compare_directions(recorded(mechanism), mechanism.type)
-
-    assert doubt.code == "directions-differ"
-    assert doubt.message.startswith(f"{gain} is ")
-    assert doubt.message.endswith(".")
-
-
-@pytest.mark.parametrize(
-    ("changes", "gains"),
-    [
-        ({}, []),
-        ({"friction": 0.24}, ["kS"]),
-        ({"friction": 0.17}, []),  # 20 mV is nothing a robot notices
-        ({"ratio": 7.36}, ["kV", "kA"]),
-        ({"load": 52.0}, ["kA"]),
-    ],
-)
-def test_two_sides_are_compared_gain_by_gain(changes, gains):
-    other = fit(recorded(replace(MECHANISMS["drivetrain"], **changes), seed=2))
-
-    said = compare_sides(found_in("drivetrain"), other)
-
-    assert [doubt.message.partition(" ")[0] for doubt in said] == gains
-    assert set(codes(said)) <= {"sides-differ"}
 
 
 @pytest.mark.parametrize(

@@ -30,17 +30,6 @@ def test_hidden_errors_are_neither_drawn_nor_told():
     assert not picture.figure.axes[1].lines
 
 
-def test_words_and_table_tell_the_errors():
-    picture = drawn()
-
-    assert "2 have a sim R² above 0.9. These do not: spikes." in picture.alt
-    assert (
-        "kA is off by more than 149 % in half of the logs. The largest error is −648 %, in spikes."
-        in picture.alt
-    )
-    assert picture.table.rows[1] == ("a jump", 0.92, "yes", "+1 %", "+149 %")
-
-
 @pytest.mark.parametrize(
     ("scores", "off"), [({}, None), (SCORES, {"kA": {"clean": 0.0}})], ids=["none", "one lacks"]
 )

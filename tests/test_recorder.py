@@ -52,18 +52,6 @@ def test_the_delay_that_the_fit_reports_is_the_devices_and_the_wait_for_a_frame(
     assert late - 2e-3 <= found <= late + recorder.frame + 2e-3
 
 
-@pytest.mark.parametrize("name", RECORDERS)
-def test_a_log_has_the_period_and_the_frames_of_its_device(name):
-    recorder = RECORDERS[name]
-    run = recorded(name).runs[0]
-
-    moving = np.abs(run.velocity) > 0.1 * np.abs(run.velocity).max()
-    repeats = np.mean(np.diff(run.velocity)[moving[1:]] == 0.0)
-
-    assert np.median(np.diff(run.time)) == pytest.approx(recorder.period, rel=0.02)
-    assert repeats < 0.2 if recorder.frame <= recorder.period else repeats > 0.5
-
-
 @pytest.mark.parametrize(("name", "preset"), PUBLISHED.items())
 def test_the_published_delay_is_that_of_the_feedback_preset(name, preset):
     assert 0.5 * RECORDERS[name].filter == pytest.approx(PRESETS[preset].delay, abs=1e-9)

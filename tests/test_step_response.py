@@ -12,8 +12,6 @@ from sim.feedback import (
     PRESETS,
     Feedback,
     Plant,
-    design_position_loop,
-    design_velocity_loop,
     judge_step_response,
     simulate_step_response,
 )
@@ -108,25 +106,6 @@ def test_a_position_loop_too_weak_for_friction_stops_short_by_what_friction_hold
     assert told.kind == "stays-short"
     assert told.left == pytest.approx(0.15, abs=0.01)
     assert told.description == "stops 15% of the step before the target"
-
-
-@pytest.mark.parametrize("loop", ["velocity", "position"])
-@pytest.mark.parametrize("kind", PLANTS)
-def test_what_sysid_suggests_without_a_delay_settles(kind, loop):
-    plant = PLANTS[kind]
-    suggested = {"velocity": design_velocity_loop, "position": design_position_loop}[loop](
-        kv=2.5, ka=0.19, velocity_error=1.2
-    )
-
-    told = judge_step_response(
-        simulate_step_response(
-            plant, loop=loop, feedback=suggested, target=plant.choose_target_step(loop), delay=0.0
-        )
-    )
-
-    assert told.is_good
-    assert told.reached < told.settled + 0.5
-    assert told.description.startswith("reaches 90% of the target after")
 
 
 @settings(max_examples=60)

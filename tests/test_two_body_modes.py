@@ -148,17 +148,6 @@ def test_what_lies_on_its_stop_is_lifted_when_it_is_in_fine_steps(part):
     assert quick[:, 1] == pytest.approx(right.velocity, abs=3e-3 * top)
 
 
-@pytest.mark.parametrize("extra", [-0.5, -0.3])
-def test_inertia_that_a_search_makes_negative_ends_all_the_same(extra):
-    model = sprung(BODIES["heavy"], swing=8.0, share=0.5)
-    change = {"extra": extra, "onset": 0.5, "until": 99.0, "shared": 0.0}
-    model += Part("inertia-change", change)
-
-    track = simulate_run(model, time=TIME, voltage=VOLTAGES["a ramp"], state=State())
-
-    assert track.position.shape == TIME.shape
-
-
 @pytest.mark.parametrize("damping", [0.02, 0.13, 0.4])
 def test_a_joint_overshoots_as_its_damping_says(damping):
     # The first overshoot of a damped oscillator after a step is exp(-πζ/√(1 - ζ²)) of its height.
@@ -175,17 +164,3 @@ def test_a_joint_overshoots_as_its_damping_says(damping):
     height = 0.5 * joint["softness"]  # half of the volt moves the load
     overshoot = math.exp(-math.pi * damping / math.sqrt(1.0 - damping**2))
     assert max(bent) == pytest.approx((1.0 + overshoot) * height, rel=0.01)
-
-
-@pytest.mark.parametrize(("share", "moves"), [(0.0, True), (1.0, False)])
-def test_a_motor_that_is_free_of_friction_bends_the_joint_before_the_load_moves(share, moves):
-    joint = {"softness": 0.02, "share": 0.3, "damping": 0.1, "motor_friction": share}
-    model = Model("simple", BODIES["heavy"]) + Part("compliance", joint)
-    volts = np.full(TIME.size, 0.5 * BODIES["heavy"]["kS"])
-    state = State()
-
-    motion = simulate_run(model, time=TIME, voltage=volts, state=state)
-
-    assert state.body[2] == 0.0  # half of the friction moves no load
-    bent = joint["softness"] * volts[0] if moves else 0.0
-    assert motion.position[-1] == pytest.approx(bent, rel=0.01)
