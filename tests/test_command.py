@@ -159,3 +159,9 @@ def test_every_command_has_help_that_fits_a_screen(name, capsys):
     assert run_command(sysid, name="sysid", arguments=[*name.split(), "--help"]) == 0
 
     assert max(map(len, capsys.readouterr().out.splitlines())) <= 100
+
+
+def test_wrong_option_names_the_help_to_read(capsys):
+    assert run_command(command(lambda: None), name="try", arguments=["--wrong"]) == 2
+
+    assert "'try --help'" in capsys.readouterr().err

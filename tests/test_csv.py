@@ -4,11 +4,24 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from csv_text import HEADER, PLAIN, read_text
 
 import sim
 from sim.core.errors import BadRequest
 from sim.core.log import Log, Run
+
+HEADER = "test,time_s,voltage,position,velocity"
+PLAIN = f"""{HEADER}
+quasistatic-forward,0.0,0.5,1.0,0.25
+quasistatic-forward,0.02,0.75,1.5,0.5
+dynamic-reverse,3.0,-7.0,2.0,-1.0
+"""
+
+
+def read_text(folder: Path, text: str | bytes, **asked: object) -> Log:
+    path = folder / "log.csv"
+    path.write_bytes(text if isinstance(text, bytes) else text.encode("utf-8"))
+    return sim.read(path, **asked)
+
 
 SIGNALS = ("time", "voltage", "position", "velocity", "current", "bus_voltage")
 
@@ -151,3 +164,9 @@ def test_what_is_written_reads_back_as_the_same_bits(tmp_path: Path) -> None:
             one, other = getattr(ours, name), getattr(theirs, name)
             assert (one is None) == (other is None)
             assert one is None or one.tobytes() == other.tobytes()
+
+
+def test_motor_asked_of_a_file_with_one_makes_no_difference(tmp_path: Path) -> None:
+    (doubt,) = read_text(tmp_path, PLAIN, motor="left").doubts
+
+    assert doubt.code == "one-motor"

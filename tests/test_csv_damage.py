@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from csv_text import HEADER, PLAIN, read_text
+from test_csv import HEADER, PLAIN, read_text
 
 from sim.core.errors import BadSample, MissingSignal, Refusal, UnreadableFile
 

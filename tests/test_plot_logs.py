@@ -123,3 +123,21 @@ def test_whole_run_of_damage_that_no_box_can_show_is_told(where):
     picture = plot_time_series(log, damages=[where])
     assert where.test in picture.alt
     assert len(_boxes(picture)) == (2 if where.run == 1 else 0)
+
+
+def test_much_damage_is_summed_up():
+    picture = plot_time_series(
+        FOUR, damages=[_damage("overrun", 0, 0.2 * i, 0.2 * i) for i in range(40)]
+    )
+    assert "The fault is in 34 more parts." in picture.alt
+    assert len(picture.figure.legends[0].get_patches()) == 1
+
+
+@pytest.mark.parametrize(
+    "draw", [plot_time_series, plot_voltage_velocity], ids=lambda d: d.__name__
+)
+def test_one_sample_is_drawn(draw):
+    one = Run("quasistatic-forward", [1.0], [0.5], [0.0], [0.0])
+    picture = draw(Log((one,)))
+    assert picture.svg
+    assert "quasistatic" in str(picture) or "forward" in str(picture)

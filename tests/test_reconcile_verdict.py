@@ -274,3 +274,24 @@ def test_an_effect_is_a_finding_if_it_is_likelier_right_than_wrong(problem, scor
     # A likely effect may be no finding for another reason, and is then not called unlikely.
     unnamed = list_remarks(problem, done, [], [judged], ResidualSummary())
     assert any("only" in one for one in unnamed) is not named
+
+
+@pytest.mark.parametrize(
+    ("names", "doubted"),
+    [
+        (["spring", "gravity-cosine"], True),
+        (["gravity-cosine", "constant-load"], True),  # a spring's simpler sister, in turn
+        (["spring", "cogging"], False),  # a wave that comes back is no bent spring
+        (["gravity-cosine", "drag"], False),
+        (["spring"], False),
+    ],
+)
+def test_effect_beside_its_simpler_sister_may_be_any_force_along_the_way(problem, names, doubted):
+    findings = [replace(DRAG, effect=name) for name in names]
+
+    verdict, remainder, remains = reach_verdict(
+        findings, rounds(problem, 40.0, 1.1), problem, residuals=ResidualSummary(), unit=METERS
+    )
+
+    assert (verdict, remainder) == ("explained", doubted)
+    assert all(name in remains for name in names) is doubted

@@ -17,7 +17,7 @@ from sim.core.log import Log, Run
 from sim.feedback import Feedback, Plant, simulate_step_response
 from sim.fit import fit
 from sim.gap import map_gap
-from sim.inspect.contaminate import contaminate
+from sim.inspect.contaminate import contaminate, parse_fault_request
 from sim.inspect.faults import find_fault
 from sim.physics.motors import find_motor
 from sim.teaching.profile_loop import TrapezoidProfile
@@ -84,3 +84,11 @@ def test_log_that_rows_cannot_hold_is_not_written(tmp_path, runs):
         sim.write(Log(runs), tmp_path / "log.csv")
 
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("text", ["", ":2", "brownout:lots", "brownout@", "brownout@+3"])
+def test_misspelled_fault_is_refused_with_the_right_spelling(text):
+    with pytest.raises(Refusal) as refused:
+        parse_fault_request(text)
+
+    assert "encoder-slip:0.5@dynamic-forward+0.4" in str(refused.value)

@@ -13,6 +13,7 @@ from sim.physics.engine.two_body_modes import (
     MOVES,
     ROW,
     TABLES_SIZE,
+    apply_row,
     make_table,
     make_table_from_half,
     prepare_series,
@@ -164,3 +165,13 @@ def test_a_joint_overshoots_as_its_damping_says(damping):
     height = 0.5 * joint["softness"]  # half of the volt moves the load
     overshoot = math.exp(-math.pi * damping / math.sqrt(1.0 - damping**2))
     assert max(bent) == pytest.approx((1.0 + overshoot) * height, rel=0.01)
+
+
+def test_row_is_what_a_motion_and_its_pushes_become():
+    tables = np.zeros(TABLES_SIZE)
+    prepare_series(tables, MOVES, 0.0, 0.1, 0.2, 50.0, 0.0)
+    at = make_table_from_half(tables, MOVES, 0.01, 0)
+
+    fallen = apply_row(tables, at + 2 * ROW, 0.0, 0.0, 0.0, 0.0, -0.3)
+
+    assert fallen == pytest.approx(-0.01 * 0.3 / 0.2, rel=0.01)
