@@ -317,3 +317,28 @@ def test_what_is_no_physics_is_refused(make):
         make()
 
     assert refused.value.advice
+
+
+def asked(act, **known):
+    """Call an effect's function with what it asks for."""
+    names = act.__code__.co_varnames[: act.__code__.co_argcount]
+    return act(**{name: known[name] for name in names})
+
+
+@pytest.mark.parametrize(("name", "kind"), [p for p in PAIRS if "force" in EFFECTS[p[0]].hooks])
+def test_a_term_never_pushes_harder_than_the_back_emf_holds_back(name, kind):
+    # beyond what it stores and gives back, kV·v and the term together never feed the motion
+    found, scale = EFFECTS[name], MECHANISMS[kind].scale
+    values = hidden(name, kind, 2.0).parts[0].parameters
+    for v in (scale.speed * np.geomspace(1e-4, 2.0, 30)).tolist():
+        for x, way in ((0.0, v), (0.3 * scale.reach, -v)):
+            slope = 0.0
+            if found.stored_energy is not None:
+                step = 1e-6 * scale.reach
+                slope = (
+                    found.stored_energy(x + step, **values)
+                    - found.stored_energy(x - step, **values)
+                ) / (2.0 * step)
+            force = asked(found.hooks["force"], x=x, v=way, **values)
+            tiny = 1e-6 * abs(force)
+            assert (scale.kv * way + force - slope) * way >= -tiny * abs(way), (x, way)

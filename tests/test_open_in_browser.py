@@ -17,6 +17,7 @@ from sim.cli.open.session import LiveView
 from sim.fit import fit
 from sim.fit.replay import replay_fit
 from sim.io import read
+from sim.io.formats.wpilog.signals import SignalGroup, write_signals
 
 DESKTOP, PHONE = {"width": 1280, "height": 900}, {"width": 390, "height": 844}
 PATIENCE = 30_000  # [ms]
@@ -368,4 +369,33 @@ def test_an_effect_that_was_found_is_switched_on_and_off(page, tmp_path):
     box.uncheck()
     wait_until(page, "!document.querySelector('#sliders').inert")
     assert kv_shown(page) == wrong
+    assert page.complaints == []
+
+
+def test_signals_of_unknown_names_are_chosen_with_a_picture_of_each(page, tmp_path):
+    log = drive_log()
+    groups = [
+        SignalGroup(
+            run.time,
+            {"/a/1": run.voltage, "/a/2": run.position, "/a/3": run.velocity, "/a/4": 0 * run.time},
+            {"/b": [(run.time[0], run.test), (run.time[-1] + 0.02, "none")]},
+        )
+        for run in log.runs
+    ]
+    write_signals(groups, tmp_path / "strange.wpilog", units={})
+    drop(page, tmp_path / "strange.wpilog")
+    page.get_by_text("Which entries are the signals?").wait_for()
+    for label, name in (
+        ("Voltage at the motor", "/a/1"),
+        ("Position", "/a/2"),
+        ("Velocity", "/a/3"),
+        ("Name of the running test", "/b"),
+    ):
+        page.get_by_label(label, exact=True).select_option(name)
+    assert page.locator(".spark svg path").count() == 3
+    page.get_by_role("button", name="Open the log").click()
+    page.locator("#gain-kV").wait_for()
+
+    assert float(page.get_by_label("kV as a number").input_value()) == pytest.approx(2.52, rel=0.01)
+    assert page.locator(".tab").count() == 1
     assert page.complaints == []

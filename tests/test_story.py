@@ -33,6 +33,7 @@ from sim.cli import sysid
 from sim.cli.open.reconcile_job import describe_story
 from sim.plot.story import (
     make_findings_table,
+    plot_remaining_gap,
 )
 from sim.reconcile.story_text import (
     format_estimate,
@@ -290,3 +291,10 @@ def test_for_other_programs_nothing_is_loaded_that_draws(drive):
     assert json.loads(ran.stdout)["verdict"] in {"nothing-missing", "explained", "ambiguous",
                                                   "unexplained"}  # fmt: skip
     assert ran.stderr.splitlines()[-1] == "[]"
+
+
+def test_the_pictures_show_a_gap_before_and_only_noise_after():
+    before, after = plot_remaining_gap(EXPLAINED)
+
+    assert "of the gap beyond noise shows in no plot" in before.alt
+    assert "with drag: Only noise remains." in after.alt
