@@ -17,7 +17,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from small_course import HALF, RIGHT, lay_out
 
-from grader.classroom.grading import GradedStudent
+from grader.classroom.grading import GradedStudent, GradingJob, grade_student
 from grader.classroom.submissions import find_submissions, read_submission
 from grader.cli import run_command
 from grader.exercise import list_exercises
@@ -227,7 +227,7 @@ TEXTS = (RIGHT, HALF, STARTER, "size = [")
 )
 @settings(max_examples=300, suppress_health_check=[HealthCheck.function_scoped_fixture])
 def test_whatever_is_handed_in_is_graded_or_listed(course, tmp_path, files, form):
-    """Of 300 hand-ins composed at random: each file that somebody filled in is graded or named."""
+    """Of 300 random hand-ins, each answer is graded or named, and only an answer earns a mark."""
     place = tmp_path / hashlib.sha256(repr((files, form)).encode()).hexdigest()[:12] / "ann"
     put(place, {f"{folder}/{name}" if folder else name: text
                 for (folder, name), text in files.items()})  # fmt: skip
@@ -251,6 +251,14 @@ def test_whatever_is_handed_in_is_graded_or_listed(course, tmp_path, files, form
         assert text.encode() in graded or any(name in listed for name in {*names, "more"})
     if len({text for text in files.values() if text != STARTER}) == 1 and graded:
         assert graded & {text.encode() for text in files.values() if text != STARTER}
+    job = GradingJob(
+        "ann", "", one.files, one.problems, "ann", ("exercise1",), course, None, run=False
+    )
+    (record,) = grade_student(job).records
+    marked = record["status"] in {"passed", "failed"}
+
+    assert marked == bool(graded & {RIGHT.encode(), HALF.encode()})
+    assert record["score"] == (0 if not marked else 3 if RIGHT.encode() in graded else 2.5)
 
 
 @pytest.fixture
