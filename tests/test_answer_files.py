@@ -413,3 +413,22 @@ def test_answers_that_are_right_for_both_may_be_alike(course, tmp_path):
 
     assert find_likenesses(there, exercises, graded("ann", "ben")) == ()
     assert len(find_likenesses(there, exercises, graded("ann"))) == 1  # copied, and wrong for ben
+
+
+def test_a_log_that_the_class_made_for_somebody_else_is_told(root, tmp_path):
+    """Under another name, too; the log of one's own package is not."""
+    from grader.classroom.likeness import find_foreign_logs  # noqa: PLC0415 - only here
+
+    (tmp_path / "students").mkdir()
+    for name in ("ann", "ben"):
+        with zipfile.ZipFile(tmp_path / "students" / f"{name}.zip", "w") as archive:
+            archive.writestr("log.wpilog", f"WPILOG {name}")
+    own = 'log = "our-robot.wpilog"\n'
+    for name in ("ann", "ben"):
+        files = {"answers.toml": own, "our-robot.wpilog": "WPILOG ben"}
+        put(tmp_path / "in" / name / "practice", files)
+    there = find_submissions(tmp_path / "in", list_exercises(root))
+
+    assert find_foreign_logs(there, tmp_path) == (
+        "ann, practice: our-robot.wpilog is a file that this class made for ben",
+    )
