@@ -356,12 +356,6 @@ show_interactive(
     wheel=widgets.Dropdown(options=[4.0, 3.0, 6.0], description="wheel [in]"),
 )
 
-# %% [markdown]
-# No menus on your screen? Change the numbers here:
-
-# %%
-other_parts(mass=60.0, ratio=8.14, motors=4, wheel=4.0)
-
 # %%
 geared = built(60.0, 8.14, 4, 4.0)
 print(guess_gears.reveal("lesson1.gears"))

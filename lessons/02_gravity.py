@@ -460,12 +460,6 @@ show_interactive(
 )
 
 # %% [markdown]
-# No slider? Change the number here:
-
-# %%
-askew_picture(0)
-
-# %% [markdown]
 # SysId uses the same method for an arm: it fits a cosine and a sine, and computes kG and the offset
 # from them.
 #
@@ -621,8 +615,6 @@ except sim.Refusal as refusal:
 # contains 95 of 100 such fits. It is called a *confidence ellipse*. A small ellipse means that you
 # know both gains well. With the slider you add rows that were recorded while the carriage moved
 # down.
-#
-# (You may skip the code. It computes how much noise could change the fitted gains.)
 
 # %%
 SIDES = ("kS", "kG")
@@ -665,12 +657,6 @@ show_interactive(
         options=[0, 1, 2, 5, 20, len(down)], value=0, description="rows down"
     ),
 )
-
-# %% [markdown]
-# No slider? Change the number here: 0, 1, 5, 20.
-
-# %%
-up_and(0)
 
 # %% [markdown]
 # Without rows from the way down, the ellipse is an endless band. Everywhere in this band, kG + kS

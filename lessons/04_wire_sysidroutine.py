@@ -653,12 +653,6 @@ show_interactive(
 )
 
 # %% [markdown]
-# No menu on your screen? Change the name in this cell and run it:
-
-# %%
-display(*virtual_robot("share of the battery"))
-
-# %% [markdown]
 # The next table shows the gains and both R² for all seven programs:
 
 # %%

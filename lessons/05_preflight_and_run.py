@@ -253,12 +253,6 @@ show_interactive(
     ),
 )
 
-# %% [markdown]
-# No sliders on your screen? Change the numbers here, and run the cell:
-
-# %%
-run_it(RAMP, tape=7.0, thumb=0.3, moment=0.7)
-
 # %%
 went = drive_test(ROBOT, routine, test=RAMP, floor=Floor(wall=WALL, tape=7.0))
 top = float(went.velocity.max())
@@ -321,12 +315,6 @@ show_interactive(
         min=0, max=1, step=0.1, value=1, description="moment", continuous_update=False
     ),
 )
-
-# %% [markdown]
-# No menu? Here is the step test with the battery that was not charged:
-
-# %%
-morning("2 battery", STEP, moment=1.0)
 
 # %% [markdown]
 # First choose "2 battery" and "step". The step test draws so much current that the battery voltage

@@ -139,12 +139,6 @@ show_interactive(
 )
 
 # %% [markdown]
-# No slider? Change the number here:
-
-# %%
-ramp_picture(1.0)
-
-# %% [markdown]
 # The next table compares all four ramps with a rule that we explain below:
 
 # %%
@@ -263,12 +257,6 @@ show_interactive(
         min=1.5, max=3.5, step=0.01, value=2.0, description="V per m/s", continuous_update=False
     ),
 )
-
-# %% [markdown]
-# No sliders? Change the numbers here:
-
-# %%
-by_hand(intercept=0.8, slope=2.0)
 
 # %% [markdown]
 # Now let NumPy do it. `np.linalg.lstsq` ("least squares") needs the equations as a table: one row
@@ -643,12 +631,6 @@ show_interactive(
 )
 
 # %% [markdown]
-# No controls? Change the choices here:
-
-# %%
-try_choices("acceleration", 0.05, 3, mean_dt=False, trim=True)
-
-# %% [markdown]
 # ### Explain
 #
 # The **filter** and the **left side** matter most. A filter window that is longer than the rise
@@ -952,12 +934,6 @@ show_interactive(
         min=0, max=120, step=10, value=0, description="delay [ms]", continuous_update=False
     ),
 )
-
-# %% [markdown]
-# No sliders? Change the numbers here:
-
-# %%
-kp_picture(q=1.5, r=7.0, delay=0)
 
 # %%
 window = compute_allowed_velocity_error(ks=0.14, kv=lesson_kv)  # a quarter of the top speed

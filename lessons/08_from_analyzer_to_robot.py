@@ -384,12 +384,6 @@ show_interactive(
 )
 
 # %% [markdown]
-# No menu? Change the name and the number here:
-
-# %%
-follower("per radian, gets rotations", 0.0)
-
-# %% [markdown]
 # The next table compares all sets of gains, without and with feedback:
 
 # %%
@@ -492,12 +486,6 @@ show_interactive(
         min=0, max=0.6, step=0.02, value=0.12, description="kP", continuous_update=False
     ),
 )
-
-# %% [markdown]
-# No slider? Change the number here:
-
-# %%
-remaining_error(0.12)
 
 # %%
 print(guess_kp.reveal("lesson8.kp"))

@@ -247,12 +247,6 @@ show_interactive(
 )
 
 # %% [markdown]
-# No menu? Change the name here:
-
-# %%
-under_the_microscope("robot B")
-
-# %% [markdown]
 # The line shows the mean of nearby samples. The percentage above each plot says how much of the
 # (squared) voltage residual beyond noise follows this line. Compare the percentages of each robot.
 # They can be more than 100 % together, because one effect can show in two plots. The title says how
