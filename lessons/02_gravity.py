@@ -454,9 +454,7 @@ def askew_picture(offset: float) -> Picture:
 
 show_interactive(
     askew_picture,
-    offset=widgets.IntSlider(
-        min=-60, max=60, step=5, value=0, description="offset [deg]", continuous_update=False
-    ),
+    offset=widgets.IntSlider(min=-60, max=60, step=5, value=0, description="offset [deg]"),
 )
 
 # %% [markdown]
@@ -682,7 +680,13 @@ Table(("log", "kS ± [V]", "kG ± [V]"), tuple(rows), caption="± is one standar
 
 # %% [markdown]
 # So on an elevator, only the reverse tests separate kS from kG. SysId's window asks for all four
-# tests. Run all four, and be careful: the carriage falls even with 0 V.
+# tests. Run all four, and be careful: the carriage falls even with 0 V, and **each test ends with
+# 0 V**. ([`SysIdRoutine` of robotpy-commands-v2
+# 2026.2.2](https://pypi.org/project/robotpy-commands-v2/2026.2.2/)) Set the motors to *Brake*: then
+# a falling carriage turns them, and they slow it down, as in the next cell. In *Coast* mode they do
+# not, and the carriage falls freely. A TalonFX is in *Coast* mode until you change it.
+# ([`MotorOutputConfigs` of phoenix6 26.3.0](https://pypi.org/project/phoenix6/26.3.0/)) When you
+# let go of the button, the subsystem's default command takes over: lesson 5, section 8.
 #
 # <details><summary>For mentors: are reverse tests needed for gravity mechanisms?</summary>
 #

@@ -229,9 +229,7 @@ def drift_picture(name: str, ramp: float) -> list[Picture]:
 show_interactive(
     drift_picture,
     name=widgets.Dropdown(options=list(SHOWN), description="mechanism"),
-    ramp=widgets.SelectionSlider(
-        options=RAMPS, value=0.5, description="ramp [V/s]", continuous_update=False
-    ),
+    ramp=widgets.SelectionSlider(options=RAMPS, value=0.5, description="ramp [V/s]"),
 )
 
 # %%

@@ -503,16 +503,10 @@ WHOLE = {"description_width": "initial"}  # a slider's name is not cut off
 show_interactive(
     trimmed,
     threshold=widgets.FloatSlider(
-        min=0, max=1, step=0.05, description="threshold [m/s]", style=WHOLE, continuous_update=False
+        min=0, max=1, step=0.05, description="threshold [m/s]", style=WHOLE
     ),
     end=widgets.FloatSlider(
-        min=1,
-        max=6,
-        step=0.1,
-        value=6,
-        description="ramp ends [s]",
-        style=WHOLE,
-        continuous_update=False,
+        min=1, max=6, step=0.1, value=6, description="ramp ends [s]", style=WHOLE
     ),
     median=widgets.SelectionSlider(
         options=[1, 3, 5, 9, 15], value=1, description="median of samples", style=WHOLE

@@ -133,9 +133,7 @@ def ramp_picture(ramp: float) -> Picture:
 RAMPS = [0.25, 0.5, 1.0, 2.0]
 show_interactive(
     ramp_picture,
-    ramp=widgets.SelectionSlider(
-        options=RAMPS, value=1.0, description="V per s", continuous_update=False
-    ),
+    ramp=widgets.SelectionSlider(options=RAMPS, value=1.0, description="V per s"),
 )
 
 # %% [markdown]
@@ -250,12 +248,8 @@ def by_hand(intercept: float, slope: float) -> Picture:
 
 show_interactive(
     by_hand,
-    intercept=widgets.FloatSlider(
-        min=0, max=1, step=0.01, value=0.8, description="V at v = 0", continuous_update=False
-    ),
-    slope=widgets.FloatSlider(
-        min=1.5, max=3.5, step=0.01, value=2.0, description="V per m/s", continuous_update=False
-    ),
+    intercept=widgets.FloatSlider(min=0, max=1, step=0.01, value=0.8, description="V at v = 0"),
+    slope=widgets.FloatSlider(min=1.5, max=3.5, step=0.01, value=2.0, description="V per m/s"),
 )
 
 # %% [markdown]
@@ -623,7 +617,6 @@ show_interactive(
         value=0.05,
         description="threshold [m/s]",
         style={"description_width": "initial"},
-        continuous_update=False,
     ),
     median=widgets.SelectionSlider(options=[1, 3, 5, 9, 15], value=1, description="median"),
     mean_dt=widgets.Checkbox(value=True, description="mean time step"),
@@ -924,15 +917,9 @@ def kp_picture(q: float, r: float, delay: int) -> Picture:
 
 show_interactive(
     kp_picture,
-    q=widgets.FloatSlider(
-        min=0.5, max=4, step=0.05, value=1.5, description="q [m/s]", continuous_update=False
-    ),
-    r=widgets.FloatSlider(
-        min=1, max=12, step=0.5, value=7, description="r [V]", continuous_update=False
-    ),
-    delay=widgets.IntSlider(
-        min=0, max=120, step=10, value=0, description="delay [ms]", continuous_update=False
-    ),
+    q=widgets.FloatSlider(min=0.5, max=4, step=0.05, value=1.5, description="q [m/s]"),
+    r=widgets.FloatSlider(min=1, max=12, step=0.5, value=7, description="r [V]"),
+    delay=widgets.IntSlider(min=0, max=120, step=10, value=0, description="delay [ms]"),
 )
 
 # %%

@@ -378,9 +378,7 @@ def follower(gains: str, kp: float) -> Picture:
 show_interactive(
     follower,
     gains=widgets.Dropdown(options=list(GAINS), description="gains"),
-    kp=widgets.FloatSlider(
-        min=0, max=0.6, step=0.02, value=0, description="kP", continuous_update=False
-    ),
+    kp=widgets.FloatSlider(min=0, max=0.6, step=0.02, value=0, description="kP"),
 )
 
 # %% [markdown]
@@ -482,9 +480,7 @@ def remaining_error(kp: float) -> Picture:
 
 show_interactive(
     remaining_error,
-    kp=widgets.FloatSlider(
-        min=0, max=0.6, step=0.02, value=0.12, description="kP", continuous_update=False
-    ),
+    kp=widgets.FloatSlider(min=0, max=0.6, step=0.02, value=0.12, description="kP"),
 )
 
 # %%

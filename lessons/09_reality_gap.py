@@ -13,7 +13,7 @@
 # %% [markdown]
 # # Lesson 9: The reality gap
 #
-# *About 45 minutes. You need lessons 1 and 7. In this lesson you find out what is missing in your
+# *About 40 minutes. You need lessons 1 and 7. In this lesson you find out what is missing in your
 # model.*
 #
 # **At the end you can**
