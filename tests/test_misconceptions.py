@@ -11,6 +11,7 @@ from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.core.errors import Refusal
 from sim.fit import fit
+from sim.physics.effects import EFFECTS
 
 ROBOT = MECHANISMS["drivetrain"]
 
@@ -121,3 +122,10 @@ def test_a_heavier_robot_needs_more_ka_and_no_more_ks_by_itself(reads):
     assert heavy["kS"] == pytest.approx(light["kS"], rel=0.02)
     assert heavy["kV"] == pytest.approx(light["kV"], rel=0.01)
     assert heavy["kA"] > 1.3 * light["kA"]
+
+
+def test_drag_is_air_and_neither_grease_nor_a_belt(reads):
+    looks = EFFECTS["drag"].inspect
+
+    assert looks.startswith("Check whether a part moves air")
+    reads(looks)

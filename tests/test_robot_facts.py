@@ -3,15 +3,65 @@
 import subprocess
 import sys
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from exercises.exercise6.answer_key import WHY
+from exercises.exercise12.drawn import TESTS
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.physics.model import Part
+from sim.physics.motors import MOTORS
 from sim.teaching.reality_gap import LIMIT, record_limited_robot
+
+ROOT = Path(__file__).resolve().parents[1]
+STATOR = 120.0  # [A] CTRE's default limit
+
+
+def step_at_limit(mechanism):
+    """[V] the step that drives the stator's limit through a motor that stands still."""
+    return STATOR * mechanism.motor.resistance
+
+
+def test_exercise_12_steps_the_drivetrain_below_its_limit_and_the_shooter_beyond():
+    driving, shooting = (step_at_limit(MECHANISMS[name]) for name in ("drivetrain", "shooter"))
+
+    assert driving == pytest.approx(3.9, abs=0.05)  # as the comment beside the steps says
+    assert all(step < driving for (_, step) in TESTS["drivetrain"][:2])
+    assert TESTS["drivetrain"][2] < driving
+    assert max(TESTS["shooter"][1][1], TESTS["shooter"][2]) > shooting
+
+
+def test_a_vortex_draws_what_wpilib_says_it_does():
+    vortex = MOTORS["neoVortex"]
+
+    assert vortex.free_current == 3.615  # wpilibsuite/allwpilib v2026.2.2, DCMotor.h and plant.py
+    assert vortex.stall_torque == 3.6
+
+
+def test_a_test_begins_with_a_full_battery():
+    lesson = (ROOT / "lessons/05_preflight_and_run.py").read_text(encoding="utf-8")
+
+    assert "12.5 V" in WHY["battery"]
+    assert "**12.5 V or more at rest**, and 20 mΩ or less on a battery tester" in lesson
+
+
+@pytest.mark.parametrize("folder", ["exercises", "solutions"])
+@pytest.mark.parametrize(
+    ("file", "words"),
+    [
+        ("exercise4/ExampleSubsystem.java", "inverted in its settings"),
+        ("exercise4/example_subsystem.py", "self.right.setInverted(True)"),
+        ("exercise5/RobotContainer.java", "turn(() -> -m_driverController.getLeftY())"),
+        ("exercise5/robotcontainer.py", "turn(lambda: -self.driver.getLeftY())"),
+    ],
+)
+def test_forward_is_plus_for_the_right_side_and_for_the_stick(folder, file, words):
+    assert words in (ROOT / folder / file).read_text(encoding="utf-8")
+
 
 ROUTINE = """
 import pathlib
@@ -57,6 +107,13 @@ def test_only_state_enum_to_string_makes_the_word_that_sysid_looks_for(tmp_path)
 
     words = (tmp_path / "words.txt").read_text(encoding="utf-8")
     assert words == "State.kDynamicForward dynamic-forward"
+
+
+def test_the_readme_of_exercise_4_warns_once_of_a_step_that_slips():
+    text = " ".join((ROOT / "exercises/exercise4/README.md").read_text(encoding="utf-8").split())
+
+    assert text.count("slips below 3.5 V") == 1
+    assert "spin the wheels" not in text
 
 
 def test_lesson_9_reaches_the_limit_with_the_hard_step_alone():
