@@ -27,8 +27,8 @@ from sim.io import read, write
 ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise7", ROOT / "exercises" / "exercise7")
 CHECKS = OWN.module
-DRAWN, LINE, SCORED, TOLD = (
-    sys.modules[f"{CHECKS.__name__}.{name}"] for name in ("drawn", "line", "scored", "told")
+DRAWN, LINE, SCORING, FEEDBACK = (
+    sys.modules[f"{CHECKS.__name__}.{name}"] for name in ("drawn", "line", "scoring", "feedback")
 )
 
 
@@ -39,7 +39,7 @@ def right(case):
         tests = ", ".join(dict.fromkeys(part.test for part in one.where))
         first, begin = one.where[0], case.log.runs[one.where[0].run].time[0]
         times = "" if one.whole else f"{first.start - begin:.2f} to {first.end - begin:.2f}"
-        said.append(f"{one.fault}, {tests}, {times}, {TOLD.ACCEPTED[one.fault][0]}")
+        said.append(f"{one.fault}, {tests}, {times}, {FEEDBACK.ACCEPTED[one.fault][0]}")
     return " + ".join(said) or "clean"
 
 
@@ -164,7 +164,7 @@ def test_the_files_hold_the_logs_and_not_the_answers(tmp_path):
 )
 def test_what_a_line_earns(line, damage, points):
     claims = LINE.read_claims(line)
-    result = SCORED.scored(claims, case(*damage), points=2.0)
+    result = SCORING.score_claims(claims, case(*damage), points=2.0)
 
     assert result.points == pytest.approx(points)
     assert (result.hint == "") == (points == 2.0)
@@ -175,7 +175,7 @@ def test_half_a_sample_off_is_forgiven_where_damage_is_short():
 
     for line, points in (("0.04 to 0.2", 2.0), ("0.3 to 0.42", 1.5)):
         claims = LINE.read_claims(f"wheel-slip dynamic-forward {line} rerun")
-        assert SCORED.scored(claims, short, points=2.0).points == points
+        assert SCORING.score_claims(claims, short, points=2.0).points == points
 
 
 @pytest.mark.parametrize(
@@ -214,8 +214,8 @@ def test_every_word_can_be_read_and_stands_in_the_task(name):
 def test_no_feedback_names_what_it_really_is():
     for said, really in product(LINE.FAULTS, repeat=2):
         words = re.compile(rf"\b{really.replace('-', '[ -]')}\b")
-        assert not words.search(TOLD.overlooked(really))
-        assert said == really or not words.search(TOLD.mixed_up(said, really))
+        assert not words.search(FEEDBACK.explain_overlooked(really))
+        assert said == really or not words.search(FEEDBACK.explain_mixed_up(said, really))
 
 
 def test_calling_all_logs_clean_or_all_the_same_earns_little(tmp_path):

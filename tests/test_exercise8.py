@@ -16,8 +16,8 @@ from sim.fit import fit
 ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise8", ROOT / "exercises" / "exercise8")
 CHECKS = OWN.module
-DRAWN, PREPARATION, LEFT = (
-    sys.modules[f"{CHECKS.__name__}.{name}"] for name in ("drawn", "preparation", "left")
+DRAWN, PREPARATION, COVERAGE = (
+    sys.modules[f"{CHECKS.__name__}.{name}"] for name in ("drawn", "preparation", "coverage")
 )
 STUDENTS = tuple(f"student {number}" for number in range(20))
 RAMPS, STEPS = PREPARATION.TESTS[:2], PREPARATION.TESTS[2:]
