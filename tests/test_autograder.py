@@ -312,3 +312,32 @@ def test_the_workflow_takes_nothing_from_github_into_its_shell_lines(workflow):
     for step in parsed["jobs"]["grade"]["steps"]:
         assert "${{" not in step.get("run", "")
     assert parsed["permissions"] == {"contents": "read", "checks": "write"}
+
+
+@needs_bash
+def test_nothing_handed_in_is_a_result_of_zero(export):
+    _, results = grade(export("--exercise", "4"))
+
+    assert {one["score"] for one in results["tests"]} == {0.0}
+    assert "nothing was handed in" in results["tests"][0]["output"]
+
+
+@needs_bash
+def test_the_workflow_of_a_wrong_answer_tells_so_and_does_not_stop(workflow, tmp_path):
+    repository, parsed = workflow
+    (step,) = [one for one in parsed["jobs"]["grade"]["steps"] if one.get("id") == "exercise4"]
+    output = tmp_path / "output"
+    subprocess.run(
+        [BASH, "-e", "-c", step["run"]],
+        cwd=repository,
+        env={
+            **os.environ,
+            "STUDENT": "octo-cat",
+            "RUNNER_TEMP": str(tmp_path),
+            "GITHUB_OUTPUT": str(output),
+            "PATH": f"{SCRIPTS}{os.pathsep}{os.environ['PATH']}",
+        },
+        check=True,
+    )
+
+    assert json.loads(base64.b64decode(output.read_text().partition("=")[2]))["status"] == "fail"

@@ -372,3 +372,33 @@ def test_every_mistake_is_named_whatever_the_mechanism(checked, tmp_path, kind, 
         assert (mistake.name, found.status) == (mistake.name, "failed")
         assert mistake.says in f"{found.seen} {found.hint}"
         assert (mistake.name, found.misconception) == (mistake.name, mistake.misconception)
+
+
+PID = "Constants.kA);\n  PIDController pid = new PIDController("
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "check", "points", "code"),
+    [
+        ("{kV} / (2 * Math.PI)", "{kA}", "kv", 0, ""),
+        ("{kV} / (2 * Math.PI)", "-{kV}", "kv", 0, ""),
+        ("{kV} / (2 * Math.PI)", "{kV} / (2 * 3)", "kv", 0, ""),
+        ("{kV} / (2 * Math.PI)", "{kV} * 60", "kv", 0, "M-UNITS"),
+        ("{kV} / (2 * Math.PI)", "Elsewhere.kV", "kv", 0, ""),
+        ("{kV} / (2 * Math.PI)", "Elsewhere.kV", "order", 0, ""),
+        ("{kV} / (2 * Math.PI)", "{kV} / (1 / 0)", "feedforward", 0, ""),  # stops the robot
+        ("Constants.kS,", "Constants.kS * 6.3,", "order", 0, "M-UNITS"),
+        (f"{C}kS,", "kick,", "feedforward", 0, ""),
+        (", CharacterizationConstants.kA)", ")", "order", 1, ""),
+        (" / (2 * Math.PI); // where", " / 75.4; // where", "kp", 0.5, "M-DUTY"),
+        ("Constants.kA);\n", f"{PID}0.0, {C}kP, 0.0);\n", "kp", 0.5, "M-ARGORDER"),
+        ("Constants.kA);\n", f"{PID}6.2832 * {C}kP, 0, 0);\n", "kp", 0.5, "M-UNITS"),
+    ],
+)  # fmt: skip
+def test_what_is_not_right_is_told(checked, turret, old, new, check, points, code):  # noqa: PLR0917 - a row of the table
+    student, shown = turret
+    assert old in BODY
+    text = f"{IMPORTS}class A {{\n{BODY.replace(old, new).format(**shown)}}}\n"
+    found = checked(text, student=student)[check]
+
+    assert (found.status, found.points, found.misconception) == ("failed", points, code)

@@ -220,3 +220,9 @@ def test_the_students_of_a_class_meet_many_effects():
     everybody = {name for _, effects in DRAWN.HIDDEN for name, _ in effects}
 
     assert len(everybody) >= 12
+
+
+def test_gaps_that_were_made_up_cost_half_a_point(tmp_path):
+    text = re.sub(r"gap_before = .*", "gap_before = 900", truth("ada"))
+
+    assert grade_answer(text, "ada", tmp_path)["held-out"].points == 2.5

@@ -343,3 +343,23 @@ def test_corpus_of_whole_programs_is_judged_right(shared):
             wrong.append(case["name"])
 
     assert wrong == []
+
+
+@pytest.mark.parametrize(
+    ("content", "code"),
+    [
+        ("class A {}\n", 1),
+        ("// nothing but a comment\n", 1),
+        ("class A { SysIdRoutine r = new SysIdRoutine(); }\n", 1),
+        ("class A { SysIdRoutine r = new SysIdRoutine(null, null); }\n", 1),
+        ("class A {" + "\n" * 50_000 + "}\n", 1),
+        ('class Ä { String é = "\\u0000"; }\r\n', 1),
+    ],
+    ids=["bare", "comment", "no-arguments", "nulls", "long", "letters"],
+)
+def test_code_without_a_routine_gets_few_points_and_no_traceback(real, capsys, content, code):
+    path = real / "A.java"
+    path.write_text(content, "utf-8")
+
+    assert run_command(["exercise4", "A.java", "--json"]) == code
+    assert json.loads(capsys.readouterr().out)["score"] <= 2

@@ -354,3 +354,11 @@ def test_a_reader_who_leaves_early_causes_no_traceback(course):
     _, err = writer.communicate(timeout=60)
 
     assert err == b""
+
+
+@pytest.mark.usefixtures("course")
+def test_hints_are_counted_for_each_student(capsys):
+    run_command(["exercise1", "--hint"])
+    run_command(["exercise1", "--hint", "--student", "ann"])
+
+    assert capsys.readouterr().out.count("Hint 1 of 3") == 2

@@ -636,3 +636,19 @@ def test_a_child_ends_with_the_process_that_keeps_its_time(tmp_path):
 
 def _waits(process):
     return process.status() == psutil.STATUS_SLEEPING
+
+
+@pytest.mark.parametrize("machine", seccomp.TABLES)
+def test_the_filter_lets_nobody_slow_another_process_down(machine):
+    table = seccomp.TABLES[machine]
+
+    assert len(table.own) == 7
+    for number in table.own:
+        assert verdict(table, number, 1) == seccomp.REFUSE
+        assert verdict(table, number, 0) == seccomp.ALLOW
+
+
+def test_threads_still_work(apart_run):
+    code = "import threading\nt = threading.Thread(target=print)\nt.start()\nt.join()"
+
+    assert dict(apart_run(attempt(code)).answers[0].numbers) == {"worked": 1.0}

@@ -127,3 +127,17 @@ def test_an_answer_without_a_mystery_is_one_line(course, capsys):
     assert course.is_dir()
     assert run_command(["mystery", "clean"]) == 2
     assert "Draw one: grade mystery" in capsys.readouterr().err
+
+
+def test_levels_get_harder():
+    single = [drawn(EFFECTS, seed, level=1).solution.split(", ") for seed in SEEDS]
+    several = [drawn(EFFECTS, seed, level=HIGHEST).solution.split(", ") for seed in SEEDS]
+    easy = {drawn(FAULTS, seed, level=1).solution.split(",")[0] for seed in SEEDS}
+    hard = {drawn(FAULTS, seed, level=HIGHEST).solution.split(",")[0] for seed in SEEDS}
+
+    assert {len(one) for one in single} == {1}
+    assert {len(one) for one in several} == {3}
+    assert easy <= {"encoder-slip", "brownout", "hard-stop", "loop-overrun"}
+    assert len(hard) > len(easy)
+    assert "clean" in hard
+    assert "clean" not in easy

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 import sim
 from sim.bench.mechanism import Sensor
+from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.bench.slip import compute_slip_voltage
@@ -32,10 +33,13 @@ from sim.cli import sysid
 from sim.core.errors import BadRequest
 from sim.fit import fit
 from sim.fit.physics.inertia import compute_moment_of_inertia
+from sim.inspect.contaminate import contaminate
 from sim.inspect.detect_faults import inspect
+from sim.inspect.faults import FAULTS
 from sim.io import read_motors
 from sim.io.formats.wpilog.signals import SignalGroup, write_signals
 from sim.physics.motors import find_motor
+from sim.reconcile import reconcile
 from sim.support.command_line import run_command
 
 GENTLE = Routine(ramp=0.5, step=2.0)
@@ -489,3 +493,36 @@ def test_a_real_log_of_a_swerve_project_is_read_and_not_believed(real, capsys):
 
 
 # ---- the solvers accept it ----
+
+
+STEP = Routine(ramp=0.5, step=3.5)
+
+
+SPOILS = [name for name, one in FAULTS.items() if "simple" in one.types]
+
+
+@pytest.mark.parametrize("name", ["swerve", "swerve-rotation"])
+@pytest.mark.parametrize("fault", SPOILS)
+def test_a_damaged_log_of_it_is_found_out(name, fault):
+    """Of five damaged logs each, at least four; what is found is nothing that was not done."""
+    found = []
+    for seed in range(5):
+        chance = rng([seed, len(name)])
+        log = simulate(MECHANISMS[name].draw(chance), STEP, rng=chance)
+        spoilt = contaminate(log, fault, severity=1.5, rng=chance)
+        found.append(fault in {one.fault for one in inspect(spoilt.log).damages})
+
+    assert sum(found) >= 4
+
+
+@pytest.mark.parametrize("name", ["swerve", "swerve-rotation"])
+def test_reconcile_finds_what_is_hidden_in_it(name):
+    robot = MECHANISMS[name].hide("velocity-filter", 1.5)
+    logs = [
+        simulate(robot, Routine(ramp=0.5, step=step, timeout=6.0), rng=rng(int(10 * step)))
+        for step in (3.5, 2.5)
+    ]
+
+    story = reconcile(logs[0], validation=logs[1], type="simple")
+
+    assert [one.effect for one in story.findings] == ["velocity-filter"]
