@@ -104,20 +104,6 @@ def test_a_starter_gets_no_warning_and_each_misspelled_name_of_it_gets_one(one, 
         assert said.startswith("answers.toml, line ")
 
 
-def test_a_name_too_many_beside_right_answers_keeps_all_points(tmp_path):
-    one = find_exercise("exercise1", ROOT)
-    variant = one.module.draw("ann")
-    right = {name: variant.asked(name).expected for name in ("forward", "backward", "braking")}
-    text = "".join(f"{name} = {value}\n" for name, value in right.items())
-    (tmp_path / "answers.toml").write_text(f"{text}acelerating = 1.0\n", encoding="utf-8")
-    found = one.grade(tmp_path, student="ann")
-    points = {check.id: check.points for check in found.checks}
-
-    assert (points["forward"], points["backward"], points["braking"]) == (2.0, 2.0, 2.0)
-    (said,) = found.warnings
-    assert said.endswith(f"does not ask for acelerating, {IGNORED}. Did you mean accelerating?")
-
-
 def test_an_effect_may_be_written_with_either_sign_and_a_misspelled_one_is_named(tmp_path):
     one = find_exercise("exercise12", ROOT)
     path = tmp_path / "answers.toml"

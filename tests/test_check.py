@@ -83,11 +83,6 @@ def test_a_check_that_is_not_reached_says_what_has_to_come_first():
     assert "The number is positive" in second.seen
 
 
-def test_a_pass_may_carry_a_note():
-    assert even.run(10).status is Status.PASSED
-    assert even.run(10).hint == "Zero is even, too."
-
-
 def test_our_own_mistake_is_not_the_learners():
     result = broken.run(1)
 

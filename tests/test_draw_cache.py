@@ -52,17 +52,6 @@ def test_what_was_drawn_is_not_drawn_again(shelf, tmp_path):
     assert [path.suffix for path in shelf.iterdir()] == [".drawn"]
 
 
-def test_another_student_and_another_exercise_draw_their_own(shelf, tmp_path):
-    one, other = loaded(tmp_path / "exercise7"), loaded(tmp_path / "exercise8")
-    with enable_draw_cache():
-        assert one.draw("ann")["student"] == "ann"
-        assert one.draw("bob")["student"] == "bob"
-        assert other.draw("ann")["student"] == "ann"
-
-    assert (one.COUNT, other.COUNT) == (["ann", "bob"], ["ann"])
-    assert len(list(shelf.iterdir())) == 3
-
-
 def test_a_class_leaves_nothing_behind_and_takes_nothing(shelf, tmp_path):
     module = loaded(tmp_path / "exercise7")
     with enable_draw_cache(), use_class_secret(b"of the class"):
@@ -108,14 +97,6 @@ def test_a_damaged_file_is_drawn_again(shelf, tmp_path, content):
     assert pickle.loads(file.read_bytes())["number"] == 5  # noqa: S301 - written above
 
 
-def test_where_nothing_can_be_kept_it_is_drawn(tmp_path, monkeypatch):
-    (tmp_path / "file").write_text("no folder", encoding="utf-8")
-    monkeypatch.setenv(cache.CACHE, str(tmp_path / "file"))
-
-    with enable_draw_cache():
-        assert loaded(tmp_path / "exercise7").draw("ann")["number"] == 5
-
-
 def test_the_oldest_are_forgotten(shelf, tmp_path, monkeypatch):
     monkeypatch.setattr(room, "MOST", 3)
     module = loaded(tmp_path / "exercise7")
@@ -149,3 +130,22 @@ def test_files_that_are_as_made_are_not_made_again(tmp_path):
             assert written.read_bytes() == b"rows"
 
     assert len(made) == 3
+
+
+def test_another_student_and_another_exercise_draw_their_own(shelf, tmp_path):
+    one, other = loaded(tmp_path / "exercise7"), loaded(tmp_path / "exercise8")
+    with enable_draw_cache():
+        assert one.draw("ann")["student"] == "ann"
+        assert one.draw("bob")["student"] == "bob"
+        assert other.draw("ann")["student"] == "ann"
+
+    assert (one.COUNT, other.COUNT) == (["ann", "bob"], ["ann"])
+    assert len(list(shelf.iterdir())) == 3
+
+
+def test_where_nothing_can_be_kept_it_is_drawn(tmp_path, monkeypatch):
+    (tmp_path / "file").write_text("no folder", encoding="utf-8")
+    monkeypatch.setenv(cache.CACHE, str(tmp_path / "file"))
+
+    with enable_draw_cache():
+        assert loaded(tmp_path / "exercise7").draw("ann")["number"] == 5

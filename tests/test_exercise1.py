@@ -1,12 +1,9 @@
 """Exercise 1: everybody gets a voltage budget of their own, and no answer by accident."""
 
-import re
-import tomllib
 from pathlib import Path
 
 import pytest
 
-from grader.cli import run_command
 from grader.exercise import Exercise
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -34,83 +31,6 @@ def test_fifty_students_get_budgets_of_every_kind_whose_sum_is_told_apart_from_e
 
             assert 0.8 <= abs(asked.expected) < 12  # [V] a battery's
             assert not any(asked.is_right(volts) for volts in slips)
-
-
-def test_a_student_gets_the_same_numbers_every_time_and_nobody_elses():
-    first, again, other = (OWN.module.draw(name) for name in ("ann", "Ann", "ben"))
-
-    assert first == again
-    assert first != other
-
-
-def test_what_is_told_leads_to_the_answer_in_an_ordinary_way(copy):
-    """The four voltages, worked out from the file alone, by its words."""
-    size = {"ft/s": 0.3048, "rpm": 1 / 60, "deg/s": 3.14159265 / 180}
-    for student in CLASS[:12]:
-        copy.prepare(student, say=lambda _: None)
-    for student in CLASS[:12]:
-        told = (copy.folder / "data" / student / "given.toml").read_text("utf-8")
-        given, variant = tomllib.loads(told), OWN.module.draw(student)
-        shown = re.search(r"\[forward\].*\nspeed = \S+  # (\S+)", told)[1]
-        ks, kv, ka = (given[name] for name in ("kS", "kV", "kA"))
-        speeds = {name: given[name]["speed"] for name in OWN.module.MOMENTS}
-        faster, slower = given["accelerating"]["faster_by"], given["braking"]["slower_by"]
-        answers = {
-            "forward": ks + kv * speeds["forward"] * size[shown],
-            "accelerating": ks + kv * speeds["accelerating"] + ka * faster,
-            "braking": ks + kv * speeds["braking"] - ka * slower,
-            "backward": -ks - kv * speeds["backward"],
-        }
-
-        for name, volts in answers.items():
-            assert volts == pytest.approx(variant.asked(name).expected, rel=1e-6)
-
-
-@pytest.mark.parametrize("student", ["ann", "ben", "zoë"])
-def test_nothing_a_learner_reads_holds_the_answer(copy, student, capsys):
-    variant = OWN.module.draw(student)
-    said = " ".join(OWN.hints) + (OWN.folder / "README.md").read_text("utf-8")
-    for volts in (-3.0, 0.1, 4.0, 70.0):
-        rows = "".join(f"{name} = {volts}\n" for name in OWN.module.MOMENTS)
-        text = f'{rows}kV_unit = "V"\nlargest = "torque"\n'
-        (copy.folder / "answers.toml").write_text(text, "utf-8")
-        run_command(["1", "--student", student])
-        run_command(["1", "--student", student, "--json"])
-    said += capsys.readouterr().out
-    (given,) = copy.folder.glob("data/*/given.toml")
-    said += given.read_text("utf-8")
-    numbers = [float(text) for text in re.findall(r"\d+\.\d+", said)]
-
-    assert f"V·s/{variant.symbol}" not in said
-    for name in OWN.module.MOMENTS:
-        volts = abs(variant.asked(name).expected)
-
-        assert [n for n in numbers if abs(n - volts) < 0.001 * volts] == []
-
-
-def test_numbers_that_were_changed_are_written_anew(copy):
-    said = []
-    copy.prepare("ann", say=said.append)
-    given = copy.folder / "data" / "ann" / "given.toml"
-    right = given.read_bytes()
-    copy.prepare("ann", say=said.append)
-    given.write_bytes(right.replace(b"kS = ", b"kS = 1"))
-    copy.prepare("ann", say=said.append)
-
-    assert given.read_bytes() == right
-    assert ["written again" in line for line in said] == [False, True]
-    assert [file.name for file in given.parent.iterdir()] == ["given.toml"]
-
-
-@pytest.mark.usefixtures("copy")
-def test_where_no_numbers_can_be_written_it_says_so(capsys, monkeypatch, reads):
-    def full(*_args, **_more):
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(Path, "mkdir", full)
-
-    assert run_command(["1"]) == 2
-    reads(capsys.readouterr().err)
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,6 @@
 
 import re
 import runpy
-import shutil
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -91,22 +90,6 @@ def test_what_can_be_hidden_is_physics_and_its_first_effect_alone_matters_most(k
     assert min(alone) == alone[0]
 
 
-def test_a_student_gets_the_same_logs_every_time_and_nobody_elses(copy):
-    def files(student):
-        shutil.rmtree(copy.folder / "data", ignore_errors=True)
-        copy.prepare(student, say=lambda _: None)
-        return {one.name: one.read_bytes() for one in (copy.folder / "data").glob("*/*")}
-
-    first = files("ada")
-    assert first.keys() == {
-        f"{name}{suffix}"
-        for name in ("log", "validation", "held-out")
-        for suffix in (".csv", ".wpilog")
-    }
-    assert files("Ada") == first
-    assert files("ben")["log.csv"] != first["log.csv"]
-
-
 def test_the_second_effect_named_first_costs_three_points(tmp_path):
     student = hiding(2)
     swapped = ROOM.draw(student).hidden[::-1]
@@ -127,12 +110,6 @@ def test_one_of_three_alone_is_part_of_the_way(tmp_path):
     assert "still missing" in results["all-effects"].hint
     assert results["held-out"].points == 2  # most of the gap, not all of it
     assert "you are close. Is an effect missing" in results["held-out"].hint
-
-
-def test_gaps_that_were_made_up_cost_half_a_point(tmp_path):
-    text = re.sub(r"gap_before = .*", "gap_before = 900", truth("ada"))
-
-    assert grade_answer(text, "ada", tmp_path)["held-out"].points == 2.5
 
 
 @pytest.mark.parametrize("student", ["ada", "ben", "zoë"])
@@ -178,24 +155,12 @@ def test_a_list_of_names_may_be_written_in_many_ways(tmp_path, written, right):
         assert (result.status == "passed") == right
 
 
-def test_a_name_that_is_nearly_one_is_asked_about(tmp_path):
-    check = grade_answer('effects = ["stribek"]\n', "ada", tmp_path)["first-effect"]
-
-    assert "Did you mean stribeck?" in check.hint
-
-
 def test_a_parameter_that_an_effect_does_not_have_is_named(tmp_path):
     text = 'effects = ["delay"]\ndelay.late = 0.03\n'
     check = grade_answer(text, "ada", tmp_path)["held-out"]
 
     assert check.seen == "delay.late, which is no parameter of delay"
     assert "It has delay.lag." in check.hint
-
-
-def test_a_value_beyond_physics_is_no_crash(tmp_path):
-    text = 'effects = ["delay"]\ndelay.lag = -1\n'
-
-    assert "is physically impossible" in grade_answer(text, "ada", tmp_path)["held-out"].hint
 
 
 def test_trying_an_effect_shows_the_gaps_but_not_the_held_out_one(copy, monkeypatch, capsys):
@@ -257,3 +222,9 @@ def test_the_students_of_a_class_meet_many_effects():
     everybody = {name for _, effects in DRAWN.HIDDEN for name, _ in effects}
 
     assert len(everybody) >= 12
+
+
+def test_gaps_that_were_made_up_cost_half_a_point(tmp_path):
+    text = re.sub(r"gap_before = .*", "gap_before = 900", truth("ada"))
+
+    assert grade_answer(text, "ada", tmp_path)["held-out"].points == 2.5

@@ -9,7 +9,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from java_compiler import JavaProgram, compile_java
 from mutation import robot_code
-from mutation.report import all_mutants, legal_variants, survey
+from mutation.report import legal_variants, survey
 
 from grader.exercise import find_exercise
 from grader.robotcode.java.program import Program
@@ -64,14 +64,6 @@ def _find_errors(path):
     if not program.problems:
         program.compile_all()
     return [*program.problems, *program.errors]
-
-
-def test_there_are_enough_mutants_of_enough_kinds():
-    found = list(all_mutants())
-
-    assert len(found) >= 1500
-    assert len({one.operator for one in found}) >= 40
-    assert {one.exercise for one in found} >= {*EXERCISES, "exercise1", "exercise12", "practice"}
 
 
 def test_every_listed_variant_has_a_reason():

@@ -80,12 +80,3 @@ def test_every_lesson_has_a_quick_check(lesson):
     part = lesson.read_text(encoding="utf-8").partition("Knowledge check")[2]
 
     assert re.search(r"^\w+ = Quick(Number)?Check\(", part, re.MULTILINE)
-
-
-def test_the_first_lesson_says_once_how_to_answer_without_buttons():
-    first, *others = [one.read_text(encoding="utf-8") for one in LESSONS]
-    said = first.partition("Do you see no buttons or sliders?")[2].partition("# %%")[0]
-
-    assert ".answer(" in said
-    assert ".value = " in said
-    assert not [one for one in others if "No buttons" in one]

@@ -6,7 +6,7 @@ from grader.answers.choice_answer import check_choice, read_choice
 from grader.check import WrongAnswer
 from grader.mistake import change_number, exchange_numbers, make_wrong_answer, scale_numbers
 from grader.student_data.student_files import write_student_files
-from grader.student_data.variant import derive_student_seed, make_folder_name, use_class_secret
+from grader.student_data.variant import make_folder_name
 from sim.core.errors import BadRequest
 
 TYPES = ("Simple", "Arm", "Elevator")
@@ -88,15 +88,3 @@ def test_a_change_that_changes_nothing_is_refused():
         scale_numbers(1, "kV")("kV = 2\n")
     with pytest.raises(ValueError, match="no kA"):
         make_wrong_answer("kA", "1")("kV = 2\n")
-
-
-def test_a_class_draws_numbers_of_its_own():
-    alone = derive_student_seed("ann", "exercise9")
-    with use_class_secret(b"east"):
-        east = derive_student_seed("Ann", "exercise9")
-        with use_class_secret(b"west"):
-            west = derive_student_seed("ann", "exercise9")
-        assert derive_student_seed("ann", "exercise9") == east
-    assert len({alone, east, west}) == 3
-    assert derive_student_seed("ann", "exercise9") == alone
-    assert derive_student_seed("ann", "exercise9", secret=b"east") == east

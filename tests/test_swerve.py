@@ -16,7 +16,7 @@ from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.bench.slip import compute_slip_voltage
-from sim.bench.swerve import GRAVITY, SWERVE, SwerveDrive
+from sim.bench.swerve import GRAVITY, SwerveDrive
 from sim.bench.swerve_logs import (
     MODULES,
     RATE,
@@ -89,18 +89,6 @@ def test_its_gains_are_those_of_its_parts():
     assert turning["kS"] - straight["kS"] == pytest.approx(c * 4.0 / lever)
 
 
-def test_both_ways_of_it_are_mechanisms_of_the_bench():
-    assert MECHANISMS["swerve"].gains == SWERVE.translation.gains
-    assert MECHANISMS["swerve-rotation"].gains == SWERVE.rotation.gains
-
-
-@pytest.mark.parametrize("name", ["swerve", "swerve-rotation"])
-def test_the_catalogues_own_never_slip_at_the_step_of_wpilib(name):
-    drawn = [MECHANISMS[name].draw(rng(seed)) for seed in range(200)]
-
-    assert min(compute_slip_voltage(one) for one in drawn) > 7.0
-
-
 # ---- slip ----
 
 
@@ -131,19 +119,6 @@ def test_wheels_that_slip_follow_the_closed_form(step, grip):
     assert run.velocity[-1] == pytest.approx((step - gains["kS"]) / gains["kV"], rel=0.01)
 
 
-def test_the_robot_cannot_be_pushed_harder_than_the_floor_holds():
-    one = quiet(KRAKEN.translation)
-    wheels = simulate(one, Routine(step=8.0, timeout=2.0, kinds=("dynamic",)), rng=rng())
-    (run, _) = wheels.runs
-
-    behind = run.position[-1] - 0.5 * one.grip * (run.time[-1] - run.time[0]) ** 2
-    caught = float(run.time[np.argmax(np.abs(run.velocity))] - run.time[0])
-
-    assert run.velocity[1] > 4 * one.grip * 0.02  # the wheels spin up at once
-    assert caught > run.velocity[5] / one.grip  # and the robot takes its time
-    assert behind < run.position[-1]
-
-
 @pytest.mark.parametrize(("step", "found"), [(2.0, set()), (4.0, {"wheel-slip"})])
 def test_the_step_of_ctres_generator_slips_a_kraken_drive_and_is_found_out(step, found):
     """4 V is the generator's step; this robot slips from 2.3 V on."""
@@ -151,24 +126,6 @@ def test_the_step_of_ctres_generator_slips_a_kraken_drive_and_is_found_out(step,
 
     assert {one.fault for one in inspect(log).damages} == found
     assert (step > compute_slip_voltage(KRAKEN.translation)) == bool(found)
-
-
-def test_the_rotation_step_of_ctres_generator_slips_too_and_two_radians_a_second_do_not():
-    """Phoenix 6 26.3.0 turns a rate into rate · lever / top speed · 12 V."""
-    top = KRAKEN.motor.free_speed / KRAKEN.ratio * KRAKEN.wheel_radius
-    theirs, gentle = (rate * KRAKEN.lever_arm / top * 12.0 for rate in (math.pi, 2.0))
-
-    assert theirs == pytest.approx(3.4, abs=0.05)
-    assert gentle < compute_slip_voltage(KRAKEN.rotation) < theirs
-    assert compute_slip_voltage(KRAKEN.rotation) == pytest.approx(2.4, abs=0.05)
-
-
-def test_slip_makes_ka_too_large_and_leaves_kv():
-    log = simulate(KRAKEN.translation, Routine(ramp=0.5, step=4.0), rng=rng())
-    gains, true = fit(log, method="sysid").gains, KRAKEN.translation.gains
-
-    assert gains["kV"] == pytest.approx(true["kV"], rel=0.02)
-    assert gains["kA"] > 1.2 * true["kA"]
 
 
 def test_slip_beside_a_hidden_joint_is_left_out_and_it_is_said():
@@ -257,13 +214,6 @@ def test_a_wrong_lever_is_named(times, says):
 
     assert [doubt.code for doubt in found.doubts] == ["lever"]
     assert says in found.doubts[0].message
-
-
-def test_without_a_lever_the_speeds_tell_it():
-    found = compute_moment_of_inertia(*both(KRAKEN), mass=60.0)
-
-    assert found.lever == found.lever_seen == pytest.approx(KRAKEN.lever_arm, rel=1e-3)
-    assert found.value == pytest.approx(own_share(KRAKEN), rel=0.01)
 
 
 @pytest.mark.parametrize(
@@ -365,19 +315,6 @@ def test_modules_that_agree_roughly_are_not_said_to_agree_within_their_errors(tm
     _, said, _ = run(capsys, "fit", tmp_path / "worn.wpilog")
 
     assert "All 4 motors, each fitted alone, agree within 4.0%" in said
-
-
-def test_it_is_in_the_json_and_a_tanks_lever_is_grave(logs, capsys):
-    code, said, _ = run(
-        capsys, "fit", logs / "turning.wpilog", *TURNED, "--straight", logs / "straight.wpilog",
-        "--mass", 60, "--lever", 0.3, "--json",
-    )  # fmt: skip
-    found = json.loads(said)
-
-    assert code == 1
-    assert found["moment_of_inertia"]["value"] == pytest.approx(3.69, abs=0.05)
-    assert found["moment_of_inertia"]["lever_seen"] == pytest.approx(0.424, abs=0.001)
-    assert "lever" in {one["code"] for one in found["warnings"]}
 
 
 def test_ctres_own_log_of_going_straight_in_rotations_of_a_motor_will_do(tmp_path, logs, capsys):
@@ -526,7 +463,6 @@ def real(shared, tmp_path_factory):
 
 
 PIKE = "PikeRoboDevils+FRC-2022-Software~sysid~sysid_data20220305-"
-EDWIN = "StuyPulse+Edwin~sysid~data~drivetrain"
 CUBE = "StuyPulse+SwerveSysId~client~data.json"
 
 
@@ -546,31 +482,6 @@ def test_a_real_robot_that_turned_has_a_moment_of_inertia_a_robot_can_have(real,
 
 
 @pytest.mark.shared
-def test_a_real_pair_of_logs_in_different_units_is_told_by_the_lever(real, capsys):
-    """One file has the wheel's circumference in it, the other none: kV differs sixteenfold."""
-    turning, straight = f"{EDWIN}-angular.json", f"{EDWIN}.json"
-
-    code, said, _ = run(
-        capsys, "fit", real / turning, "--straight", real / straight,
-        "--mass", 55, "--lever", 0.3, "--json",
-    )  # fmt: skip
-
-    assert code == 1
-    assert "lever" in {one["code"] for one in json.loads(said)["warnings"]}
-
-
-@pytest.mark.shared
-def test_wheels_read_while_turning_need_a_lever(real, capsys):
-    code, _, why = run(
-        capsys, "fit", real / f"{EDWIN}-angular.json", "--straight", real / f"{EDWIN}.json",
-        "--mass", 55,
-    )  # fmt: skip
-
-    assert code == 2
-    assert "Give --lever as well: trackwidth/√2" in why
-
-
-@pytest.mark.shared
 def test_a_real_log_of_a_swerve_project_is_read_and_not_believed(real, capsys):
     """Its velocity is the position times a factor: no gains describe it, and it is said so."""
     code, _, why = run(capsys, "fit", real / CUBE)
@@ -582,7 +493,13 @@ def test_a_real_log_of_a_swerve_project_is_read_and_not_believed(real, capsys):
 
 # ---- its contaminated sets ----
 
+
+# ---- the solvers accept it ----
+
+
 STEP = Routine(ramp=0.5, step=3.5)
+
+
 SPOILS = [name for name, one in FAULTS.items() if "simple" in one.types]
 
 
@@ -598,39 +515,6 @@ def test_a_damaged_log_of_it_is_found_out(name, fault):
         found.append(fault in {one.fault for one in inspect(spoilt.log).damages})
 
     assert sum(found) >= 4
-
-
-def test_a_dataset_holds_swerve_logs_and_what_is_wrong_with_them(tmp_path, capsys):
-    spec = tmp_path / "swerve.toml"
-    spec.write_text(
-        """
-name = "swerve"
-seed = 1
-students = ["ann"]
-formats = ["wpilog"]
-
-[[logs]]
-mechanisms = ["swerve", "swerve-rotation"]
-count = 2
-drawn = true
-
-[[logs.faults]]
-name = ["wheel-slip", "encoder-slip"]
-severity = 1.0
-""",
-        encoding="utf-8",
-    )
-
-    code, said, why = run(capsys, "dataset", spec, "-o", tmp_path / "out")
-
-    assert code == 0, why
-    assert said
-    logs = sorted((tmp_path / "out").rglob("*.wpilog"))
-    assert len(logs) == 4
-    assert all(not inspect(sim.read(path)).is_clean for path in logs)
-
-
-# ---- the solvers accept it ----
 
 
 @pytest.mark.parametrize("name", ["swerve", "swerve-rotation"])

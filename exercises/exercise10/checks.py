@@ -15,7 +15,7 @@ from grader.student_data.student_files import write_student_files
 
 from .comment_units import find_commented_units, judge_comment
 from .drawn import draw
-from .handed import (
+from .feedforwards import (
     Seen,
     check_one_place,
     check_order,

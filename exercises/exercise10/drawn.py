@@ -36,7 +36,9 @@ def draw(student: str) -> Variant:
     for _ in range(MOST_DRAWS):
         variant = _drawn(kind, rng)
         places = [variant.held_by(place) for place in ("", *PLACES)]
-        if all(map(_clear, places)) and _geared(variant.held_by(SLOT0)):
+        if all(map(_are_numbers_distinguishable, places)) and _is_gearing_distinguishable(
+            variant.held_by(SLOT0)
+        ):
             return variant
     raise RuntimeError(f"no clear numbers for {student!r}")
 
@@ -66,14 +68,14 @@ def _drawn(kind: str, rng: "np.random.Generator") -> Variant:
     )
 
 
-def _geared(variant: Variant) -> bool:
+def _is_gearing_distinguishable(variant: Variant) -> bool:
     """Whether a rotation of the rotor is no radian and none of the analyzer's units."""
     others = (UNITS["Rotations"][1], variant.times, 1.0 / variant.times, 1.0)
     return not any(near(variant.ratio, one, share=APART) for one in others)
 
 
-def _clear(variant: Variant) -> bool:
-    """Whether no number passes for another, as it is shown or as it is needed."""
+def _are_numbers_distinguishable(variant: Variant) -> bool:
+    """Whether the sizes of all numbers differ, as they are shown and as they are needed."""
     times = variant.times
     volts = [variant.shown[name] for name in ("kS", "kG") if name in variant.shown]
     others = [

@@ -7,7 +7,7 @@ from grader.check import NotReachedError, WrongAnswer
 from grader.consequence import Consequence, follow_profiles
 from grader.robotcode.bench.gains_run import Gains
 
-from .handed import GRAVITY, SETTINGS, Seen
+from .feedforwards import GRAVITY, SETTINGS, Seen
 from .key import CLASSES, SCALED, Variant, near
 
 if TYPE_CHECKING:

@@ -13,7 +13,7 @@ from grader.consequence import Consequence
 from grader.student_data.student_files import write_student_files
 
 from .drawn import draw
-from .held import Variant
+from .holds import Variant
 from .outcome import outcome
 from .slips import key_of, offset_slips, turned
 

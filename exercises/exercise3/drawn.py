@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 from grader.answers.number_answer import BANDS, AskedNumber, Band
 from grader.student_data.variant import cache_draws, make_student_rng
 
-from .held import Hold, Variant
+from .holds import Hold, Variant
 from .slips import telling
 
 if TYPE_CHECKING:

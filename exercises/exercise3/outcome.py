@@ -12,7 +12,7 @@ from grader.answers.number_answer import AskedNumber, read_answer_number
 from grader.check import WrongAnswer
 from grader.consequence import Consequence, follow_profiles
 
-from .held import Variant
+from .holds import Variant
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from grader.answers.number_answer import AnswerKey, diagnose_number
 from grader.answers.wrong_number import Lookalike, Scene, WrongNumber
 
-from .held import Hold, Variant
+from .holds import Hold, Variant
 
 NEAR = (0.985, 1.0, 1.015)  # [share] a slip is named for who rounds, too
 

@@ -12,7 +12,7 @@ from grader.student_data.student_files import format_log, write_student_files
 
 from .drawn import LEVELS, LOGS, Case, draw, draw_case
 from .line import CLEAN, describe_case, read_claims
-from .scored import scored
+from .scoring import score_claims
 
 if TYPE_CHECKING:
     import numpy as np
@@ -82,7 +82,7 @@ def _of(number: int) -> Check[Answers]:
 
     def look(answers: Answers) -> None:
         claims = read_claims(answers.given.get(f"log{number:02}"))
-        result = scored(claims, answers.cases[number - 1], points=POINTS)
+        result = score_claims(claims, answers.cases[number - 1], points=POINTS)
         if result.hint:
             seen = "; ".join(one.fault for one in claims)
             code = "M-R2" if seen == CLEAN else ""

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from grader.check import WrongAnswer, shorten
 
-from .told import ACCEPTED
+from .feedback import ACCEPTED
 
 if TYPE_CHECKING:
     from sim.core.log import Log

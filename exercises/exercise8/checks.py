@@ -10,8 +10,8 @@ from grader.check import NotReachedError, WrongAnswer, check
 from grader.student_data.student_files import format_log, write_student_files
 
 from .blame import blame
+from .coverage import Coverage, measure_coverage
 from .drawn import Variant, draw
-from .left import Left, left
 from .preparation import POINTS, TESTS, Preparation, earned, fitted, read_preparation
 
 FILES = ("answers.toml",)
@@ -56,7 +56,7 @@ def kept(answers: Answers) -> None:
     """At least 60 % of the good samples of each test are kept."""
     if isinstance(answers.preparation, WrongAnswer):
         raise answers.preparation
-    short = [one for one in _left(answers) if not one.enough]
+    short = [one for one in _measure_coverage(answers) if not one.enough]
     if not short:
         return
     tests = ", ".join(one.test for one in short)
@@ -73,7 +73,7 @@ def kept(answers: Answers) -> None:
 @check(points=2)
 def reach(answers: Answers) -> None:
     """The fast end of each ramp is kept, and the first rise of each step."""
-    short = [one for one in _left(answers) if not one.reaches]
+    short = [one for one in _measure_coverage(answers) if not one.reaches]
     if not short:
         return
     tests = ", ".join(one.test for one in short)
@@ -116,11 +116,11 @@ def _preparation(answers: Answers) -> Preparation:
     return answers.preparation
 
 
-def _left(answers: Answers) -> tuple[Left, ...]:
+def _measure_coverage(answers: Answers) -> tuple[Coverage, ...]:
     """What is left of each test, once both stops are cut."""
     _require_stops_cut(answers)
     preparation, variant = _preparation(answers), answers.variant
-    return left(variant.log, preparation, valid=variant.valid, clean=variant.clean)
+    return measure_coverage(variant.log, preparation, valid=variant.valid, clean=variant.clean)
 
 
 def _require_stops_cut(answers: Answers) -> None:
@@ -138,7 +138,7 @@ def _require_stops_cut(answers: Answers) -> None:
 def _keeps_ends(answers: Answers) -> bool:
     """Whether both stops are cut and nothing that matters is; else a right gain is luck."""
     try:
-        return all(one.reaches for one in _left(answers))
+        return all(one.reaches for one in _measure_coverage(answers))
     except NotReachedError:
         return False
 

@@ -7,9 +7,9 @@ from grader.answers.number_answer import AskedNumber, ask_gains
 from grader.student_data.draw_cache import cache_generated_data
 from grader.student_data.variant import cache_draws, make_student_rng
 
-from .left import left
+from .coverage import measure_coverage
+from .damage import add_hard_stops, add_spikes, find_valid_samples, measure_noise_at_rest
 from .preparation import LONGEST, POINTS, Preparation, points
-from .spoiled import noise_at_rest, sound, spiked, stopped
 
 if TYPE_CHECKING:
     import numpy as np
@@ -90,7 +90,7 @@ def _one(kind: str, rng: "np.random.Generator") -> Variant | None:
     routine = Routine(ramp=RAMP, step=STEPS.get(kind, STEP), timeout=TIMEOUT)
     severity = float(rng.uniform(*TREMBLES[kind]))
     try:
-        log, impacts = stopped(simulate(mechanism, routine, rng=rng, period=PERIOD), rng=rng)
+        log, impacts = add_hard_stops(simulate(mechanism, routine, rng=rng, period=PERIOD), rng=rng)
         clean = {run.test: run.velocity for run in log.runs}
         trembles = contaminate(log, "noisy-standstill", severity=severity, rng=rng)
     except Refusal:  # it would not show there
@@ -98,9 +98,9 @@ def _one(kind: str, rng: "np.random.Generator") -> Variant | None:
     if any(len(one) != len(other) for one, other in zip(log.runs, trembles.log.runs, strict=True)):
         return None  # it hardly stands before it moves
     rests = {one.test: one.end for one in trembles.where}
-    valid = {run.test: sound(run, impacts, rests) for run in log.runs}
+    valid = {run.test: find_valid_samples(run, impacts, rests) for run in log.runs}
     spiky = tuple(
-        spiked(run, valid[run.test], impacts.get(run.test), rng) for run in trembles.log.runs
+        add_spikes(run, valid[run.test], impacts.get(run.test), rng) for run in trembles.log.runs
     )
     per = find_unit(mechanism.units)
     return Variant(
@@ -111,7 +111,7 @@ def _one(kind: str, rng: "np.random.Generator") -> Variant | None:
         clean,
         Preparation(
             {test: (0.0, at - EARLY) for test, at in impacts.items()},
-            ABOVE * noise_at_rest(spiky, rests),
+            ABOVE * measure_noise_at_rest(spiky, rests),
             MEDIAN,
         ),
     )
@@ -124,7 +124,7 @@ def _solvable(variant: Variant) -> bool:
     if points(log, reference, asked, wider=SNUG) < full or points(log, NOTHING, asked) >= full / 2:
         return False
     by_eye = [_cut(reference, early, times) for early in EARLIER for times in ROUGHLY]
-    remaining = left(log, by_eye[-1], valid=variant.valid, clean=variant.clean)
+    remaining = measure_coverage(log, by_eye[-1], valid=variant.valid, clean=variant.clean)
     return (
         all(part.enough and part.reaches for part in remaining)
         and all(points(log, one, asked) == full for one in by_eye)

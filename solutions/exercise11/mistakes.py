@@ -14,23 +14,12 @@ def chose(name: str, words: str, says: str, code: str = "") -> Mistake:
 
 
 MISTAKES = (
-    Mistake(
-        "nothing chosen",
-        ANSWERS,
-        make_wrong_answer("KC1_answer", '""'),
-        "kc1-answer",
-        "nothing yet",
-    ),
-    Mistake(
-        "a number", ANSWERS, make_wrong_answer("KC1_answer", "1"), "kc1-answer", "not a letter"
-    ),
-    Mistake(
-        "a letter too far",
-        ANSWERS,
-        make_wrong_answer("KC1_answer", '"z"'),
-        "kc1-answer",
-        "of your questions.md: a",
-    ),
+    Mistake("nothing chosen", ANSWERS, make_wrong_answer("KC1_answer", '""'), "kc1-answer",
+        "nothing yet"),
+    Mistake("a number", ANSWERS, make_wrong_answer("KC1_answer", "1"), "kc1-answer",
+        "not a letter"),
+    Mistake("a letter too far", ANSWERS, make_wrong_answer("KC1_answer", '"z"'), "kc1-answer",
+        "of your questions.md: a"),
     chose(
         "Q0_guess", "Which model of the physics", "You can only answer this question with recorded"
     ),
@@ -80,55 +69,20 @@ MISTAKES = (
     chose("KC3_answer", "Raise kV", "has no speed", "M-KV-MASS"),
     chose("KC3_reason", "A heavier arm has more friction", "helps an arm", "M-HEAVIER-MORE-KS"),
     chose("KC3_reason", "SysId does not know", "finds kG", "M-NO-KG-IN-SYSID"),
-    Mistake(
-        "rpm as rotations per second",
-        ANSWERS,
-        change_number("KC2_volts", lambda right: 60.0 * right["KC2_volts"]),
-        "kc2-volts",
-        "rpm are rotations in a minute",
-        "M-UNITS",
-    ),
-    Mistake(
-        "an output for the voltage",
-        ANSWERS,
-        change_number("KC2_volts", lambda right: right["KC2_volts"] / 12.0),
-        "kc2-volts",
-        "volts",
-        "M-DUTY",
-    ),
-    Mistake(
-        "no test for the drivetrain",
-        ANSWERS,
-        make_wrong_answer("drivetrain", '"usually not"'),
-        "decision-drivetrain",
-        "autonomous path",
-    ),
-    Mistake(
-        "a shooter that may be guessed",
-        ANSWERS,
-        make_wrong_answer("shooter", '"optional"'),
-        "decision-shooter",
-        "3 % too slow",
-    ),
-    Mistake(
-        "always, without a reason that carries it",
-        ANSWERS,
-        make_wrong_answer("conveyor", '"always"'),
-        "decision-conveyor",
-        "do better",
-    ),
-    Mistake(
-        "a word that is none",
-        ANSWERS,
-        make_wrong_answer("arm", '"maybe"'),
-        "decision-arm",
-        "Choose one of: always, recommended, optional, usually not",
-    ),
-    Mistake(
-        "no reason",
-        ANSWERS,
-        make_wrong_answer("climber_reason", '""'),
-        "reason-climber",
-        "letter of a reason",
-    ),
-)
+    Mistake("rpm as rotations per second", ANSWERS,
+        change_number("KC2_volts", lambda right: 60.0 * right["KC2_volts"]), "kc2-volts",
+        "rpm are rotations in a minute", "M-UNITS"),
+    Mistake("an output for the voltage", ANSWERS,
+        change_number("KC2_volts", lambda right: right["KC2_volts"] / 12.0), "kc2-volts", "volts",
+        "M-DUTY"),
+    Mistake("no test for the drivetrain", ANSWERS, make_wrong_answer("drivetrain", '"usually not"'),
+        "decision-drivetrain", "autonomous path"),
+    Mistake("a shooter that may be guessed", ANSWERS, make_wrong_answer("shooter", '"optional"'),
+        "decision-shooter", "3 % too slow"),
+    Mistake("always, without a reason that carries it", ANSWERS,
+        make_wrong_answer("conveyor", '"always"'), "decision-conveyor", "do better"),
+    Mistake("a word that is none", ANSWERS, make_wrong_answer("arm", '"maybe"'), "decision-arm",
+        "Choose one of: always, recommended, optional, usually not"),
+    Mistake("no reason", ANSWERS, make_wrong_answer("climber_reason", '""'), "reason-climber",
+        "letter of a reason"),
+)  # fmt: skip

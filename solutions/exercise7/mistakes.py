@@ -45,59 +45,22 @@ def milli(seconds: str) -> str:
 WHOLE = "{fault}, {kind}-{way}, {begin} to {end}, {action}"
 
 MISTAKES = (
-    Mistake(
-        "all sound, as R² is fine",
-        ANSWERS,
-        make_wrong_answer("log01", '"clean"'),
-        "log01",
-        "Something is wrong here. The R² may",
-        "M-R2",
-    ),
+    Mistake("all sound, as R² is fine", ANSWERS, make_wrong_answer("log01", '"clean"'), "log01",
+        "Something is wrong here. The R² may", "M-R2"),
     Mistake("nothing", ANSWERS, make_wrong_answer("log01", '""'), "log01", "nothing yet"),
-    Mistake(
-        "what it is taken for",
-        ANSWERS,
-        first(WHOLE, fault=TAKEN_FOR.__getitem__),
-        "log01",
-        "would look like this",
-    ),
-    Mistake(
-        "the other way", ANSWERS, first(WHOLE, way=OTHER_WAY.__getitem__), "log01", "the place"
-    ),
-    Mistake(
-        "milliseconds",
-        ANSWERS,
-        first(WHOLE, begin=milli, end=milli),
-        "log01",
-        "Are your times in milliseconds?",
-    ),
+    Mistake("what it is taken for", ANSWERS, first(WHOLE, fault=TAKEN_FOR.__getitem__), "log01",
+        "would look like this"),
+    Mistake("the other way", ANSWERS, first(WHOLE, way=OTHER_WAY.__getitem__), "log01",
+        "the place"),
+    Mistake("milliseconds", ANSWERS, first(WHOLE, begin=milli, end=milli), "log01",
+        "Are your times in milliseconds?"),
     Mistake("no place", ANSWERS, first("{fault}, {action}"), "log01", "Where is it?"),
-    Mistake(
-        "no action",
-        ANSWERS,
-        first("{fault}, {kind}-{way}, {begin} to {end}"),
-        "log01",
-        "What should you do? Add one of",
-    ),
-    Mistake(
-        "a filter for everything",
-        ANSWERS,
-        first(WHOLE, action=lambda _: "filter"),
-        "log01",
-        "filter helps if single samples are noisy",
-    ),
-    Mistake(
-        "a fault too many",
-        ANSWERS,
-        first(f"{WHOLE} + sign-flip whole fix-config"),
-        "log01",
-        "Can you find that in a plot? What",
-    ),
-    Mistake(
-        "a word that is none",
-        ANSWERS,
-        make_wrong_answer("log01", '"sensor broke, rerun"'),
-        "log01",
-        "Choose one of: clean, encoder-slip",
-    ),
-)
+    Mistake("no action", ANSWERS, first("{fault}, {kind}-{way}, {begin} to {end}"), "log01",
+        "What should you do? Add one of"),
+    Mistake("a filter for everything", ANSWERS, first(WHOLE, action=lambda _: "filter"), "log01",
+        "filter helps if single samples are noisy"),
+    Mistake("a fault too many", ANSWERS, first(f"{WHOLE} + sign-flip whole fix-config"), "log01",
+        "Can you find that in a plot? What"),
+    Mistake("a word that is none", ANSWERS, make_wrong_answer("log01", '"sensor broke, rerun"'),
+        "log01", "Choose one of: clean, encoder-slip"),
+)  # fmt: skip

@@ -105,18 +105,18 @@ ACTS = {  # what an action is for
 }
 
 
-def mixed_up(said: str, really: str) -> str:
+def explain_mixed_up(said: str, really: str) -> str:
     """What to say of a fault that was taken for another one."""
     asks = APART.get((said, really), "")
-    return " ".join(part for part in (would_show(said), asks, PLOTS[really]) if part)
+    return " ".join(part for part in (explain_false_alarm(said), asks, PLOTS[really]) if part)
 
 
-def would_show(said: str) -> str:
+def explain_false_alarm(said: str) -> str:
     """How a fault would look, if it were there."""
     return f"{said} would look like this: {LOOKS[said]}."
 
 
-def overlooked(really: str) -> str:
+def explain_overlooked(really: str) -> str:
     """What to say of a fault that nobody named."""
     return (
         f"Something is wrong here. The R² may be good anyway: look at the signals. {PLOTS[really]}"

@@ -1,4 +1,4 @@
-"""What a preparation leaves of the samples that tell of the mechanism."""
+"""Share of the valid samples that a preparation keeps, and whether it keeps the fast ends."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -17,8 +17,8 @@ FIRST_RISE = 0.1  # [share] of a step's fastest valid speed up to which a start 
 
 
 @dataclass(frozen=True)
-class Left:
-    """What is left of one test.
+class Coverage:
+    """How much of one test a preparation keeps.
 
     Args:
         test: its name.
@@ -32,18 +32,18 @@ class Left:
 
     @property
     def enough(self) -> bool:
-        """Whether that is enough."""
+        """Whether enough of the test is kept."""
         return self.share >= ENOUGH
 
 
-def left(
+def measure_coverage(
     log: "Log",
     preparation: Preparation,
     *,
     valid: "Mapping[str, Flags]",
     clean: "Mapping[str, Array]",
-) -> tuple[Left, ...]:
-    """What is left of each test.
+) -> tuple[Coverage, ...]:
+    """Measure how much of each test a preparation keeps.
 
     Args:
         log: damaged.
@@ -54,7 +54,7 @@ def left(
     return tuple(_of(run, valid[run.test], clean[run.test], preparation) for run in log.runs)
 
 
-def _of(run: "Run", valid: "Flags", clean: "Array", preparation: Preparation) -> Left:
+def _of(run: "Run", valid: "Flags", clean: "Array", preparation: Preparation) -> Coverage:
     import numpy as np  # noqa: PLC0415 - numpy only where it is needed
 
     speed = np.abs(clean)
@@ -65,8 +65,8 @@ def _of(run: "Run", valid: "Flags", clean: "Array", preparation: Preparation) ->
     share = float(kept.sum() / valid.sum())
     top = float(speed[valid].max())
     if not kept.any():
-        return Left(run.test, 0.0, reaches=False)
+        return Coverage(run.test, 0.0, reaches=False)
     if run.kind == "quasistatic":
-        return Left(run.test, share, reaches=bool(speed[kept].max() >= FAST_END * top))
+        return Coverage(run.test, share, reaches=bool(speed[kept].max() >= FAST_END * top))
     rises = int(np.argmax(valid & (speed > FIRST_RISE * top)))
-    return Left(run.test, share, reaches=int(np.argmax(kept)) <= rises)
+    return Coverage(run.test, share, reaches=int(np.argmax(kept)) <= rises)

@@ -4,8 +4,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from .drawn import Case, Damaged
+from .feedback import ACCEPTED, ACTS, explain_false_alarm, explain_mixed_up, explain_overlooked
 from .line import CLEAN, Claim, Span
-from .told import ACCEPTED, ACTS, mixed_up, overlooked, would_show
 
 LABEL, PLACE, ACTION = 0.5, 0.25, 0.25  # [share of a fault's points]
 NEAR = 0.5  # [shared over covered time] that is the right place
@@ -14,14 +14,14 @@ FALSE_ALARM = 0.5  # points off for each fault where there is none
 
 
 @dataclass(frozen=True)
-class Scored:
+class Score:
     """What a line earns, and what to say; nothing to say if all is right."""
 
     points: float
     hint: str
 
 
-def scored(claims: Sequence[Claim], case: Case, *, points: float) -> Scored:
+def score_claims(claims: Sequence[Claim], case: Case, *, points: float) -> Score:
     """Judge the claims about one log.
 
     Args:
@@ -31,11 +31,11 @@ def scored(claims: Sequence[Claim], case: Case, *, points: float) -> Scored:
     """
     if claims[0].fault == CLEAN:
         if case.damage:
-            return Scored(0.0, overlooked(case.damage[0].fault))
-        return Scored(points, "")
+            return Score(0.0, explain_overlooked(case.damage[0].fault))
+        return Score(points, "")
     pairs, alarms = _paired(claims, case)
     if not case.damage:
-        return Scored(0.0, _alarm(claims[0]))
+        return Score(0.0, _alarm(claims[0]))
     share, says = 0.0, []
     for damaged, claim in pairs:
         earned, hint = _one(claim, damaged, case)
@@ -43,7 +43,7 @@ def scored(claims: Sequence[Claim], case: Case, *, points: float) -> Scored:
         says += [hint] if hint else []
     says += [_alarm(claim) for claim in alarms]
     hint = " ".join(dict.fromkeys(says))
-    return Scored(max(points * share - FALSE_ALARM * len(alarms), 0.0), hint)
+    return Score(max(points * share - FALSE_ALARM * len(alarms), 0.0), hint)
 
 
 def _paired(
@@ -67,11 +67,11 @@ def _paired(
 def _one(claim: Claim | None, damaged: Damaged, case: Case) -> tuple[float, str]:
     """Share of a fault's points, and what to say."""
     if claim is None:
-        return 0.0, overlooked(damaged.fault)
+        return 0.0, explain_overlooked(damaged.fault)
     placed = _overlap(claim, damaged, case) >= NEAR
     share = PLACE * placed
     if claim.fault != damaged.fault:
-        return share, mixed_up(claim.fault, damaged.fault)
+        return share, explain_mixed_up(claim.fault, damaged.fault)
     share += LABEL
     says = []
     if not placed:
@@ -113,8 +113,8 @@ def _place(claim: Claim, *, whole: bool, lasts: float) -> str:
 
 def _alarm(claim: Claim) -> str:
     return (
-        f"{would_show(claim.fault)} Can you find that in a plot? What looks odd may be normal "
-        "for a good mechanism. Does it look the same in the other direction?"
+        f"{explain_false_alarm(claim.fault)} Can you find that in a plot? What looks odd may be "
+        "normal for a good mechanism. Does it look the same in the other direction?"
     )
 
 

@@ -20,8 +20,8 @@ QUIET = 0.4  # [s] before a stop without any: a median does not outvote the last
 MOVING, RISEN = 0.1, 0.9  # [share of a test's top speed] where it moves, where a step has risen
 
 
-def stopped(log: "Log", *, rng: "np.random.Generator") -> "tuple[Log, dict[str, float]]":
-    """Put a stop in the way of one ramp and of one step.
+def add_hard_stops(log: "Log", *, rng: "np.random.Generator") -> "tuple[Log, dict[str, float]]":
+    """Make one ramp and one step hit a hard stop.
 
     Returns:
         The log, and where it hits: test -> [s] since it began.
@@ -39,7 +39,7 @@ def stopped(log: "Log", *, rng: "np.random.Generator") -> "tuple[Log, dict[str, 
     return log, impacts
 
 
-def sound(run: "Run", impacts: dict[str, float], rests: dict[str, float]) -> "Flags":
+def find_valid_samples(run: "Run", impacts: dict[str, float], rests: dict[str, float]) -> "Flags":
     """Whether each sample tells of the mechanism: it moves, or, in a step, gets up to speed."""
     import numpy as np  # noqa: PLC0415 - numpy only where it is needed
 
@@ -52,7 +52,7 @@ def sound(run: "Run", impacts: dict[str, float], rests: dict[str, float]) -> "Fl
     return (since <= since[risen]) & (np.abs(run.voltage) > 0.0)
 
 
-def noise_at_rest(runs: "Sequence[Run]", rests: dict[str, float]) -> float:
+def measure_noise_at_rest(runs: "Sequence[Run]", rests: dict[str, float]) -> float:
     """[m/s or rad/s] the largest standard deviation of a velocity up to when its test moves [s]."""
     import numpy as np  # noqa: PLC0415 - numpy only where it is needed
 
@@ -60,7 +60,7 @@ def noise_at_rest(runs: "Sequence[Run]", rests: dict[str, float]) -> float:
     return max(float(np.std(velocity)) for velocity in still)
 
 
-def spiked(
+def add_spikes(
     run: "Run",
     valid: "Flags",
     impact: float | None,
