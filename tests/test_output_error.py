@@ -290,7 +290,7 @@ def test_gains_of_a_model_that_strays_are_those_that_simulate_best():
 @pytest.mark.parametrize(
     ("effect", "size"),
     [
-        ("asymmetric-friction", 2.0),
+        ("asymmetric-friction", 1.0),
         ("drag", 1.0),
         ("drag", 0.1),
         ("stribeck", 1.0),

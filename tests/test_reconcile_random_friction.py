@@ -8,7 +8,7 @@ from reconcile_made import rubbing
 
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
-from sim.estimation.optimize import append_prior_rows, compute_standard_errors, make_joint_jacobian
+from sim.estimation.optimize import compute_standard_errors, make_joint_jacobian, make_prior_rows
 from sim.estimation.random_friction import compute_laplace_correction, get_friction_sd
 from sim.estimation.run_nuisance import RunNuisance
 from sim.estimation.run_records import make_run_records
@@ -135,10 +135,10 @@ def test_what_a_point_adjusts_to_is_what_the_priors_allow():
     kept = make_joint_jacobian(problem, point)
     white = problem.whiten(point, point.innovations)
 
-    table, rest = append_prior_rows(problem, point)
+    rows, prior = make_prior_rows(problem, point)
+    table, rest = np.vstack([problem.compute_jacobian(point), rows]), np.append(white, prior)
     by, *_ = np.linalg.lstsq(table, rest, rcond=None)
     left = rest - table @ by
-    prior = rest[white.size :]
 
     assert kept.compute_residual_square(white) + float(prior @ prior) == pytest.approx(
         float(left @ left), rel=1e-6
