@@ -17,19 +17,29 @@ FLAGS = [
 ]
 LEAST_CONTRAST = 4.5  # of text against its ground: WCAG 2.2, level AA
 FAINTEST = """(selector) => {
-    const channels = color => color.match(/[\\d.]+/g).map(Number);
-    const light = ([r, g, b]) => [r, g, b].map(c => c / 255)
+    const canvas = new OffscreenCanvas(1, 1).getContext('2d', {willReadFrequently: true});
+    const paint = (...colors) => {
+        canvas.clearRect(0, 0, 1, 1);
+        for (const color of colors) {
+            canvas.fillStyle = color;
+            canvas.fillRect(0, 0, 1, 1);
+        }
+        return [...canvas.getImageData(0, 0, 1, 1).data];
+    };
+    const light = (...colors) => paint(...colors).slice(0, 3).map(c => c / 255)
         .map(c => c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4)
         .reduce((sum, c, i) => sum + c * [0.2126, 0.7152, 0.0722][i], 0);
     const ground = node => {
         for (; node; node = node.parentElement) {
-            const color = channels(getComputedStyle(node).backgroundColor);
-            if (color.length < 4 || color[3] === 1) return color;
+            const color = getComputedStyle(node).backgroundColor;
+            if (paint(color)[3] === 255) return color;
         }
-        return [255, 255, 255];
+        return 'white';
     };
-    return Math.min(...[...document.querySelectorAll(selector)].map(node => {
-        const [a, b] = [light(channels(getComputedStyle(node).color)), light(ground(node))];
+    const seen = [...document.querySelectorAll(selector)].filter(node => node.checkVisibility());
+    return Math.min(...seen.map(node => {
+        const under = ground(node);
+        const [a, b] = [light(under, getComputedStyle(node).color), light(under)];
         return (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
     }));
 }"""

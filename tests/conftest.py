@@ -14,57 +14,7 @@ settings.register_profile("course", deadline=None)
 settings.load_profile("course")
 
 ROOT = Path(__file__).resolve().parents[1]
-SLOW = (  # files that take long; begun first, they keep no core waiting at the end
-    "test_lessons_in_browser",
-    "test_animation_in_browser",
-    "test_edition_in_browser",
-    "test_instructors_day",
-    "test_install",
-    "test_without_numba",
-    "test_open_in_browser",
-    "test_signals_in_browser",
-    "test_open_server",
-    "test_reconcile_real",
-    "test_engine",
-    "test_lessons",
-    "test_plausible_draws",
-    "test_exercises",
-    "test_exercise12_by_hand",
-    "test_exercise12",
-    "test_faults",
-    "test_hostile_answers",
-    "test_adding_an_effect",
-    "test_mutation",
-    "test_mutation_toml",
-    "test_jupyterhub",
-    "test_autograder",
-    "test_sysid",
-    "test_robotcode_bench_sandboxed_run",
-    "test_report",
-    "test_exercise7",
-    "test_by_mujoco",
-    "test_story",
-    "test_robotcode_corpus",
-    "test_exercise5",
-    "test_package_files",
-    "test_package_keys",
-    "test_guessing",
-    "test_reconcile_in_browser",
-    "test_robotcode_fuzz",
-    "test_release",
-    "test_workers",
-    "test_everyday_effects",
-    "test_reconcile",
-    "test_fuzz",
-    "test_real_logs_inspected",
-    "test_real_logs_looked_at",
-    "test_comparison",
-    "test_bench_reconcile",
-    "test_executors",
-    "test_watch_robot",
-    "test_swerve",
-    "test_site",
-)
+SLOW_FILE = re.compile(r"^pytestmark = \[?\s*pytest\.mark\.slow", flags=re.MULTILINE)
 
 
 def pytest_ignore_collect(collection_path, config):
@@ -74,18 +24,20 @@ def pytest_ignore_collect(collection_path, config):
     """
     if not collection_path.name.startswith("test_"):
         return None
-    unwanted = {"not slow": True, "slow": False}.get(config.option.markexpr)
-    return True if unwanted is (collection_path.stem in SLOW) else None
+    text = collection_path.read_text(encoding="utf-8")
+    unwanted = {
+        "not slow": SLOW_FILE.search(text),
+        "slow": "pytest.mark.slow" not in text,
+    }.get(config.option.markexpr)
+    return True if unwanted else None
 
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items):
-    """Mark the tests of slow files, and put them before all others."""
-    place = {name: number for number, name in enumerate(SLOW)}
-    for one in items:
-        if one.path.stem in place:
-            one.add_marker(pytest.mark.slow)
-    items.sort(key=lambda one: place.get(one.path.stem, len(SLOW)))
+    """Begin with a browser's tests, then other slow ones: no core waits for one at the end."""
+    items.sort(
+        key=lambda one: (not one.get_closest_marker("slow"), "in_browser" not in one.path.stem)
+    )
 
 
 @pytest.fixture(scope="session")

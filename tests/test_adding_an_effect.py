@@ -8,6 +8,8 @@ import sys
 
 import pytest
 
+pytestmark = pytest.mark.slow
+
 GOOD = '''
 """Rolling resistance that grows with speed, one way of saying that bearings churn.
 

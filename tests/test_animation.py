@@ -72,20 +72,6 @@ def test_axes_hold_all_scenes_and_what_is_given_stays():
     assert found["stage"]["high"] > farthest
 
 
-def test_a_position_is_the_integral_of_the_velocity():
-    motion = Motion("robot", velocity=np.full(TIME.size, 2.0), start=1.0)
-    place = motion.curve("position", Scene(TIME, (motion,)), {})
-    np.testing.assert_allclose(place, 1.0 + 2.0 * TIME)
-
-
-def test_the_error_is_against_what_was_asked_for():
-    asked = Motion("target", position=TIME, asked=True)
-    late = Motion("robot", position=TIME - 0.25)
-    scene = Scene(TIME, (asked, late))
-    assert asked.curve("error", scene, {}) is None
-    np.testing.assert_allclose(late.curve("error", scene, {}), -0.25)
-
-
 @settings(max_examples=20, deadline=None)
 @given(mark=st.floats(0.1, 3.0), reaction=st.floats(0.0, 0.5))
 def test_a_plan_is_off_when_the_mark_has_passed_and_a_thumb_has_reacted(mark, reaction):
@@ -121,7 +107,15 @@ def test_the_script_is_one_module_without_a_fault(tmp_path):
     assert done.returncode == 0, done.stderr
 
 
-def test_the_data_is_json_with_short_numbers():
+def test_error_is_against_what_was_asked_for():
+    asked = Motion("target", position=TIME, asked=True)
+    late = Motion("robot", position=TIME - 0.25)
+    scene = Scene(TIME, (asked, late))
+    assert asked.curve("error", scene, {}) is None
+    np.testing.assert_allclose(late.curve("error", scene, {}), -0.25)
+
+
+def test_data_of_a_page_is_json_with_short_numbers():
     knob = Knob("kS", "kS [V]", low=0.0, high=1.0, step=0.1, value=0.2)
     scene = Scene(TIME, (Motion("robot", gains=GAINS | {"kS": Gain("kS")}, voltage=SPEED),))
     found = json.loads(json.dumps(animated(scenes=scene, knobs=(knob,)).data, allow_nan=False))

@@ -23,6 +23,8 @@ from grader.release import pack_course_folder
 from grader.student_data.variant import use_class_secret
 from sim.core.errors import BadRequest
 
+pytestmark = pytest.mark.slow
+
 EMAIL = "zoë.o'neil@example.org"
 SECRET = b"0123456789abcdef-east"
 BASH = shutil.which("bash")

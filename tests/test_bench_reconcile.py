@@ -1,7 +1,6 @@
 """The benchmark of reconcile: fresh cases, solved blind, scored as the acceptance has it."""
 
 import json
-import os
 import shlex
 import subprocess
 import sys
@@ -14,7 +13,8 @@ import pytest
 from sim.bench.mechanisms import MECHANISMS
 from sim.core.log import Log, Run
 from sim.physics.effects import EFFECTS
-from sim.physics.model import Part
+
+pytestmark = pytest.mark.slow
 
 CONTROLS = 2
 NOSY = """
@@ -84,19 +84,6 @@ def test_every_effect_stands_in_every_group_and_meets_every_mechanism_that_can_h
     assert set(modules("strangers").STRANGERS) <= {name for name, _ in met}
 
 
-def test_a_plan_is_the_same_for_the_same_seed_and_holds_nothing_that_cannot_be(modules):
-    plan = modules("plan")
-    cases = plan.plan(seed=11, cases=40, shuffled=20)
-
-    assert cases == plan.plan(seed=11, cases=40, shuffled=20)
-    assert cases != plan.plan(seed=12, cases=40, shuffled=20)
-    assert not [c for c in cases for name in c.hidden if plan.why_not(c.mechanism, name)]
-    assert Counter(c.shuffled for c in cases if c.shuffled) == {"permuted": 10, "exchanged": 10}
-    assert len(modules("strangers").STRANGERS) >= 4
-    assert not set(modules("strangers").STRANGERS) & set(EFFECTS)
-    assert {c.type for c in cases if "gravity-cosine" in c.hidden} == {"simple"}
-
-
 def test_the_same_seed_makes_the_same_files_again(finished_run):
     where, _ = finished_run
     kept, again = (
@@ -147,19 +134,6 @@ def test_a_solver_that_finds_nothing_is_right_of_complete_models_alone(finished_
     assert told["shuffled"] == {"nothing-missing": CONTROLS}
 
 
-def test_a_key_beside_the_cases_is_refused(benchmarks, tmp_path):
-    command = [sys.executable, str(benchmarks / "reconcile_cases.py"), "--seed", "1"]
-    command += ["--cases", "1", "--shuffled", "0", "--out", str(tmp_path)]
-
-    run = subprocess.run(
-        [*command, "--key", str(tmp_path / "key.json")],
-        capture_output=True, encoding="utf-8", check=False,
-    )  # fmt: skip
-
-    assert run.returncode == 1
-    assert "Put the key elsewhere" in run.stderr
-
-
 def four_tests():
     """Runs of different length whose voltages are all different."""
     runs, at = [], 0.0
@@ -200,64 +174,7 @@ def test_an_exchanged_control_has_no_run_with_its_own_voltage(modules, seed):
     assert given != [1, 0, 3, 2]  # all signs turned: damage that has a name
 
 
-def case_folder(tmp_path):
-    known = {"type": "arm", "travel": 2.2, "mechanism": "arm", "period_s": 0.02}
-    (tmp_path / "000").mkdir()
-    (tmp_path / "000" / "case.json").write_text(json.dumps(known), encoding="utf-8")
-    return tmp_path
-
-
 STRAY = {
     "not JSON": ("print('kV is odd. Record again.')", "kV is odd. Record again.", 0),
     "refused": ("import sys; sys.exit('too short. Record more.')", "too short. Record more.", 1),
 }
-
-
-@pytest.mark.parametrize("name", STRAY)
-def test_an_answer_that_is_none_is_kept_as_what_it_said(modules, tmp_path, name):
-    code, problem, exit_code = STRAY[name]
-    command = [sys.executable, "-c", code]
-
-    got = modules("blind").solve("000", root=case_folder(tmp_path), command=command)
-
-    assert (got.said, got.problem, got.code) == (None, problem, exit_code)
-
-
-def test_a_solver_that_takes_too_long_is_ended(modules, tmp_path, monkeypatch):
-    monkeypatch.setattr(modules("blind"), "LONGEST", 0.3)
-    command = [sys.executable, "-c", "import time; time.sleep(60)"]
-
-    got = modules("blind").solve("000", root=case_folder(tmp_path), command=command)
-
-    assert got.said is None
-    assert got.seconds < 20.0
-
-
-@pytest.mark.skipif(not hasattr(os, "wait4"), reason="this system does not count for each process")
-def test_memory_and_seconds_are_of_each_case_by_itself(modules, tmp_path):
-    root = case_folder(tmp_path)
-    large = "held = bytearray(b'x') * 150_000_000; print('{}')"
-    busy = "import time; t = time.process_time()\nwhile time.process_time() < t + 0.4: pass"
-
-    first, second, third = (
-        modules("blind").solve("000", root=root, command=[sys.executable, "-c", code])
-        for code in (large, busy, "print('{}')")
-    )
-
-    assert first.memory > 150.0 > second.memory
-    assert second.busy > 0.4
-    assert third.busy < 0.3
-
-
-@pytest.mark.parametrize("ends", [True, False], ids=["over with its run", "for good"])
-def test_what_changes_once_does_so_in_the_first_session(modules, ends):
-    recording = modules("recording")
-    until = 12.0 if ends else recording.LATER
-    values = {"extra": 0.2, "onset": 9.0, "until": until, "shared": 1.0}
-    part = Part("inertia-change", values)
-
-    assert recording._is_changed(part, "train")
-    assert recording._since(part, "train") is part
-    for session in ("validation", "test"):
-        assert recording._is_changed(part, session) is not ends
-        assert recording._since(part, session).parameters == values | {"onset": 0.0}

@@ -92,15 +92,6 @@ def test_where_everything_is_there_it_is_grade(world, monkeypatch):
     assert world.quiet == world.foreground == []
 
 
-def test_test_runs_the_tests_in_the_project(world):
-    world.missing, world.code = [], 5
-
-    assert bootstrap.main(["test", "-q", "tests"]) == 5
-    (command, cwd, _), *_ = world.foreground
-    assert command == [sys.executable, "-m", "pytest", "-q", "tests"]
-    assert cwd == world.root
-
-
 def test_all_tests_run_on_all_cores(world):
     world.missing, world.code = [], 0
 
@@ -124,16 +115,6 @@ def test_a_fresh_clone_gets_an_environment_and_goes_on_in_it(world, capsys):
     assert "Making a place" in capsys.readouterr().err
 
 
-def test_an_environment_that_is_there_is_used_as_it_is(world):
-    scripts = world.root / ".venv" / ("Scripts" if os.name == "nt" else "bin")
-    scripts.mkdir(parents=True)
-    (scripts / ("python.exe" if os.name == "nt" else "python")).write_bytes(b"")
-
-    assert bootstrap.main(["exercise4"]) == 0
-    assert world.quiet == []
-    assert len(world.foreground) == 1
-
-
 @pytest.mark.parametrize(
     ("arguments", "what"),
     [(["start"], ".[course]"), (["exercise4"], ".[course]"), (["test", "-q"], ".[test]")],
@@ -152,22 +133,6 @@ def test_inside_an_environment_it_installs_into_that(world, monkeypatch, capsys,
     assert said.startswith("Installing what the course needs")
     assert said.endswith("\nInstalled.\n")
     assert said.count("\n") == 2
-
-
-def test_the_second_process_installs_where_the_first_sent_it(world, monkeypatch):
-    monkeypatch.setenv(bootstrap.HOPPED, "1")
-
-    assert bootstrap.main(["start"]) == 0
-    assert "pip" in world.quiet[0]
-
-
-def test_an_installation_that_does_not_help_is_not_tried_again(world, monkeypatch, capsys):
-    inside(monkeypatch)
-    monkeypatch.setenv(bootstrap.INSTALLED, "1")
-
-    assert bootstrap.main(["start"]) == 2
-    assert "click, numpy is still missing after installing" in capsys.readouterr().err
-    assert world.quiet == []
 
 
 def test_when_pip_fails_its_last_words_are_shown_and_what_to_do(world, monkeypatch, capsys, reads):
@@ -200,44 +165,6 @@ def test_a_folder_that_is_something_else_is_left_alone(world, capsys):
     assert (world.root / ".venv" / "diary.txt").is_file()
 
 
-def test_without_the_project_it_says_what_to_install(world, capsys):
-    (world.root / "pyproject.toml").unlink()
-
-    assert bootstrap.main(["start"]) == 2
-    said = capsys.readouterr().err
-    assert said.startswith('grade: click, numpy not installed. python -m pip install "')
-    assert said.count("\n") == 1
-
-
-def test_ctrl_c_is_quiet(monkeypatch, capsys):
-    def interrupted(_command):
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(bootstrap, "find_missing_packages", interrupted)
-
-    assert bootstrap.main(["start"]) == 130
-    assert capsys.readouterr().err == ""
-
-
-@pytest.mark.parametrize(
-    ("prefix", "folders", "own"),
-    [
-        ("venv", (), True),
-        ("base", (), False),
-        ("base", ("conda-meta",), True),
-        ("base", ("conda-meta", "condabin"), False),
-    ],
-    ids=["virtual", "system", "conda", "conda's base"],
-)
-def test_it_knows_an_environment_of_ones_own(tmp_path, monkeypatch, prefix, folders, own):
-    for folder in folders:
-        (tmp_path / prefix / folder).mkdir(parents=True)
-    monkeypatch.setattr(sys, "prefix", str(tmp_path / prefix))
-    monkeypatch.setattr(sys, "base_prefix", str(tmp_path / "base"))
-
-    assert bootstrap.is_in_environment() is own
-
-
 @pytest.mark.parametrize("command", [["start"], ["test"], ["exercise4"], []])
 def test_what_is_missing_is_what_the_project_asks_for(monkeypatch, command):
     def nothing(name):
@@ -251,12 +178,6 @@ def test_what_is_missing_is_what_the_project_asks_for(monkeypatch, command):
     assert {"click", "numpy", "jupyterlab"} <= set(names)
     assert ("pytest" in names) == (command == ["test"])
     assert ("sysid-course" in names) == (command in (["start"], ["test"]))
-
-
-def test_what_is_there_is_not_missing(monkeypatch):
-    monkeypatch.setattr(bootstrap, "distribution", lambda _name: None)
-
-    assert bootstrap.find_missing_packages(["test"]) == []
 
 
 def test_an_isolated_python_gets_as_far_as_installing(tmp_path, reads):
@@ -288,16 +209,3 @@ def test_an_isolated_python_gets_as_far_as_installing(tmp_path, reads):
     assert done.returncode == 2
     assert done.stderr.count("\n") == 1
     reads(done.stderr)
-
-
-def test_when_pip_fails_on_a_newer_python_it_names_the_newest_that_works(
-    world, monkeypatch, capsys, reads
-):
-    inside(monkeypatch)
-    monkeypatch.setattr(sys, "version_info", (3, 99, 0))
-    world.says = "ERROR: Failed building wheel for numpy"
-
-    assert bootstrap.main(["start"]) == 2
-    said = capsys.readouterr().err.splitlines()[-1]
-    reads(said)
-    assert "Use Python 3.14" in said

@@ -21,6 +21,8 @@ from sim.physics.effects import EFFECTS
 
 pytest.importorskip("mujoco", reason="MuJoCo is not installed (extra `physics`)")
 
+pytestmark = pytest.mark.slow
+
 ROUTINE = Routine(ramp=0.5, step=5.0)
 CLOSE = 0.003  # [share of a run's top speed] of steps of a millisecond, and what rubs softly
 SOFT = {"backlash": 0.006, "compliance": 0.004}  # teeth that give; a joint that is damped a little

@@ -53,19 +53,3 @@ def test_tab_offers(line, offered):
 
 def test_every_exercise_is_offered():
     assert {one.name for one in list_exercises(ROOT)} <= complete("grade ")
-
-
-def test_outside_of_a_course_nothing_is_wrong(tmp_path):
-    assert "start" in complete("grade ", cwd=tmp_path)
-
-
-@pytest.mark.parametrize("name", PROGRAMS)
-def test_help_says_how_to_switch_it_on(name):
-    done = subprocess.run(
-        [sys.executable, "-c", f"from {PROGRAMS[name]} import main; main()", "--help"],
-        cwd=ROOT, capture_output=True, encoding="utf-8", check=False,
-    )  # fmt: skip
-    said = " ".join(done.stdout.split())
-
-    for shell in ("bash", "zsh", "fish"):
-        assert f"_{name.upper()}_COMPLETE={shell}_source {name}" in said

@@ -121,23 +121,6 @@ def test_kp_is_that_of_sysid_per_unit_and_second_of_the_target():
     assert spark["kP"] == pytest.approx(60.0 * per_minute, rel=0.005)
 
 
-def test_a_flywheel_gets_no_position_loop_and_an_arm_no_velocity_loop():
-    flywheel = write_controller_code(fit_in("simple", "rotations"), target="phoenix6")
-    arm = write_controller_code(fit_in("arm", "radians"), target="phoenix6")
-
-    assert "of the velocity loop" in flywheel
-    assert "withKD" not in flywheel
-    assert "[V/rot] of the position loop" in arm
-    assert calls(arm)["withKD"] == ["kD"]
-
-
-def test_a_suggestion_that_does_not_settle_is_not_written():
-    text = write_controller_code(fit_in("elevator", "meters"), target="revlib")
-
-    assert "// No kP: the suggestion for the position loop is no good start." in text
-    assert "kP" not in values(text)
-
-
 def test_an_arm_of_phoenix_6_is_told_what_its_sensor_reads_when_level():
     known = values(write_controller_code(fit_in("arm", "radians"), target="phoenix6"))
 
@@ -179,13 +162,3 @@ def test_the_command_writes_it(target, tmp_path, capsys):
     assert said.count("public final class") == 1
     per = WHEEL if target == "phoenix6" else 1.0
     assert values(said)["kV"] / per == pytest.approx(2.524, rel=0.01)
-
-
-def test_a_negligible_error_is_not_a_number_of_many_zeros():
-    errors = {"kS": 1e-5, "kV": 1e-5, "kA": 0.0011}
-
-    code = write_controller_code(found("simple", errors=errors), target="yagsl")
-
-    assert "[V] ± less than 0.1%" in code
-    assert "[V·s/m] ± less than 0.1%" in code
-    assert "[V·s²/m] ± 0.0011" in code

@@ -1,8 +1,6 @@
 """Inspection: one account of what many detectors say, of any log, for people and for programs."""
 
 import json
-import subprocess
-import sys
 from dataclasses import replace
 from functools import cache
 
@@ -15,13 +13,10 @@ import sim.inspect.detect_faults
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.core.doubt import Doubt
 from sim.core.log import FOUR_TESTS, TESTS, Log, Run
 from sim.inspect.contaminate import contaminate
-from sim.inspect.detect_faults import Inspection, inspect
-from sim.inspect.fault import Damage, DamagedLog, Fault, LogInterval, rescale_motion
-from sim.inspect.faults import FAULTS
-from sim.io import write
+from sim.inspect.detect_faults import inspect
+from sim.inspect.fault import Damage, DamagedLog, Fault, LogInterval
 
 
 def rng(seed=0):
@@ -36,19 +31,6 @@ def bench(name):
 @pytest.fixture(scope="module")
 def drive():
     return bench("drivetrain")
-
-
-def sysid(*arguments, folder, columns=80):
-    """Run the command as a process of its own."""
-    return subprocess.run(
-        [sys.executable, "-c", "from sim.cli import main; main()", *map(str, arguments)],
-        cwd=folder,
-        capture_output=True,
-        encoding="utf-8",
-        check=False,
-        timeout=120,
-        env={"COLUMNS": str(columns), "PYTHONIOENCODING": "utf-8"},
-    )
 
 
 # Which explanation is believed
@@ -101,41 +83,6 @@ def test_of_two_explanations_of_a_moment_the_better_is_believed(monkeypatch, dri
     )
 
     assert [damage.fault for damage in inspect(drive).damages] == list(left)
-
-
-def test_what_is_found_comes_in_the_order_of_time(drive):
-    log = drive
-    for number, (name, test) in enumerate(
-        [("hard-stop", "dynamic-reverse"), ("encoder-slip", "quasistatic-reverse"),
-         ("loop-overrun", "quasistatic-forward")]
-    ):  # fmt: skip
-        log = contaminate(log, name, test=test, rng=rng(number)).log
-
-    found = inspect(log)
-
-    assert [(damage.fault, damage.where.run) for damage in found.damages] == [
-        ("loop-overrun", 0), ("encoder-slip", 1), ("hard-stop", 3),
-    ]  # fmt: skip
-    assert not found.is_clean
-
-
-def test_the_doubts_of_the_log_come_along(drive):
-    doubt = Doubt("odd", "The file was odd.")
-
-    found = inspect(drive.add_doubts(doubt))
-
-    assert doubt in found.doubts
-    assert found.is_clean
-
-
-def test_times_are_the_logs_own(drive):
-    later = replace(drive, runs=tuple(replace(run, time=run.time + 1000.0) for run in drive.runs))
-    spoilt = contaminate(later, "brownout", rng=rng())
-
-    (damage,) = inspect(spoilt.log).damages
-
-    assert damage.where.start > 1000.0
-    assert spoilt.where[0].overlap(damage.where) > 0.5
 
 
 # Whatever log there is
@@ -249,116 +196,4 @@ def test_a_clock_no_robot_has_is_said_and_nothing_is_made_up_from_it(step, drive
     assert not found.is_clean
 
 
-@pytest.mark.parametrize("name", MECHANISMS)
-def test_a_coarser_unit_or_clock_changes_nothing(name):
-    """A log in other units tells the same story, as long as the pace is a robot's."""
-    log = bench(name)
-    feet = replace(
-        log,
-        runs=tuple(
-            replace(run, position=run.position * 7.0, velocity=run.velocity * 7.0)
-            for run in log.runs
-        ),
-        type="simple" if log.type == "arm" else log.type,  # an arm's angle has no other scale
-    )
-
-    assert inspect(log).is_clean
-    if log.mechanism in {
-        "drivetrain",
-        "swerve",
-    }:  # of a drive one knows how fast it can be in meters
-        assert [fault.fault for fault in inspect(feet).faults] == ["unit-error"]
-        assert inspect(replace(feet, mechanism="")).is_clean
-    elif log.type != "arm":
-        assert inspect(feet).is_clean
-
-
-def test_a_pace_of_one_changes_not_a_digit(drive):
-    run = drive.runs[0]
-
-    same = rescale_motion(run, np.ones(len(run)))
-
-    assert np.array_equal(same.position, run.position)
-    assert np.array_equal(same.velocity, run.velocity)
-
-
-def test_held_readings_stay_held_whatever_the_pace():
-    time = np.arange(12) * 0.005
-    position = np.repeat([0.0, 1.0, 2.0], 4)
-    velocity = np.repeat([1.0, 2.0, 3.0], 4)
-    pace = np.where(np.arange(12) >= 6, 0.5, 1.0)
-
-    slower = rescale_motion(Run("dynamic-forward", time, np.ones(12), position, velocity), pace)
-
-    assert slower.velocity.tolist() == [1.0] * 4 + [2.0] * 4 + [1.5] * 4
-    assert slower.position.tolist() == [0.0] * 4 + [1.0] * 4 + [1.5] * 4
-
-
 # The command
-
-
-def test_a_clean_log_exits_0_and_a_damaged_one_1(tmp_path, drive):
-    write(drive, tmp_path / "good.csv")
-    write(contaminate(drive, "brownout", rng=rng()).log, tmp_path / "bad.csv")
-
-    good, bad = (sysid("inspect", name, folder=tmp_path) for name in ("good.csv", "bad.csv"))
-
-    assert (good.returncode, good.stdout) == (0, "good.csv: 4 runs, no fault found.\n")
-    assert bad.returncode == 1
-    first, *said = bad.stdout.splitlines()
-    assert first == "bad.csv: 4 runs, 1 fault found."
-    assert any(line.startswith("brownout: run ") for line in said)
-    assert max(len(line) for line in said) <= 80
-    assert "\x1b" not in bad.stdout  # no colors into a pipe
-
-
-def test_json_has_the_keys_that_other_programs_rely_on(tmp_path, drive):
-    spoilt = contaminate(drive, "hard-stop", test="quasistatic-reverse", rng=rng())
-    write(spoilt.log, tmp_path / "bad.wpilog")
-
-    shown = sysid("inspect", "bad.wpilog", "--json", folder=tmp_path)
-
-    assert shown.returncode == 1
-    told = json.loads(shown.stdout)
-    assert set(told) == {"faults", "clean", "doubts"}
-    assert told["clean"] is False
-    (fault,) = told["faults"]
-    assert set(fault) == {
-        "fault", "run", "test", "start_s", "end_s", "confidence", "evidence", "advice",
-    }  # fmt: skip
-    assert (fault["fault"], fault["run"], fault["test"]) == ("hard-stop", 1, "quasistatic-reverse")
-    (true,) = spoilt.where
-    assert fault["start_s"] == pytest.approx(true.start, abs=0.05)
-    assert fault["end_s"] == pytest.approx(true.end, abs=0.05)
-
-
-@pytest.mark.parametrize(
-    "arguments",
-    [[], ["nowhere.csv"], ["good.csv", "--type", "crane"], ["."]],
-    ids=["no file", "missing file", "unknown type", "a folder"],
-)
-def test_what_cannot_be_inspected_is_one_line_and_exit_code_2(tmp_path, drive, arguments):
-    write(drive, tmp_path / "good.csv")
-
-    refused = sysid("inspect", *arguments, folder=tmp_path)
-
-    assert (refused.returncode, refused.stdout) == (2, "")
-    assert refused.stderr.count("\n") == 1
-
-
-def test_every_fault_says_what_to_do_in_an_imperative(drive):
-    """Advice begins with a verb in capitals, not with a diagnosis."""
-    verbs = {}
-    for name, fault in FAULTS.items():
-        log = drive if "simple" in fault.types else bench("arm")
-        for seed in range(4):
-            for damage in inspect(contaminate(log, name, rng=rng(seed)).log).damages:
-                verbs[damage.fault] = damage.advice.split()[0]
-
-    assert set(verbs) >= set(FAULTS)
-    assert not {"The", "This", "It", "There", "You", "A"} & set(verbs.values())
-
-
-def test_an_inspection_of_nothing_is_clean():
-    assert Inspection(()).is_clean
-    assert Inspection(()).to_json() == {"faults": [], "clean": True, "doubts": []}

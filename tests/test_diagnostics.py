@@ -5,11 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-import sim
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.core.log import Log
 from sim.inspect.diagnostics import diagnose_log
 from sim.inspect.log_features import LogFeatures
 
@@ -125,57 +123,3 @@ def test_a_clean_log_gives_no_reason_to_speak(name, seed, period):
     codes = set(doubts_by_code(log))
 
     assert codes == ({"short-rise"} if "short-rise" in codes and too_quick else set())
-
-
-def test_a_delay_is_told_in_milliseconds():
-    message = doubts_by_code(each(drawn("turret"), lambda run: late(run, by=0.06)))["velocity-lags"]
-
-    assert 50 <= int(message.split(" ms")[0].rsplit(" ", 1)[1]) <= 70
-
-
-def test_a_velocity_in_another_unit_is_not_called_late():
-    log = each(drawn("turret"), lambda run: scaled(run, 57.3, only_velocity=True))
-
-    assert "velocity-lags" not in doubts_by_code(log)
-
-
-def test_a_log_without_runs_is_looked_at_all_the_same():
-    assert diagnose_log(LogFeatures(Log(()))) == ()
-
-
-@pytest.mark.shared
-@pytest.mark.parametrize(
-    ("file", "code", "words"),
-    [
-        # data/README.md: velocity lags position by about 140 ms
-        ("frc4646-2022-drivetrain", "velocity-lags", "140 ms"),
-        # the same file's table: kV 34.9 up, 32.2 down
-        ("sciborgs-2023-elevator", "back-emf-differs", "Forward takes 3"),
-    ],
-)
-def test_what_is_known_of_a_real_log_is_said(shared, file, code, words):
-    log = sim.read(shared / "data" / "real" / f"{file}.json")
-
-    assert words in doubts_by_code(log)[code]
-
-
-def test_what_the_tools_make_of_a_late_velocity_is_said():
-    # SysId's measurement delay enters its feedback gains only; its kA stays too large.
-    message = doubts_by_code(each(drawn("turret"), lambda run: late(run, by=0.06)))["velocity-lags"]
-
-    assert "The fit takes this delay into account. WPILib's SysId does not" in message
-    assert "changes only the feedback gains" in message
-
-
-def test_the_voltage_per_speed_is_in_the_unit_of_the_log():
-    log = each(
-        drawn("turret"), lambda run: scaled(run, 0.85 if run.direction == "forward" else 1.0)
-    )
-
-    radians, degrees = (
-        doubts_by_code(replace(log, units=name))["back-emf-differs"]
-        for name in ("radians", "degrees")
-    )
-
-    assert " V per rad/s, reverse" in radians
-    assert " V per deg/s, reverse" in degrees

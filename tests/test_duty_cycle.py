@@ -7,9 +7,7 @@ import pytest
 
 import sim
 from sim.bench.duty_cycle import Battery, simulate_duty_cycle
-from sim.bench.simulate import simulate
 from sim.core.errors import BadRequest
-from sim.fit import fit
 
 DRIVE = sim.MECHANISMS["drivetrain"]
 ROUTINE = sim.Routine(ramp=0.5, step=3.5)
@@ -18,12 +16,6 @@ TIRED = Battery(rest=12.2, resistance=0.035)
 
 def driven(battery, *, mechanism=DRIVE, routine=ROUTINE, seed=2):
     return simulate_duty_cycle(mechanism, routine, battery=battery, rng=np.random.default_rng(seed))
-
-
-def asked(log):
-    """The log of a program that writes down what it asked for."""
-    runs = (replace(run, voltage=12.0 * run.voltage / run.bus_voltage) for run in log.runs)
-    return replace(log, runs=tuple(runs))
 
 
 def test_a_step_from_rest_sags_by_ohms_law():
@@ -48,55 +40,11 @@ def test_power_out_of_the_battery_is_power_into_the_motors(name, battery):
         assert run.bus_voltage * drawn == pytest.approx(run.voltage * current, abs=1e-2)
 
 
-def test_a_battery_of_exactly_12_volts_without_resistance_changes_nothing():
-    ideal = driven(Battery(rest=12.0, resistance=0.0))
-    plain = simulate(DRIVE, ROUTINE, rng=np.random.default_rng(2))
-    for ours, other in zip(ideal.runs, plain.runs, strict=True):
-        assert ours.voltage == pytest.approx(other.voltage, rel=1e-12)
-        assert ours.time.tolist() == other.time.tolist()
-
-
-def test_what_was_asked_for_can_be_told_from_the_log():
-    for run, plain in zip(
-        asked(driven(TIRED)).runs,
-        simulate(DRIVE, ROUTINE, rng=np.random.default_rng(2)).runs,
-        strict=True,
-    ):
-        shortest = min(len(run), len(plain))
-        assert run.voltage[:shortest] == pytest.approx(plain.voltage[:shortest], rel=1e-9)
-
-
-def test_logging_what_arrived_gives_the_gains_and_logging_what_was_asked_for_does_not():
-    log = driven(TIRED)
-    arrived, wanted = fit(log, method="sysid").gains, fit(asked(log), method="sysid").gains
-    assert arrived["kA"] == pytest.approx(DRIVE.gains["kA"], rel=0.08)
-    assert wanted["kA"] > 1.3 * DRIVE.gains["kA"]
-    assert wanted["kV"] == pytest.approx(DRIVE.gains["kV"], rel=0.05)
-
-
-def test_a_flat_battery_scales_every_gain():
-    # 11.7 V and no resistance: each asked-for volt arrives as 0.975 V.
-    gains = fit(asked(driven(Battery(rest=11.7, resistance=0.0))), method="sysid").gains
-    assert gains["kV"] == pytest.approx(DRIVE.gains["kV"] * 12.0 / 11.7, rel=0.005)
-
-
-def test_a_test_still_ends_where_the_travel_ends():
-    log = driven(Battery(rest=13.5, resistance=0.0), routine=sim.Routine())
-    for run in log.runs:
-        assert abs(run.position[-1] - run.position[0]) <= DRIVE.travel
-
-
 def test_a_brownout_that_a_real_robot_would_have_is_a_doubt():
     assert driven(TIRED).doubts == ()
     (doubt,) = driven(TIRED, routine=sim.Routine(step=7.0)).doubts
     assert doubt.code == "brownout"
     assert "Use a smaller step" in doubt.message
-
-
-def test_chance_is_an_argument():
-    one, two, other = driven(TIRED), driven(TIRED), driven(TIRED, seed=3)
-    assert one.runs[0].velocity.tolist() == two.runs[0].velocity.tolist()
-    assert one.runs[0].velocity.tolist() != other.runs[0].velocity.tolist()
 
 
 @pytest.mark.parametrize(

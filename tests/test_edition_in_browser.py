@@ -5,7 +5,7 @@ import pytest
 
 from grader.edition import build_pages
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.slow, pytest.mark.browser]
 
 PHONE = {"width": 390, "height": 844}
 CODE = (

@@ -3,14 +3,11 @@
 import numpy as np
 import pytest
 
-import sim
 from sim.bench.mechanisms import find_mechanism
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.cli import sysid
 from sim.fit import fit
 from sim.physics.motors import find_motor
-from sim.support.command_line import run_command
 
 G = 9.81  # [m/s²]
 GENTLE = Routine(ramp=1.0, step=4.0)
@@ -47,13 +44,3 @@ def test_a_fit_finds_its_gains(name):
     for gain, true in find_mechanism(name).gains.items():
         assert found.gains[gain] == pytest.approx(true, rel=0.03), gain
     assert not [doubt for doubt in found.doubts if doubt.grave]
-
-
-@pytest.mark.parametrize("name", [row[0] for row in ELEVATORS])
-def test_the_command_writes_its_robot_code(name, tmp_path, capsys):
-    path = tmp_path / "log.csv"
-    sim.write(recorded(name), path)
-
-    arguments = ["fit", str(path), "--type", "elevator", "--paste", "java"]
-    assert run_command(sysid, name="sysid", arguments=arguments) == 0
-    assert "new ElevatorFeedforward(kS, kG, kV, kA)" in capsys.readouterr().out

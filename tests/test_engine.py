@@ -6,7 +6,6 @@ import math
 import os
 import subprocess
 import sys
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
 import numpy as np
@@ -24,19 +23,18 @@ from sim.physics.engine import (
     RunBatch,
     State,
     filter_runs,
-    find_finest_step,
     make_effect_arrays,
     make_model_constants,
     simulate_run,
 )
-from sim.physics.engine import kernel as kernel_room
 from sim.physics.engine.compose import MODULES, compose_engine, is_compiled
 from sim.physics.engine.kernel import NO_USE
 from sim.physics.engine.machine_code import ObjectCode, link_code
-from sim.physics.engine.power_path import CUT
 from sim.physics.engine.two_body_modes import TABLES_SIZE
 from sim.physics.model import Model, Part
 from sim.support.work.cache import CACHE, find_cache_folder
+
+pytestmark = pytest.mark.slow
 
 GAINS = {"kS": 0.2, "kV": 2.0, "kA": 0.3}
 PLAIN = Model("simple", GAINS)
@@ -64,16 +62,6 @@ def test_the_compiled_engine_does_what_the_plain_text_says(name):
     assert fast.applied == pytest.approx(slow.applied, abs=1e-9)
 
 
-def test_an_arm_that_is_let_go_swings_through_and_settles_below():
-    arm = Model("arm", {"kS": 0.0, "kV": 0.05, "kA": 0.1, "kG": 1.0, "offset_rad": 0.0})
-    time = np.arange(0.0, 60.0, 0.02)
-
-    track = simulate_run(arm, time=time, voltage=np.zeros(time.size), state=State.cold_at(0.3))
-
-    assert track.position[-1] == pytest.approx(-math.pi / 2.0, abs=1e-3)
-    assert track.position.min() < -math.pi / 2.0 - 0.5
-
-
 def test_an_elevator_on_its_stop_lifts_when_the_ramp_exceeds_weight_and_friction():
     lift = Model("elevator", {"kS": 0.2, "kV": 4.0, "kA": 0.2, "kG": 1.0}, travel=(0.0, 1.0))
     time = np.arange(0.0, 4.0, 0.02)
@@ -95,16 +83,6 @@ def test_a_current_limit_makes_the_rise_a_straight_line():
 
     rising = track.velocity < 0.98
     assert track.velocity[rising] == pytest.approx(0.8 / 0.3 * TIME[rising], rel=1e-4, abs=1e-12)
-
-
-def test_drag_ends_at_the_speed_at_which_the_volts_are_spent():
-    # 4 = 0.2 + 2 v + 0.5 v² has v = (-2 + √(4 + 7.6))/1
-    track = simulate_run(
-        PLAIN + Part("drag", {"drag": 0.5}),
-        time=np.arange(0.0, 5.0, 0.02), voltage=np.full(250, 4.0), state=State(),
-    )  # fmt: skip
-
-    assert track.velocity[-1] == pytest.approx(-2.0 + math.sqrt(11.6), rel=1e-6)
 
 
 def test_a_voltage_that_slides_moves_as_many_small_steps_of_it_do():
@@ -133,23 +111,6 @@ def test_a_delay_shifts_the_motion_and_nothing_else():
     assert not late.velocity[:4].any()
 
 
-def test_a_hidden_delay_is_not_in_the_voltage_that_is_recorded():
-    late = simulate_run(
-        PLAIN + Part("delay", {"lag": 0.06}), time=TIME, voltage=3.0 * TIME, state=State()
-    )
-
-    assert (late.applied == 3.0 * TIME).all()
-
-
-def test_a_filter_reports_the_mean_velocity_of_its_window():
-    track = simulate_run(
-        PLAIN + Part("velocity-filter", {"window": 0.1}),
-        time=TIME, voltage=steady(3.0), state=State(),
-    )  # fmt: skip
-
-    assert track.seen[5:] == pytest.approx((track.position[5:] - track.position[:-5]) / 0.1)
-
-
 def test_inertia_that_joins_shares_its_momentum():
     joined = PLAIN + Part(
         "inertia-change", {"extra": 0.3, "onset": 0.5, "until": 1e6, "shared": 1.0}
@@ -176,72 +137,6 @@ def test_what_happens_between_two_samples_happens_at_its_moment(until):
     there = np.isin(finer, TIME)
     assert track.velocity == pytest.approx(every.velocity[there], abs=1e-9)
     assert track.position == pytest.approx(every.position[there], abs=1e-9)
-
-
-def test_heat_stays_from_run_to_run_and_fades_in_a_pause():
-    warm = PLAIN + Part("heating", {"rate": 0.05})
-    state = State()
-
-    first = simulate_run(warm, time=TIME, voltage=steady(4.0), state=state)
-    state.body[:] = 0.0
-    again = simulate_run(warm, time=TIME, voltage=steady(4.0), state=state)
-
-    assert (again.velocity[1:10] < first.velocity[1:10]).all()
-
-
-@pytest.mark.parametrize("asked", [2.0, 5.0, 9.0, 12.0])
-@pytest.mark.parametrize("speed", [0.0, 1.5, -1.5, 4.0])
-def test_wires_keep_every_limit_and_ohms_law(asked, speed):
-    built = MECHANISMS["drivetrain"]
-    wires = make_power_path_array(built)
-    wires[7] = 0.0  # no brownout here
-    state = State.cold_at(0.0, speed)
-
-    track = simulate_run(
-        built.model, time=np.array([0.0, 1e-6]), voltage=np.full(2, asked), state=state, wires=wires
-    )
-    u, current, bus = (float(part[0]) for part in (track.applied, track.current, track.bus))
-
-    emf = built.motor.back_emf * built.ratio / built.radius * speed
-    assert current == pytest.approx((u - emf) / built.motor.resistance)
-    assert abs(current) <= built.stator * (1 + 1e-9)
-    assert u * current <= built.supply * bus * (1 + 1e-9)
-    assert abs(u) <= bus * (1 + 1e-9)
-    drawn = built.motor_count * u * current / bus
-    assert bus == pytest.approx(built.battery.rest - built.battery.resistance * drawn)
-    if abs(current) < 0.999 * built.stator and u * current < 0.999 * built.supply * bus:
-        assert u == pytest.approx(min(asked, bus))
-
-
-def test_a_brownout_takes_the_motors_off_for_a_loop():
-    built = replace(MECHANISMS["drivetrain"], stator=400.0, supply=400.0)
-    time = np.arange(0.0, 0.5, 0.005)
-
-    track = simulate_run(
-        built.model, time=time, voltage=np.full(time.size, 11.0), state=State(),
-        wires=make_power_path_array(built),
-    )  # fmt: skip
-
-    off = track.applied == 0.0
-    assert off.any()
-    assert not off[-1]  # at speed it draws less, and the battery recovers
-    starts = np.flatnonzero(np.diff(off.astype(int)) == 1)
-    ends = np.flatnonzero(np.diff(off.astype(int)) == -1)
-    lasted = (ends[-1] - starts[-1]) * 0.005 if starts.size else CUT
-    assert lasted == pytest.approx(CUT, abs=0.006)
-
-
-def test_no_wires_apply_what_is_asked():
-    track = simulate_run(PLAIN, time=TIME, voltage=steady(30.0), state=State(), wires=NO_WIRES)
-
-    assert (track.applied == 30.0).all()
-    assert not track.bus.any()
-
-
-def test_the_faster_an_effect_acts_the_finer_the_step():
-    quick = PLAIN + Part("stribeck", {"extra": 2.0, "slow": 0.01})
-
-    assert 5e-5 <= find_finest_step(quick) < 0.5 * find_finest_step(PLAIN)
 
 
 def test_a_search_is_fine_where_friction_fades_while_the_speed_changes_fast():
@@ -407,15 +302,6 @@ def test_where_object_files_do_not_work_the_compiler_keeps_its_own(cache, tmp_pa
     assert [*tmp_path.glob(f"__pycache__/{kept.stem}*.nbc")]
 
 
-@pytest.mark.parametrize(("content", "works"), [(None, True), (b"", False), (b"junk", False)])
-def test_an_engine_is_tried_in_a_process_of_its_own(cache, tmp_path, content, works):
-    (kept,) = cache.glob("*.kernel")
-    copy = tmp_path / kept.name
-    copy.write_bytes(kept.read_bytes() if content is None else content)
-
-    assert kernel_room._works(copy) is works
-
-
 @pytest.mark.parametrize(
     "change",
     [
@@ -463,15 +349,3 @@ def test_a_home_that_cannot_be_written_to_is_no_obstacle(tmp_path):
     blocked.write_text("not a folder", encoding="utf-8")
 
     assert started({**os.environ, CACHE: str(blocked / "cache")}) == (0, ENDS, "")
-
-
-def test_threads_that_ask_at_once_get_one_engine():
-    with ThreadPoolExecutor(4) as pool:
-        tracks = list(
-            pool.map(
-                lambda _: simulate_run(PLAIN, time=TIME, voltage=steady(3.0), state=State()),
-                range(8),
-            )
-        )
-
-    assert all((track.velocity == tracks[0].velocity).all() for track in tracks)

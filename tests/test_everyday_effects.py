@@ -12,6 +12,8 @@ from made_elsewhere import KINDS, error_logs, lag_logs
 
 from sim.fit import fit
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def fits():

@@ -22,6 +22,8 @@ from sim.support.work import cluster
 from sim.support.work.child import NAME
 from sim.support.work.executor import WorkerLost, collect_results, run_jobs
 
+pytestmark = pytest.mark.slow
+
 needs_dask = pytest.mark.skipif(
     importlib.util.find_spec("distributed") is None,
     reason="Dask is not installed (extra `cluster`)",

@@ -15,6 +15,8 @@ from sim.bench.mechanisms import MECHANISMS
 from sim.core.units import find_unit
 from sim.physics.effects import find_effect
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise12", ROOT / "exercises" / "exercise12")
 ROOM = OWN.module

@@ -10,6 +10,8 @@ import pytest
 from grader.exercise import Exercise
 from sim.reconcile import reconcile
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).resolve().parents[1]
 FOLDER = ROOT / "exercises" / "exercise12"
 SOLVE = runpy.run_path(str(ROOT / "solutions" / "exercise12" / "solve.py"))["solve"]

@@ -7,6 +7,8 @@ import pytest
 
 from grader.exercise import Exercise
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).resolve().parents[1]
 EXERCISE = Exercise("exercise5", ROOT / "exercises" / "exercise5")
 JAVA, PYTHON = "RobotContainer.java", "robotcontainer.py"

@@ -25,6 +25,8 @@ from sim.inspect.fault import LogInterval
 from sim.inspect.faults import FAULTS
 from sim.io import read, write
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise7", ROOT / "exercises" / "exercise7")
 CHECKS = OWN.module

@@ -14,6 +14,8 @@ from grader.misconception import MISCONCEPTIONS
 from grader.starter import remove_answers
 from grader.student_data.variant import use_class_secret
 
+pytestmark = pytest.mark.slow
+
 ROOT = find_course(Path(__file__).resolve().parent)
 EXERCISES = {one.name: one for one in list_exercises(ROOT)}
 STUDENTS = ("ann", "ben", "zoë")  # between them they get every kind of mechanism there is

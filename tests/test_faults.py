@@ -1,17 +1,14 @@
 """Every fault of the catalogue: it keeps the contract, and is found where it struck.
 
-The table at the end is the acceptance: 100 damaged logs for each fault, 300 sound ones. Pass ``-s``
+The table at the end is the acceptance: 60 damaged logs for each fault, 200 sound ones. Pass ``-s``
 to see it printed.
 """
 
-import ast
-import importlib.util
 import sys
 from collections import Counter
 from contextlib import suppress
-from dataclasses import FrozenInstanceError, fields, replace
+from dataclasses import fields
 from itertools import pairwise
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -24,12 +21,14 @@ from sim.core.errors import BadRequest
 from sim.core.log import Log
 from sim.inspect.contaminate import contaminate
 from sim.inspect.detect_faults import inspect
-from sim.inspect.fault import Fault, load_fault
-from sim.inspect.faults import FAULTS, find_fault
+from sim.inspect.fault import load_fault
+from sim.inspect.faults import FAULTS
 from sim.support.catalogue import list_members
 
-SEEDS = 100  # damaged logs for each fault
-CLEAN = 300  # sound logs
+pytestmark = pytest.mark.slow
+
+SEEDS = 60  # damaged logs for each fault
+CLEAN = 200  # sound logs
 FOUND = 0.95  # of the damaged ones, at the right place
 FALSE = 0.01  # of the sound ones, at most
 OVERLAP = 0.5  # of the interval found and the true one
@@ -100,21 +99,6 @@ def strays(spoilt, log):
 # The contract
 
 
-def test_the_catalogue_holds_the_faults_of_the_lesson():
-    assert {"encoder-slip", "brownout", "hard-stop", "loop-overrun"} <= set(FAULTS)
-
-
-def test_an_unknown_fault_lists_the_known():
-    with pytest.raises(BadRequest, match="Choose one of: brownout, "):
-        find_fault("gremlin")
-
-
-@pytest.mark.parametrize("name", FAULTS)
-def test_a_fault_is_frozen(name):
-    with pytest.raises(FrozenInstanceError):
-        FAULTS[name].name = "other"
-
-
 @pytest.mark.parametrize("name", FAULTS)
 def test_severity_zero_changes_nothing(name, sound_logs):
     log = sound_logs(0, FAULTS[name].types)
@@ -157,35 +141,6 @@ def test_damage_leaves_a_log_that_can_be_worked_with(name, severity, sound_logs)
     assert all(a[1] < b[0] for a, b in pairwise(ends))
     for run, kept in zip(log.runs, before, strict=True):  # and the log it came from is untouched
         assert all(np.array_equal(getattr(run, s), kept[s]) for s in SIGNALS)
-
-
-@pytest.mark.parametrize("name", FAULTS)
-def test_more_severe_is_another_log(name, sound_logs):
-    log = sound_logs(3, FAULTS[name].types)
-
-    mild, severe = (damaged(log, name, seed=3, severity=size) for size in (0.8, 2.5))
-
-    if name not in {"missing-test", "mislabelled-test"}:  # there is no half of a missing test
-        assert not same(mild.log, severe.log)
-
-
-@pytest.mark.parametrize("name", FAULTS)
-def test_a_fault_knows_neither_the_bench_nor_its_neighbors(name):
-    path = Path(sys.modules[FAULTS[name].detect.__module__].__file__)
-    tree = ast.parse(path.read_text(encoding="utf-8"))
-    imported = {
-        node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and node.module
-    }
-
-    seen = {module for module in imported if module.startswith("sim.")}
-
-    assert not seen & {
-        "sim.bench.mechanisms",
-        "sim.bench.mechanism",
-        "sim.bench.simulate",
-        "sim.bench.ground_truth",
-    }
-    assert not any(module.startswith("sim.inspect.faults") for module in seen)
 
 
 GOOD = '''"""Gremlins: they bite.
@@ -238,15 +193,6 @@ def test_a_bad_file_in_the_folder_is_refused_with_a_sentence_that_says_why(
     assert "\n" not in str(refused.value)
 
 
-def test_a_good_file_in_the_folder_is_a_fault_and_nothing_else_is_touched(tmp_path):
-    (tmp_path / "gremlins.py").write_text(GOOD, encoding="utf-8")
-    place = importlib.util.spec_from_file_location("gremlins", tmp_path / "gremlins.py")
-    module = importlib.util.module_from_spec(place)
-    place.loader.exec_module(module)
-
-    assert isinstance(load_fault(module, name="gremlins"), Fault)
-
-
 EVERY = ("quasistatic", "dynamic", "coast", "triangle", "multistep", "chirp")
 
 
@@ -260,25 +206,6 @@ def test_what_coasts_to_rest_or_is_stepped_down_onto_its_stop_is_sound(name, pac
 
     assert {run.kind for run in log.runs} == set(EVERY)
     assert not found
-
-
-@pytest.mark.parametrize("share", [0.3, 0.6])
-def test_a_stop_in_the_way_of_a_slow_ramp_is_a_stop_and_no_brownout(share):
-    rng = np.random.default_rng(6)
-    log = simulate(MECHANISMS["arm"].draw(rng), Routine(), rng=rng)
-    run = log.runs[0]
-    at = int(np.searchsorted(np.abs(run.velocity), share * run.top_speed))
-    stops = np.arange(len(run)) >= at
-    stood = replace(
-        run,
-        velocity=np.where(stops, 0.0, run.velocity),
-        position=np.where(stops, run.position[at], run.position),
-    )
-
-    (damage,) = inspect(replace(log, runs=(stood, *log.runs[1:]))).damages
-
-    assert (damage.fault, damage.where.run) == ("hard-stop", 0)
-    assert damage.where.start == pytest.approx(run.time[at], abs=0.05)
 
 
 # The acceptance

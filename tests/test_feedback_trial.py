@@ -3,7 +3,6 @@
 import re
 from dataclasses import replace
 
-import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
@@ -47,17 +46,6 @@ def doubts(fit, preset="default"):
     return warn_of_bad_suggestions(fit, try_feedback_gains(fit, PRESETS[preset]))
 
 
-def test_what_settles_is_handed_over_without_a_word():
-    tried = try_feedback_gains(found(), PRESETS["default"])
-
-    assert [(one.owner, one.loop) for one in tried] == [
-        (SUGGESTED, "velocity"),
-        (SUGGESTED, "position"),
-    ]
-    assert all(one.is_good for one in tried)
-    assert doubts(found()) == ()
-
-
 def test_a_suggestion_that_turns_the_wrong_way_comes_with_one_that_settles():
     # 112 ms after the voltage the REV's loop has turned round: K (A - BK)^112 is negative
     (doubt,) = doubts(found(LIGHT), "rev-brushless")
@@ -79,26 +67,6 @@ def test_a_suggestion_that_turns_the_wrong_way_comes_with_one_that_settles():
     assert judge_step_response(took).is_good
 
 
-def test_where_nothing_settles_it_says_so_and_what_to_do():
-    # friction of 1.5 V holds whatever so slow a loop may ask for
-    (doubt,) = [
-        one for one in doubts(found(DRIVE | {"kS": 1.5, "kA": 0.05}), "rev-brushless")
-        if "position" in one.message
-    ]  # fmt: skip
-
-    assert "There is no good start for the position loop" in doubt.message
-    assert "profile" in doubt.message
-
-
-def test_a_suggestion_too_weak_for_its_mechanism_comes_with_a_stiffer_one():
-    # a slow elevator [m]: SysId allows 0.1 m of error, a third of what it moves in a second
-    (doubt,) = doubts(found({"kS": 0.11, "kV": 34.3, "kA": 0.67}))
-
-    kp = re.findall(r"kP (\S+),", doubt.message)
-    assert "is slow" in doubt.message
-    assert float(kp[0]) > float(kp[1])
-
-
 def test_the_learners_own_gains_are_tried_and_told_but_not_doubted():
     tried = try_feedback_gains(
         found(), PRESETS["default"], own=OwnGains("position", Feedback(600.0, 0.0))
@@ -117,19 +85,6 @@ def test_the_logs_delay_is_the_default_presets_and_no_others():
     assert choose_feedback_delay(late, PRESETS["default"], loop="velocity") == 0.14
     assert choose_feedback_delay(late, PRESETS["default"], loop="position") == 0.02
     assert choose_feedback_delay(late, PRESETS["venom"], loop="velocity") == 5e-3
-
-
-@pytest.mark.parametrize(
-    "gains", [{"kV": -2.5, "kA": -0.19}, {"kA": -0.1}, {"kS": 13.0}], ids=["both", "kA", "kS"]
-)
-def test_gains_that_nothing_can_be_suggested_for_are_not_tried(gains):
-    assert try_feedback_gains(found(DRIVE | gains), PRESETS["default"]) == ()
-
-
-def test_a_friction_below_zero_pushes_nothing():
-    tried = try_feedback_gains(found(DRIVE | {"kS": -0.02}), PRESETS["default"])
-
-    assert all(one.is_good for one in tried)
 
 
 @settings(max_examples=30)  # each tries up to ten loops

@@ -61,23 +61,6 @@ def two_sided(folder, *, right=DRIVE, name="drive.json"):
     return path
 
 
-def test_suggested_gains_come_with_what_they_do(fit, drive):
-    code, said, _ = fit(drive)
-
-    assert code == 0
-    assert "  velocity kP 2.7" in said
-    assert "after a step of 2 m/s the mechanism reaches 90% of the target after" in said
-    assert "warning:" not in said
-
-
-def test_ones_own_gains_are_tried_beside_them(fit, drive):
-    code, said, _ = fit(drive, "--own-kp", 300, "--loop", "position")
-
-    assert code == 0
-    assert "your own position kP 300, kD 0 (no good start): after a step" in said
-    assert "oscillates and does not settle: it still swings by" in said
-
-
 def test_ones_own_gains_are_in_the_json_too(fit, drive):
     _, plain, _ = fit(drive, "--json")
     _, said, _ = fit(drive, "--json", "--own-kp", 2, "--own-kd", 0.01)
@@ -117,41 +100,25 @@ def test_page_and_picture_are_written_beside_what_is_said(fit, drive, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("asked", "said"),
+    "asked",
     [
-        (["--html", "nowhere/drive.html"], "nowhere/drive.html: cannot be written"),
-        (["--html", "drive.pdf"], "End its name in .html."),
-        (["--plot", "nowhere/drive.png"], "cannot be written"),
-        (["--plot", "drive.gif"], "End its name in one of: .svg, .png, .pdf."),
-        (["--own-kd", 1], "Missing option '--own-kp'"),
-        (["--loop", "position"], "Missing option '--own-kp'"),
-        (["--own-kp", "nan"], "Give finite ones"),
-        (["--paste", "java", "--preset", "rev-brushless"], "Leave out --paste"),
-        (["--paste", "java", "--own-kp", 2], "Leave out one of them"),
+        ["--html", "nowhere/drive.html"],
+        ["--html", "drive.pdf"],
+        ["--plot", "nowhere/drive.png"],
+        ["--plot", "drive.gif"],
+        ["--own-kd", 1],
+        ["--loop", "position"],
+        ["--own-kp", "nan"],
+        ["--paste", "java", "--preset", "rev-brushless"],
+        ["--paste", "java", "--own-kp", 2],
     ],
 )
-def test_what_cannot_be_done_is_one_line(fit, drive, here, asked, said):
+def test_request_that_cannot_be_met_is_refused_in_one_line(fit, drive, here, asked):
     code, out, err = fit(drive, *asked)
 
     assert (code, out) == (2, "")
     assert err.count("\n") == 1
-    assert said in err.replace("\\", "/")
     assert list(here.iterdir()) == []
-
-
-def test_the_default_preset_goes_with_paste(fit, drive):
-    code, said, _ = fit(drive, "--paste", "java", "--preset", "default")
-
-    assert code == 0
-    assert said.startswith("import edu.wpi.first")
-
-
-def test_sides_that_agree_are_said_to(fit, tmp_path):
-    code, said, _ = fit(two_sided(tmp_path))
-
-    assert code == 0
-    assert "Left and right, each fitted alone, agree within their errors: kV 2.52" in said
-    assert "warning:" not in said
 
 
 def test_sides_that_differ_are_a_doubt_with_numbers(fit, tmp_path):
@@ -161,12 +128,6 @@ def test_sides_that_differ_are_a_doubt_with_numbers(fit, tmp_path):
 
     (doubt,) = [line for line in said.splitlines() if "left and" in line and "kV" in line]
     assert doubt.startswith("warning: kV is 2.52 left and")
-    assert "agree" not in said
-
-
-def test_a_side_that_is_asked_for_is_not_compared(fit, tmp_path):
-    _, said, _ = fit(two_sided(tmp_path), "--motor", "left")
-
     assert "agree" not in said
 
 
@@ -200,13 +161,6 @@ def test_a_long_log_is_not_fitted_three_times_unless_for_a_page(fit, drive, tmp_
     assert "not compared" not in patient
 
 
-def test_sysids_recipe_is_tried_too(fit, drive):
-    code, said, _ = fit(drive, "--method", "sysid")
-
-    assert code == 0
-    assert "position kP" in said
-
-
 def test_units_that_contradict_the_file_are_the_first_thing_said(tmp_path, fit):
     arm = simulate(MECHANISMS["arm"], Routine(), rng=np.random.default_rng(1))
     path = tmp_path / "arm.wpilog"
@@ -220,14 +174,3 @@ def test_units_that_contradict_the_file_are_the_first_thing_said(tmp_path, fit):
     assert "but you chose radians" in first
     assert out.count("but you chose") == 1
     assert "the file says" not in right
-
-
-def test_a_friction_beyond_belief_is_no_refusal_about_an_effect(tmp_path, fit):
-    path = tmp_path / "arm.wpilog"
-    made = ["simulate", "arm", "--vary", "--seed", "1", "-o", str(path)]
-    assert run_command(sysid, name="sysid", arguments=made) == 0
-    sim.write(replace(sim.read(path), units="rotations"), path)
-
-    code, _, err = fit(path, "--type", "arm", "--units", "radians")
-
-    assert (code, err) == (0, "")

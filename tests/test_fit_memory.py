@@ -48,10 +48,3 @@ def test_memory_a_sample_does_not_grow_with_the_log(method):
             for one, size in ((short, SHORT), (long, LONG))]  # fmt: skip
 
     assert each[1] < ABOUT * each[0]
-
-
-def test_a_table_of_all_against_all_would_be_seen():
-    each = [most(lambda n=n: np.zeros((n // 4, 32)) @ np.zeros((32, n // 4))) / n
-            for n in (SHORT, LONG)]  # fmt: skip
-
-    assert each[1] > 2.0 * ABOUT * each[0]

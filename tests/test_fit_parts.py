@@ -15,10 +15,9 @@ from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.cli import sysid
-from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
 from sim.fit import fit
-from sim.fit.pooled import merge_doubts, pool_fits, pool_values
+from sim.fit.pooled import pool_fits, pool_values
 from sim.support.command_line import run_command
 
 ROUTINE = Routine(ramp=0.5, step=4.0, timeout=4.0)
@@ -190,14 +189,6 @@ def test_a_side_that_cannot_be_fitted_is_left_out_by_name(fit_json, tmp_path):
     assert found["gains"]["kV"] == pytest.approx(fit(recorded()).gains["kV"], rel=0.02)
 
 
-def test_what_all_parts_say_is_said_once(fit_json, tmp_path):
-    logs = {name: recorded(seed=seed) for seed, name in enumerate(("a", "b", "c"))}
-
-    found = fit_json(motors_file(tmp_path / "a.wpilog", logs), "--units", "feet")
-
-    assert len(codes(found)) == len(set(codes(found)))
-
-
 def test_an_angle_and_a_length_have_no_common_gains():
     length, angle = fit(recorded()), fit(recorded(MECHANISMS["shooter"]))
 
@@ -216,34 +207,3 @@ def test_a_pooled_value_lies_within_its_parts(parts):
 
     assert min(values) <= value <= max(values)
     assert error >= 0.99 * min(errors) / len(errors) ** 0.5
-
-
-def test_parts_with_equal_errors_that_scatter_have_the_error_of_a_plain_mean():
-    # the standard error of the mean of 1, 2, 3 is 1/sqrt(3)
-    value, error = pool_values([1.0, 2.0, 3.0], [0.01, 0.01, 0.01])
-
-    assert value == pytest.approx(2.0)
-    assert error == pytest.approx(3.0**-0.5, rel=1e-3)
-
-
-def test_parts_that_agree_are_weighted_by_their_errors():
-    # weights 1 and 1/4: 0.8 and 0.2 of the whole
-    value, error = pool_values([1.0, 1.1], [0.1, 0.2])
-
-    assert value == pytest.approx(1.02)
-    assert error == pytest.approx(0.8**0.5 * 0.1, rel=1e-6)
-
-
-def test_doubts_that_name_their_own_part_are_all_said_without_its_name_before():
-    found = fit(recorded())
-    one, other = (
-        replace(found, doubts=(Doubt("unsigned", f"a.json, {side}, dynamic-reverse: no sign."),))
-        for side in ("left", "right")
-    )
-
-    said = [doubt.message for doubt in merge_doubts({"left": one, "right": other})]
-
-    assert said == [
-        "a.json, left, dynamic-reverse: no sign.",
-        "a.json, right, dynamic-reverse: no sign.",
-    ]

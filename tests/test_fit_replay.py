@@ -39,33 +39,6 @@ def test_what_is_left_is_the_sensors_noise(bench):
         assert inside.mean() > 0.9
 
 
-def test_together_the_runs_miss_by_what_the_fit_says(bench):
-    log, found = bench
-
-    runs = replay_fit(found, log)
-
-    missed = np.concatenate([one.velocity_error[one.moving] for one in runs])
-    assert np.sqrt(np.mean(missed**2)) == pytest.approx(found.simulated_velocity_rmse, rel=0.05)
-
-
-def test_a_wrong_gain_is_seen(bench):
-    log, found = bench
-    wrong = replace(found, gains={**found.gains, "kV": 1.1 * found.gains["kV"]})
-
-    slow = next(one for one in replay_fit(wrong, log) if one.run.kind == "quasistatic")
-
-    assert rms(slow) > 1.6 * slow.velocity_noise
-
-
-def test_the_unit_of_the_fit_makes_no_difference(bench):
-    log, found = bench
-    other = "degrees" if found.units == "radians" else "feet"
-
-    here, there = replay_fit(found, log), replay_fit(found.in_units(other), log)
-
-    assert here[0].velocity == pytest.approx(there[0].velocity, abs=1e-9)
-
-
 def test_the_lag_that_was_found_is_simulated_along():
     mechanism = MECHANISMS["drivetrain"]
     slow = replace(mechanism, sensor=replace(mechanism.sensor, filter=0.12))

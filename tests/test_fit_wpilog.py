@@ -1,20 +1,16 @@
 """`sysid fit --wpilog`: measured, simulated and residual as a log, which reads back as written."""
 
-import json
-
 import numpy as np
 import pytest
-from old_tools import sysid as sysid_file
 from open_page import drive_log, slipped_log, write_log
 
 from sim.bench.mechanisms import MECHANISMS
 from sim.cli import sysid
-from sim.cli.fit.wpilog import write_replay
 from sim.core.errors import BadRequest
 from sim.fit import fit
 from sim.fit.innovations import compute_innovations
 from sim.fit.replay import replay_fit
-from sim.io import list_entries, read, read_motors
+from sim.io import list_entries, read
 from sim.io.formats.wpilog.signals import SignalGroup, write_signals
 from sim.support.command_line import run_command
 
@@ -60,17 +56,6 @@ def test_measured_and_simulated_stand_beside_each_other(tmp_path, name):
         )
 
 
-def test_each_side_of_a_drivetrain_stands_below_its_name(tmp_path):
-    made = sysid_file(9, "Drivetrain")
-    (tmp_path / "sides.json").write_text(json.dumps(made), encoding="utf-8")
-    logs = read_motors(tmp_path / "sides.json")
-    found = fit(drive_log())
-    write_replay(found, logs, tmp_path / "out.wpilog")
-    names = {entry.name for entry in list_entries(tmp_path / "out.wpilog")}
-
-    assert {"/sysid/left/residual/velocity", "/sysid/right/residual/velocity"} <= names
-
-
 def test_innovations_are_written_where_something_new_was_read(tmp_path):
     file, out = write_log(drive_log(), tmp_path / "drive.csv"), tmp_path / "out.wpilog"
     assert run("fit", file, "--wpilog", out) == 0
@@ -99,38 +84,6 @@ def test_innovations_are_white_and_as_large_as_the_noise_where_the_model_holds(m
 
     assert np.std(every) == pytest.approx(MECHANISMS[mechanism].sensor.velocity_noise, rel=0.2)
     assert abs(correlation(log, found)) < 0.2
-
-
-def test_innovations_of_an_encoder_that_slips_stand_where_it_slipped():
-    log = slipped_log()
-    found = fit(log)
-    (one, *_) = compute_innovations(found, log)
-    (replay, *_) = replay_fit(found, log)
-    worst = float(one.position_time[int(np.argmax(np.abs(one.position)))])
-    gone = replay.run.time > worst + 1.0
-
-    assert 4.0 < worst < 6.5
-    later = np.abs(one.position[one.position_time > worst + 1.0])
-    assert np.median(later) < 0.1 * np.median(np.abs(replay.position_error[gone]))
-
-
-def test_a_layout_of_advantagescope_names_entries_of_the_log(tmp_path):
-    file, out = write_log(slipped_log(), tmp_path / "drive.csv"), tmp_path / "out.wpilog"
-    run("fit", file, "--wpilog", out)
-    layout = json.loads((tmp_path / "out.layout.json").read_text(encoding="utf-8"))
-    names = {entry.name for entry in list_entries(out)}
-    (hub,) = layout["hubs"]
-    shown = {
-        source["logKey"]
-        for tab in hub["state"]["tabs"]["tabs"]
-        if tab["controller"]
-        for axis in ("leftSources", "rightSources", "discreteSources")
-        for source in tab["controller"][axis]
-    }
-
-    assert layout.keys() == {"hubs", "satellites", "version"}
-    assert shown <= names
-    assert names - shown == {"/sysid/measured/position", "/sysid/simulated/position"}
 
 
 def test_faults_are_marked(tmp_path):

@@ -3,96 +3,20 @@
 import os
 import subprocess
 import sys
-from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
 
-import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 import sim
 from sim import io
-from sim.core.errors import BadRequest, BadSample, UnreadableFile
-from sim.core.log import TESTS, Log, Run
-from sim.core.units import UNITS
+from sim.core.errors import BadRequest
+from sim.core.log import Log, Run
 
 MODULES = {name: import_module(f"sim.io.formats.{name}") for name in io.FORMATS}
 WRITERS = sorted(name for name, module in MODULES.items() if hasattr(module, "write"))
 SAYS_NO_UNITS = {"csv"}  # whoever reads such a file has to say them
 LOG = Log((Run("dynamic-forward", [0.0, 0.1], [7.0, 7.0], [0.0, 0.1], [0.0, 2.0]),))
-
-
-@pytest.mark.parametrize("name", MODULES)
-def test_a_format_keeps_the_contract(name: str) -> None:
-    module = MODULES[name]
-
-    assert module.SUFFIXES
-    assert all(one == one.lower() and one.startswith(".") for one in module.SUFFIXES)
-    assert isinstance(module.recognizes(b""), bool)
-    assert callable(module.read)
-    assert module.__doc__
-
-
-@pytest.mark.parametrize("name", MODULES)
-@pytest.mark.parametrize("head", [b"", b"\x00" * 64, b"\xff" * 64, b"{}", b"hello\n", b"<html>"])
-def test_no_format_claims_what_is_none(name: str, head: bytes) -> None:
-    assert not MODULES[name].recognizes(head)
-
-
-def test_a_suffix_leads_to_one_format() -> None:
-    suffixes = [suffix for module in MODULES.values() for suffix in module.SUFFIXES]
-
-    assert len(suffixes) == len(set(suffixes))
-
-
-def test_the_formats_are_those_in_the_folder() -> None:
-    assert {"csv", "sysid_json"} <= set(io.FORMATS)
-
-
-@st.composite
-def runs(draw: st.DrawFn) -> Run:
-    """A run of any test, on a clock of whole microseconds as a robot's is."""
-    size = draw(st.integers(2, 8))  # one sample is no motion: a format need not keep it
-    steps = draw(st.lists(st.integers(1_000, 500_000), min_size=size, max_size=size))
-    values = st.lists(st.floats(-1e6, 1e6), min_size=size, max_size=size)
-    return Run(
-        draw(st.sampled_from(TESTS)),
-        (draw(st.integers(0, 10**9)) + np.cumsum(steps)) * 1e-6,
-        draw(values),
-        draw(values),
-        draw(values),
-    )
-
-
-@pytest.mark.parametrize("name", WRITERS)
-@given(
-    log=st.builds(
-        lambda runs, units: Log(tuple(runs), units=units),
-        st.lists(runs(), min_size=1, max_size=6),
-        st.sampled_from(list(UNITS)),
-    )
-)
-def test_any_log_that_is_written_reads_back(
-    name: str, log: Log, tmp_path_factory: pytest.TempPathFactory
-) -> None:
-    path = tmp_path_factory.getbasetemp() / f"written{MODULES[name].SUFFIXES[0]}"
-
-    sim.write(log, path)
-    back = sim.read(path, units=log.units if name in SAYS_NO_UNITS else None)
-
-    assert back.units == log.units
-    assert back.source == str(path)
-    assert [run.test for run in back.runs] == [run.test for run in log.runs]
-    for ours, theirs in zip(log.runs, back.runs, strict=True):
-        # A format may move a run in time as a whole, and keep time in microseconds.
-        np.testing.assert_allclose(
-            theirs.time - theirs.time[0], ours.time - ours.time[0], rtol=0.0, atol=2e-6
-        )
-        assert np.array_equal(theirs.voltage, ours.voltage)
-        np.testing.assert_allclose(theirs.position, ours.position, rtol=1e-12, atol=1e-300)
-        np.testing.assert_allclose(theirs.velocity, ours.velocity, rtol=1e-12, atol=1e-300)
 
 
 def test_only_the_format_in_use_is_imported(tmp_path: Path, root: Path) -> None:
@@ -109,42 +33,6 @@ def test_only_the_format_in_use_is_imported(tmp_path: Path, root: Path) -> None:
     assert not {f"sim.io.formats.{name}" for name in io.FORMATS if name != "csv"} & loaded
 
 
-@pytest.mark.parametrize("kind", [str, Path])
-@pytest.mark.parametrize("name", ["log.csv", "log.txt", "log", "log.wpilog", "log.csv.json"])
-def test_a_file_is_known_by_what_is_in_it(
-    tmp_path: Path, name: str, kind: Callable[[Path], str | Path]
-) -> None:
-    sim.write(LOG, tmp_path / "x.csv")
-    path = (tmp_path / "x.csv").rename(tmp_path / name)
-
-    log = sim.read(kind(path))
-
-    assert log.source == str(path)
-    assert len(log.runs) == 1
-
-
-def test_the_source_is_the_path_as_given(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
-    sim.write(LOG, "log.csv")
-    Path("bad.csv").write_text("test,time_s,voltage,position,velocity\n", encoding="utf-8")
-
-    assert sim.read(Path("log.csv")).source == "log.csv"
-    assert sim.read(os.path.join(".", "log.csv")).source == os.path.join(".", "log.csv")  # noqa: PTH118 - a Path would drop the dot
-    with pytest.raises(UnreadableFile, match=r"^bad\.csv: "):
-        sim.read(os.path.join(".", "bad.csv"))  # noqa: PTH118 - as above
-
-
-def test_a_refusal_names_the_file_even_if_the_format_did_not(tmp_path: Path) -> None:
-    path = tmp_path / "log.json"
-    rows = "[[5, 1, 0, 0], [6, 1, 0, 0], [1, 1, 0, 0], [2, 1, 0, 0]]"
-    path.write_text(f'{{"fast-forward": {rows}, "units": "Meters"}}', encoding="utf-8")
-
-    with pytest.raises(BadSample) as caught:
-        sim.read(path)
-
-    assert caught.value.where == f"{path}, dynamic-forward"
-
-
 @pytest.mark.parametrize(
     ("asked", "said"),
     [
@@ -159,29 +47,6 @@ def test_an_unknown_word_is_refused_with_the_known_ones(
 
     with pytest.raises(BadRequest, match=said):
         sim.read(tmp_path / "log.csv", **asked)
-
-
-@pytest.mark.parametrize(
-    ("test", "asked", "type_", "codes"),
-    [
-        ("Arm", None, "arm", []),
-        ("Arm", "arm", "arm", []),
-        ("Arm", "elevator", "elevator", ["contradicting-type"]),
-    ],
-)
-def test_a_type_one_says_goes_before_that_of_the_file(
-    tmp_path: Path, test: str, asked: str | None, type_: str, codes: list[str]
-) -> None:
-    path = tmp_path / "log.json"
-    path.write_text(
-        f'{{"fast-forward": [[0, 1, 2, 3]], "units": "Radians", "test": "{test}"}}', "utf-8"
-    )
-
-    log = sim.read(path, type=asked)
-
-    assert log.type == type_
-    assert [doubt.code for doubt in log.doubts] == codes
-    assert all("of type arm; it is taken as elevator" in doubt.message for doubt in log.doubts)
 
 
 @pytest.mark.parametrize(
@@ -226,16 +91,6 @@ def test_a_file_is_written_whole_or_stays_as_it_was(
     assert [entry.name for entry in tmp_path.iterdir()] == ["log.csv"]
     if isinstance(trouble, OSError):
         assert "(No space left on device). Choose a folder" in str(caught.value)
-
-
-def test_an_existing_file_is_replaced(tmp_path: Path) -> None:
-    path = tmp_path / "LOG.CSV"
-    path.write_text("old", encoding="utf-8")
-
-    sim.write(LOG, path)
-
-    assert sim.read(path).runs[0].test == "dynamic-forward"
-    assert [entry.name for entry in tmp_path.iterdir()] == ["LOG.CSV"]
 
 
 def test_a_link_stays_a_link(tmp_path: Path) -> None:

@@ -24,6 +24,8 @@ from sim.core.log import LARGEST, Log, Run
 from sim.core.vocabulary import METHODS, TESTS, TYPES
 from sim.fit import fit
 
+pytestmark = pytest.mark.slow
+
 FEW = 40
 LONG = int(os.environ.get("SYSID_FUZZ", "0"))
 hunt = settings(

@@ -8,17 +8,14 @@ import numpy as np
 import pytest
 from rich.console import Console
 
-import sim
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.cli import sysid
 from sim.core.doubt import Doubt
 from sim.feedback import PRESETS
 from sim.fit import fit
 from sim.report.fit_terminal import show_fit
-from sim.report.gain_verdicts import judge_gains, write_gain_verdict
-from sim.support.command_line import run_command
+from sim.report.gain_verdicts import write_gain_verdict
 
 LOG = simulate(MECHANISMS["drivetrain"], Routine(ramp=0.5, step=4.0), rng=np.random.default_rng(2))
 FOUND = replace(
@@ -50,24 +47,6 @@ def test_advice_for_ka_comes_from_the_log(log, advice):
 
 
 @pytest.mark.parametrize(
-    ("log", "advice"),
-    [
-        (only("dynamic-forward", "dynamic-reverse"), "add a quasistatic test"),
-        (only("quasistatic-forward", "dynamic-forward"), "add the tests in reverse"),
-        (weaker(LOG, 0.2), "let the quasistatic tests run beyond"),
-        (LOG, "repeat the quasistatic tests with a slower ramp"),
-    ],
-)
-def test_gains_with_the_same_advice_stand_together(log, advice):
-    unsure = replace(FOUND, errors={"kS": 0.3, "kV": 0.5, "kA": 0.01})
-
-    said = write_gain_verdict(unsure, log)
-
-    start = "kA usable (± 2 %); kS not usable (± 0.3 V), kV not usable (± 20 %): "
-    assert said.startswith(start + advice)
-
-
-@pytest.mark.parametrize(
     ("gains", "errors", "said"),
     [
         ({"kV": 2.0}, {"kV": 0.001}, "kV usable (± less than 0.1 %)."),
@@ -81,26 +60,6 @@ def test_each_gain_is_judged_in_its_own_measure(gains, errors, said):
     assert write_gain_verdict(replace(FOUND, gains=gains, errors=errors)) == said
 
 
-def test_what_is_wrong_stands_above_the_gains(tmp_path, capsys):
-    turned = replace(LOG, runs=tuple(replace(r, voltage=-r.voltage) for r in LOG.runs))
-    sim.write(turned, tmp_path / "a.csv")
-
-    code = run_command(sysid, name="sysid", arguments=["fit", str(tmp_path / "a.csv")])
-
-    assert code == 1
-    lines = capsys.readouterr().out.splitlines()
-    assert lines[0].startswith("wrong: ")
-    table = next(n for n, line in enumerate(lines) if line.startswith("gain "))
-    assert lines.index("Verdict: Do not use these gains: something is wrong.") < table
-    assert not any(line.startswith("wrong: ") for line in lines[table:])
-
-
-def test_a_grave_doubt_makes_no_gain_usable(reads):
-    grave = replace(FOUND, doubts=(Doubt("x", "It cannot be.", grave=True),))
-
-    reads(write_gain_verdict(grave, LOG))
-
-
 def test_gain_that_a_warning_is_about_is_not_usable():
     errors = FOUND.errors | {"kA": 0.01}
     sure = replace(FOUND, errors=errors, doubts=(Doubt("x", "It is.", gains=("kA", "kG")),))
@@ -108,29 +67,6 @@ def test_gain_that_a_warning_is_about_is_not_usable():
     said = write_gain_verdict(sure, LOG)
 
     assert said == f"{USABLE}; kA not usable (± 2 %): see the warnings."
-
-
-def test_an_acceleration_r2_of_zero_has_no_sign(capsys):
-    show_fit(
-        replace(FOUND, acceleration_r2=-0.0002), preset=PRESETS["default"], title="a", log=LOG,
-        tried=(),
-    )  # fmt: skip
-
-    assert "acceleration R² 0.000," in capsys.readouterr().out
-
-
-@pytest.mark.parametrize(
-    ("changes", "word"),
-    [
-        ({}, "Partly usable"),
-        ({"errors": {"kS": 0.01, "kV": 0.02, "kA": 0.02}}, "Usable"),
-        ({"errors": {}}, "Not usable"),
-        ({"doubts": (Doubt("x", "It is.", grave=True),)}, "Do not use"),
-        ({"doubts": (Doubt("x", "It is.", gains=("kV",)),)}, "Check first"),
-    ],
-)
-def test_the_verdict_in_a_word(changes, word):
-    assert judge_gains(replace(FOUND, **changes)) == word
 
 
 @pytest.mark.parametrize("width", [80, 120])

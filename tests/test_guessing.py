@@ -9,6 +9,8 @@ import pytest
 from grader.course import find_course
 from grader.exercise import list_exercises
 
+pytestmark = pytest.mark.slow
+
 MOST = 1 / 3  # [share] of an exercise that one word everywhere may earn, on average over students
 CHANCE = 0.5  # [share] of a check that the words it can read earn on average: a coin
 STUDENTS = tuple(f"guesser {number}" for number in range(4))

@@ -12,6 +12,8 @@ from grader.answers.submission import read_answers
 from grader.exercise import list_exercises
 from sim.core.errors import UnreadableFile
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).resolve().parents[1]
 STUDENT = "ann"
 ANSWERED_IN_TOML = [one for one in list_exercises(ROOT) if "answers.toml" in one.files]

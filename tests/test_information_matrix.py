@@ -53,28 +53,6 @@ def test_an_elevator_that_only_goes_up_tells_friction_from_weight_never():
     assert math.isfinite(errors["kA"])
 
 
-def test_what_up_only_tells_of_friction_and_weight_is_their_sum():
-    about = compute_information(UP, type="elevator", noise=0.05).compute_pair_information(
-        "kS", "kG"
-    )
-    values, vectors = np.linalg.eigh(about)
-    assert values[0] == pytest.approx(0.0, abs=1e-9 * values[1])
-    assert abs(vectors[0, 1]) == pytest.approx(abs(vectors[1, 1]))
-    assert vectors[0, 1] * vectors[1, 1] > 0.0  # both together, not one against the other
-
-
-def test_an_arm_that_only_goes_up_tells_them_by_its_cosine():
-    up = {"quasistatic-forward": rows([0.5, 1.0, 1.5, 0.7], [0.4, 0.1, 0.4, 0.8], [-0.5, 0, 1, 1])}
-    assert all(map(math.isfinite, compute_information(up, type="arm", noise=0.05).errors.values()))
-
-
-@pytest.mark.parametrize("pair", [("kS", "kA"), ("kA", "kS"), ("kV", "kG")])
-def test_two_gains_are_told_as_well_as_each_of_them(pair):
-    told = compute_information(BOTH, type="elevator", noise=0.05)
-    two = np.sqrt(np.diag(np.linalg.inv(told.compute_pair_information(*pair))))
-    assert two == pytest.approx([told.errors[name] for name in pair], rel=1e-6)
-
-
 @pytest.mark.parametrize(
     ("ask", "advice"),
     [

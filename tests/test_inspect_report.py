@@ -13,10 +13,8 @@ from sim.bench.simulate import simulate
 from sim.cli.inspect import LINES
 from sim.cli.inspect import inspect as command
 from sim.core.errors import BadRequest
-from sim.core.log import Log
 from sim.inspect.contaminate import contaminate
 from sim.inspect.detect_faults import inspect
-from sim.inspect.log_features import LogFeatures
 from sim.io import write
 from sim.physics.battery import Battery
 
@@ -29,11 +27,6 @@ def bench(name="drivetrain", *, period=0.02, seed=0):
 
 def each(log, change):
     return replace(log, runs=tuple(change(run) for run in log.runs))
-
-
-def held(run, n):
-    latest = np.arange(len(run)) // n * n
-    return replace(run, position=run.position[latest], velocity=run.velocity[latest])
 
 
 def browned_out(*, seed=5, step=3.5):
@@ -50,19 +43,6 @@ def printed(log, tmp_path):
 
 
 # One paragraph for each kind
-
-
-def test_a_kind_of_fault_is_said_once_with_all_its_places(tmp_path):
-    log = contaminate(bench(), "unit-error", rng=np.random.default_rng(1)).log
-
-    code, lines = printed(log, tmp_path)
-
-    assert code == 1
-    assert lines[0].endswith("4 runs, 1 fault found.")
-    assert [line for line in lines if line.startswith("unit-error")] == [
-        "unit-error: runs 0, 1, 2, 3 (sure, 0.95)"
-    ]
-    assert len(inspect(log).to_json()["faults"]) == 4
 
 
 def test_many_faults_fit_on_a_screen(tmp_path):
@@ -86,40 +66,7 @@ def test_many_faults_fit_on_a_screen(tmp_path):
     assert max(len(line) for line in lines[1:]) <= 80
 
 
-def test_the_worst_kind_comes_first():
-    log = contaminate(
-        bench(), "encoder-slip", test="quasistatic-forward", rng=np.random.default_rng(1)
-    ).log
-    log = contaminate(log, "unit-error", rng=np.random.default_rng(2)).log
-
-    kinds = [kind[0].fault for kind in inspect(log).group_by_kind()]
-
-    assert kinds[0] == "unit-error"
-
-
 # Frames that repeat
-
-
-def test_frames_of_20_ms_are_how_a_robot_records_and_slower_ones_are_a_fault(tmp_path):
-    usual = each(bench(period=0.005), lambda run: held(run, 4))
-    slow = each(bench(period=0.005), lambda run: held(run, 12))
-
-    found, lines = inspect(usual), printed(usual, tmp_path)[1]
-
-    assert found.is_clean
-    assert {damage.fault for damage in found.damages} == {"stale-samples"}
-    assert found.to_json()["faults"] == []
-    assert sum(doubt.code == "stale-samples" for doubt in found.doubts) == 1
-    assert lines[0].endswith("no fault found.")
-    assert {fault.fault for fault in inspect(slow).faults} == {"stale-samples"}
-
-
-def test_a_velocity_that_is_measured_every_40_ms_is_how_its_controller_works():
-    def slow(run):
-        latest = np.arange(len(run)) // 8 * 8
-        return replace(held(run, 4), velocity=run.velocity[latest])
-
-    assert inspect(each(bench(period=0.005), slow)).is_clean
 
 
 # Brownouts
@@ -155,24 +102,6 @@ def test_a_bus_that_stays_up_is_no_brownout():
 # Runs that stand first, and teams that count the other way
 
 
-def test_a_run_that_stands_before_its_step_keeps_its_name():
-    log = bench()
-    run = log.list_runs_of_test("dynamic-forward")[0]
-    rest = np.arange(250) * 0.02  # five seconds, and a voltage left over from the run before
-    zeros = np.zeros(rest.size)
-    waits = replace(
-        run,
-        time=np.concatenate((run.time[0] + rest, run.time + rest[-1] + 0.02)),
-        voltage=np.concatenate((np.where(rest == 0.0, 3.5, 0.0), run.voltage)),
-        position=np.concatenate((zeros + run.position[0], run.position)),
-        velocity=np.concatenate((zeros, run.velocity)),
-        current=None,
-        bus_voltage=None,
-    )
-
-    assert LogFeatures(Log((waits,))).recognized_tests == ("dynamic-forward",)
-
-
 def test_a_team_whose_forward_is_our_reverse_has_mislabelled_nothing():
     turned = {"forward": "reverse", "reverse": "forward"}
     log = each(bench(), lambda run: replace(run, test=f"{run.kind}-{turned[run.direction]}"))
@@ -181,46 +110,6 @@ def test_a_team_whose_forward_is_our_reverse_has_mislabelled_nothing():
 
 
 # Advice from this log
-
-
-def test_advice_counts_with_what_the_log_shows():
-    log = bench()
-    missing = inspect(replace(log, runs=log.runs[:3])).faults[0]
-
-    assert missing.advice.startswith("Run dynamic-reverse with up to 3.5 V, like the other")
-
-
-def test_a_velocity_that_is_the_position_is_said_to_be_one():
-    log = each(bench(), lambda run: replace(run, velocity=4.2 * run.position))
-
-    faults = inspect(log).faults
-
-    assert {fault.fault for fault in faults} == {"unit-error"}
-    assert [fault.where.run for fault in faults] == [0, 1, 2, 3]
-    assert all("is the position, multiplied by 4.2" in fault.evidence for fault in faults)
-
-
-def test_a_factor_in_one_run_of_four_is_no_unit():
-    log = bench()
-    odd = replace(log.runs[1], velocity=log.runs[1].velocity * 60.0)
-
-    found = inspect(replace(log, runs=(log.runs[0], odd, *log.runs[2:])))
-
-    assert "unit-error" not in {fault.fault for fault in found.faults}
-
-
-@pytest.mark.parametrize(("scale", "words"), [(3.7, "faster than 9"), (0.2, "slower than 1.2")])
-def test_a_drivetrain_that_cannot_be_is_in_another_unit(scale, words):
-    log = each(
-        bench(),
-        lambda run: replace(run, position=run.position * scale, velocity=run.velocity * scale),
-    )
-
-    (fault,) = inspect(log).faults
-
-    assert (fault.fault, fault.where.run) == ("unit-error", None)
-    assert words in fault.evidence
-    assert inspect(replace(log, mechanism="shooter")).is_clean
 
 
 # Several files
@@ -250,16 +139,6 @@ def test_each_of_several_files_has_the_faults_that_it_has_alone(fault, tmp_path)
     assert listed(alone, 4) == listed(others, 0) != []
 
 
-def test_which_runs_are_of_which_file_is_said(tmp_path):
-    bad = contaminate(bench(), "encoder-slip", rng=np.random.default_rng(1)).log
-
-    _, said = inspected(tmp_path, first=bench(seed=1), bad=bad)
-
-    flat = "".join(said.split())
-    assert "Runs0to3:" in flat
-    assert "first.wpilog;runs4to7:" in flat
-
-
 def test_files_with_one_test_each_are_one_log(tmp_path):
     log = bench()
     parts = {run.test: replace(log, runs=(run,)) for run in log.runs}
@@ -272,16 +151,6 @@ def test_files_with_one_test_each_are_one_log(tmp_path):
     assert "missing-test: dynamic-reverse" in said
 
 
-def test_a_test_that_another_file_holds_is_not_missing(tmp_path):
-    log = bench()
-
-    code, said = inspected(
-        tmp_path, three=replace(log, runs=log.runs[:3]), one=replace(log, runs=log.runs[3:])
-    )
-
-    assert code == 0, said
-
-
 def test_a_file_that_is_given_twice_is_refused(tmp_path):
     write(bench(), tmp_path / "log.wpilog")
     path = str(tmp_path / "log.wpilog")
@@ -291,18 +160,3 @@ def test_a_file_that_is_given_twice_is_refused(tmp_path):
 
 
 # One wild reading
-
-
-@pytest.mark.parametrize(("samples", "words"), [(1, "a single sample"), (2, "2 samples")])
-def test_a_wild_reading_is_not_told_as_a_slip(samples, words):
-    log = bench()
-    first = log.runs[0]
-    velocity = first.velocity.copy()
-    velocity[len(first) // 2 : len(first) // 2 + samples] *= 0.3
-    found = inspect(replace(log, runs=(replace(first, velocity=velocity), *log.runs[1:])))
-
-    (damage,) = found.faults
-    assert f"For {words}, the velocity in the log is 70% too low" in damage.evidence
-    assert "wild reading" in damage.evidence
-    assert "shaft" not in damage.evidence + damage.advice
-    assert f"a median of {2 * samples + 1}" in damage.advice

@@ -15,6 +15,8 @@ from wheel import build_wheel
 
 from grader.exercise import find_exercise
 
+pytestmark = pytest.mark.slow
+
 LARGEST = 250.0  # [MB] of an environment with the bare install, pip and setuptools included
 ANSWERED = "exercise1"
 

@@ -25,6 +25,8 @@ from wheel import LEFT_OUT, build_wheel
 from grader.exercise import list_exercises
 from grader.student_data.variant import make_folder_name, use_class_secret
 
+pytestmark = pytest.mark.slow
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 

@@ -32,6 +32,8 @@ from grader.course import find_course
 from grader.exercise import find_exercise
 from grader.student_data.variant import make_folder_name
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).resolve().parents[1]
 ANSWER = "exercises/exercise1/answers.toml"
 LESSON = "lessons/00_guess_or_measure.ipynb"

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from sim.estimation.kalman import OPEN_LOOP, make_steady_state_filter
+from sim.estimation.kalman import make_steady_state_filter
 from sim.estimation.measurements import SensorNoise
 from sim.physics.model import Model
 
@@ -69,28 +69,3 @@ def test_innovations_of_uncertain_samples_are_scaled_to_the_usual_covariance():
     seen = usual + one.voltage_cov * 0.2**2
     scale = schedule.scales[schedule.uncertain.tolist().index(4)]
     assert scale @ seen @ scale.T == pytest.approx(usual, rel=1e-9)
-
-
-def test_without_an_uncertain_voltage_every_gain_is_the_steady_one():
-    one = filtered(1e-4)
-
-    schedule = one.schedule(np.zeros(7))
-
-    assert schedule.uncertain.size == 0
-    assert schedule.gains == pytest.approx(np.tile(one.steady.ravel(), (7, 1)))
-
-
-def test_another_run_begins_in_the_steady_state():
-    error = np.zeros(40)
-    error[5] = 0.3
-    one = filtered(1e-9)
-
-    schedule = one.schedule(error, starts=[0, 10])
-
-    assert schedule.uncertain.tolist() == [5, 6, 7, 8, 9]
-    assert schedule.gains[10:] == pytest.approx(np.tile(one.steady.ravel(), (30, 1)))
-
-
-def test_an_open_loop_corrects_nothing():
-    assert not OPEN_LOOP.steady.any()
-    assert not filtered(0.0).steady.any()

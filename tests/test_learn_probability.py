@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from sim.reconcile.probability import FEATURES, Evidence, compute_probability
+from sim.reconcile.probability import FEATURES
 
 BENCHMARKS = Path(__file__).resolve().parent / "benchmarks"
 ROWS = 4000
@@ -41,28 +41,6 @@ def test_the_weights_that_made_the_rows_are_found_again(learning):
     found = learning.fit_coefficients(drawn(weights, seed=1))
 
     assert found == pytest.approx(weights, abs=0.2)
-
-
-def test_what_is_predicted_is_what_the_product_says(learning):
-    rows = drawn({"intercept": 0.0, **dict.fromkeys(FEATURES, 0.3)}, seed=2)[:20]
-    stored = json.loads(learning.FILE.read_text(encoding="utf-8"))["coefficients"]
-
-    told = learning.predict(rows, stored)
-
-    assert told == pytest.approx([compute_probability(Evidence(*row)) for row, _ in rows])
-
-
-def test_a_maker_whose_findings_are_more_often_wrong_is_seen(learning):
-    weights = {"intercept": 2.0, **dict.fromkeys(FEATURES, 0.5)}
-    rows = drawn(weights, seed=3)
-    told = learning.predict(rows, weights)
-
-    as_told = learning.describe_calibration(told, rows)
-    liars = learning.describe_calibration(told, [(row, False) for row, _ in rows])
-
-    error = lambda said: float(said.rpartition(" ")[2])  # noqa: E731 - a word of a sentence
-    assert error(as_told) < 0.03
-    assert error(liars) > 0.5
 
 
 def test_rows_take_asymmetric_friction_and_a_constant_load_for_one(learning, tmp_path):

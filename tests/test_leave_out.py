@@ -27,14 +27,6 @@ def test_a_run_is_split_where_its_middle_is_left_out():
     assert left.runs[2:] == log.runs[1:]
 
 
-def test_a_whole_test_is_left_out_by_its_name():
-    left = leave_out({"": drive_log()}, [LeftOutPart.parse("dynamic-reverse")])[""]
-
-    assert [run.test for run in left.runs] == [
-        "quasistatic-forward", "quasistatic-reverse", "dynamic-forward",
-    ]  # fmt: skip
-
-
 @pytest.mark.parametrize(
     "text", ["", "forward", "dynamic-forward:5", "dynamic-forward:6-5", "dynamic-forward:1..2-3"]
 )

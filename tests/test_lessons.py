@@ -38,7 +38,10 @@ SCREENFUL = 40  # [lines] of a function; what is longer belongs into sim
 DERIVE = "run  python .ci/derive_notebooks.py  and commit the notebook with its text"
 
 # Windows' event loop cannot watch sockets; the library below nbclient helps itself, and says so.
-pytestmark = pytest.mark.filterwarnings("ignore:Proactor event loop:RuntimeWarning")
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.filterwarnings("ignore:Proactor event loop:RuntimeWarning"),
+]
 
 each_lesson = pytest.mark.parametrize("text", TEXTS, ids=lambda path: path.stem)
 

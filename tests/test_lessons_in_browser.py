@@ -34,7 +34,7 @@ TEXTS = (
 ADDRESS = re.compile(r"http://127\S+token=\w+")
 HOME = {"127.0.0.1", "localhost"}
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.slow, pytest.mark.browser]
 
 
 @pytest.fixture

@@ -36,16 +36,6 @@ def test_gains_are_those_of_scipy(kv, ka, period, delay):
     np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-9 * np.abs(expected).max())
 
 
-def test_two_equal_eigenvalues_have_a_power_too():
-    # the weights at which two real eigenvalues become a complex pair lie in between
-    for share in np.linspace(0.01, 5.0, 60):
-        asked = {"period": 0.02, "q": (share, 0.1), "r": 0.02, "loops": 1.7}
-        expected = by_scipy(-1.0, 1.0, **asked)
-        np.testing.assert_allclose(
-            design_two_state_regulator(-1.0, 1.0, **asked), expected, rtol=1e-8
-        )
-
-
 def test_a_fit_in_json_imports_no_scipy(tmp_path):
     code = (
         "import sys, numpy as np, sim\n"

@@ -8,7 +8,6 @@ from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.core.log import Log, Run
 from sim.estimation.measurements import (
-    THIRD,
     compute_noise_at_speed,
     compute_third_differences,
     estimate_noise,
@@ -27,15 +26,6 @@ def uneven(count=400, period=0.02, *, seed=1):
     return even(count, period) + rng.uniform(-0.2, 0.2, count) * period
 
 
-def moving(time, *, seed=2):
-    """A log of something that speeds up, its positions a little noisy."""
-    rng = np.random.default_rng(seed)
-    position = 0.3 * time**2 + NOISE * rng.standard_normal(time.size)
-    velocity = 0.6 * time + 0.01 * rng.standard_normal(time.size)
-    run = Run("dynamic-forward", time, np.full(time.size, 4.0), position, velocity)
-    return Log((run,), units="meters", type="simple")
-
-
 def test_with_even_times_they_are_the_ordinary_third_differences():
     values = np.random.default_rng(0).standard_normal(50)
 
@@ -48,22 +38,6 @@ def test_nothing_is_left_of_a_parabola_however_uneven_its_times():
     left = compute_third_differences(time, 3.0 - 2.0 * time + 5.0 * time**2)
 
     assert np.abs(left).max() < 1e-10
-
-
-def test_of_independent_noise_as_much_is_left_with_uneven_times():
-    values = np.random.default_rng(3).standard_normal(20_000)
-
-    left = compute_third_differences(uneven(20_000), values)
-
-    assert np.mean(left**2) == pytest.approx(THIRD, rel=0.05)
-
-
-@pytest.mark.parametrize("time", [even(), uneven()], ids=["even", "uneven"])
-def test_a_sample_that_comes_late_is_no_noise(time):
-    found = estimate_noise(measure_runs(moving(time), friction=None))
-
-    assert found.position == pytest.approx(NOISE, rel=0.15)
-    assert found.velocity == pytest.approx(0.01, rel=0.15)
 
 
 def test_noise_that_grows_with_the_speed_counts_at_the_speeds_of_the_log():
@@ -79,14 +53,6 @@ def test_noise_that_grows_with_the_speed_counts_at_the_speeds_of_the_log():
 
     assert found == pytest.approx(float(np.std(0.6 * time * share)), rel=0.1)
     assert found > 1.1 * noise.velocity
-
-
-@pytest.mark.parametrize("seed", range(5))
-def test_noise_that_is_the_same_at_all_speeds_is_that_of_all_samples(seed):
-    seen = measure_runs(moving(even(), seed=seed), friction=None)
-    noise = estimate_noise(seen)
-
-    assert compute_noise_at_speed(seen, noise) == noise.velocity
 
 
 @pytest.mark.parametrize("name", sorted(MECHANISMS))

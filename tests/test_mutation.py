@@ -15,6 +15,8 @@ from grader.exercise import find_exercise
 from grader.robotcode.java.program import Program
 from grader.robotcode.java.steps import allow_deep_calls
 
+pytestmark = pytest.mark.slow
+
 BASES = Path(__file__).resolve().parent / "mutation" / "bases"
 EXERCISES = ("exercise4", "exercise5", "exercise10")
 EACH = 18  # mutants of an exercise are run

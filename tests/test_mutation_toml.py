@@ -16,6 +16,8 @@ from mutation.mutant import Mutant  # noqa: E402 - the same
 from mutation.toml_answers import EXERCISES, mutants  # noqa: E402 - the same
 from mutation.toml_operators import changes_of  # noqa: E402 - the same
 
+pytestmark = pytest.mark.slow
+
 LEGAL = tomllib.loads((HERE / "mutation" / "legal_toml.toml").read_text("utf-8"))["legal"]
 
 

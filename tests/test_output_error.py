@@ -1,18 +1,15 @@
 """Method output-error: right, with error bars that hold, or refused by name."""
 
-import math
 from dataclasses import replace
-from itertools import chain, combinations
+from itertools import combinations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import move_gains_only, simulate
-from sim.core.errors import BadRequest, NotIdentifiable
+from sim.core.errors import NotIdentifiable
 from sim.core.log import FOUR_TESTS, Log, Run
 from sim.fit import fit
 from sim.physics.engine import State, simulate_run
@@ -122,18 +119,6 @@ def test_any_kinds_of_test_will_do(kinds):
     assert set(found.samples_used) == set(routine.tests)
 
 
-def test_repeated_runs_are_all_used_and_make_the_errors_smaller():
-    mechanism = MECHANISMS["arm"]
-    one = simulate(mechanism, GENTLE, rng=rng(1))
-    more = [simulate(mechanism, GENTLE, rng=rng(seed)) for seed in (2, 3, 4)]
-    together = replace(one, runs=tuple(chain(one.runs, *(log.runs for log in more))))
-
-    alone, four = fit(one), fit(together)
-
-    assert four.errors["kA"] < 0.7 * alone.errors["kA"]
-    assert four.gains["kA"] == pytest.approx(mechanism.gains["kA"], rel=0.01)
-
-
 @pytest.mark.parametrize("kind", ["drivetrain", "elevator", "arm", "turret"])
 def test_a_late_and_averaged_velocity_is_allowed_for_and_told(kind):
     mechanism = MECHANISMS[kind].hide("velocity-filter").hide("delay", 0.7)
@@ -156,46 +141,6 @@ def test_an_answer_a_millisecond_late_does_not_pass_for_inertia(late):
     assert found.gains["kA"] == pytest.approx(mechanism.gains["kA"], rel=0.002)
     assert found.position_delay == pytest.approx(late, abs=1e-4)
     assert "late-answer" not in [doubt.code for doubt in found.doubts]
-
-
-def test_frames_logged_four_times_over_are_counted_once():
-    mechanism = replace(
-        MECHANISMS["drivetrain"], sensor=replace(MECHANISMS["drivetrain"].sensor, frame=0.02)
-    )
-    log = simulate(mechanism, GENTLE, rng=rng(3), period=0.005)
-
-    found = fit(log)
-
-    assert found.gains["kA"] == pytest.approx(mechanism.gains["kA"], rel=0.05)
-    assert fit(log, method="sysid").gains["kA"] < 0.7 * mechanism.gains["kA"]
-
-
-def test_samples_at_odd_times_are_taken_at_their_times():
-    # every fourth sample at random, of steps whose voltage is the same all along
-    log = simulate(MECHANISMS["drivetrain"], GENTLE, rng=rng(3), period=0.005)
-    runs = []
-    for run in log.runs:
-        chosen = rng(5).choice(np.arange(1, len(run)), size=len(run) // 4, replace=False)
-        some = np.concatenate(([0], np.sort(chosen)))
-        if run.kind == "dynamic":
-            columns = (run.time, run.voltage, run.position, run.velocity)
-            runs.append(Run(run.test, *(column[some] for column in columns)))
-        else:
-            runs.append(run)
-
-    found = fit(replace(log, runs=tuple(runs)))
-
-    assert found.gains["kA"] == pytest.approx(MECHANISMS["drivetrain"].gains["kA"], rel=0.02)
-
-
-def test_signs_opposed_are_told_and_fitted_as_they_are():
-    log = simulate(MECHANISMS["drivetrain"], GENTLE, rng=rng(1))
-    turned = replace(log, runs=tuple(replace(r, voltage=-r.voltage) for r in log.runs))
-
-    found = fit(turned)
-
-    assert found.gains["kV"] == pytest.approx(-MECHANISMS["drivetrain"].gains["kV"], rel=1e-3)
-    assert "sign-opposed" in [doubt.code for doubt in found.doubts if doubt.grave]
 
 
 def in_coarse_frames(run, *, position, velocity, every):
@@ -275,18 +220,6 @@ def test_a_model_that_lacks_something_is_doubted_and_reconcile_named(effect, cod
     assert "sysid reconcile" in said[0]
 
 
-def test_gains_of_a_model_that_strays_are_those_that_simulate_best():
-    # the likeliest innovations are those of twice to twentyfold the inertia
-    mechanism = MECHANISMS["drivetrain"].hide("asymmetric-back-emf", 2.0)
-
-    found = fit(simulate(mechanism, GENTLE, rng=rng(1)))
-
-    assert found.gains["kV"] == pytest.approx(mechanism.gains["kV"], rel=0.1)
-    assert found.gains["kA"] == pytest.approx(mechanism.gains["kA"], rel=0.25)
-    assert abs(found.gains["kA"] - mechanism.gains["kA"]) < found.errors["kA"]
-    assert "model-strays" in [doubt.code for doubt in found.doubts]
-
-
 @pytest.mark.parametrize(
     ("effect", "size"),
     [
@@ -311,13 +244,6 @@ def test_small_effects_are_fitted_beside_the_gains_and_do_not_shift_them(effect,
     assert found.gains["kA"] == pytest.approx(mechanism.gains["kA"], rel=0.005)
 
 
-@pytest.mark.parametrize(("effect", "grave"), [("constant-load", True), ("spring", False)])
-def test_a_model_that_strays_far_cannot_be_right(effect, grave):
-    found = fit(simulate(MECHANISMS["drivetrain"].hide(effect, 2.0), GENTLE, rng=rng(1)))
-
-    assert [doubt.grave for doubt in found.doubts if doubt.code == "model-strays"] == [grave]
-
-
 @pytest.mark.parametrize("kind", ["elevator", "arm"])
 @pytest.mark.parametrize("seed", [0, 1, 2])  # the second elevator is refused as of type simple
 def test_gravity_that_the_type_leaves_out_is_suggested(kind, seed):
@@ -331,16 +257,6 @@ def test_gravity_that_the_type_leaves_out_is_suggested(kind, seed):
     assert [one for one in said if f"Fit it with --type {kind} if gravity acts on it" in one]
 
 
-@pytest.mark.parametrize("effect", ["drag", "stribeck", "cogging", "spring", "asymmetric-back-emf"])
-def test_gravity_is_not_suggested_where_something_else_is_missing(effect):
-    log = simulate(MECHANISMS["turret"].hide(effect, 2.0), GENTLE, rng=rng(1))
-
-    said = [doubt.text for doubt in fit(log).doubts if "sysid reconcile" in doubt.text]
-
-    assert said
-    assert not [one for one in said if "--type" in one]
-
-
 def test_a_velocity_that_has_nothing_to_do_with_the_voltage_is_refused():
     runs = []
     for index, run in enumerate(textbook(noise=0.02).runs):
@@ -350,26 +266,6 @@ def test_a_velocity_that_has_nothing_to_do_with_the_voltage_is_refused():
 
     with pytest.raises(NotIdentifiable, match="Inspect the log|Add |Let it run|Run the tests"):
         fit(Log(tuple(runs)))
-
-
-@pytest.mark.parametrize("kind", MECHANISMS)
-def test_a_model_that_holds_is_not_doubted(kind):
-    for seed in range(4):
-        mechanism = drawn(kind, 40 + seed)
-        found = fit(simulate(mechanism, GENTLE, rng=rng(seed)), type=mechanism.type)
-        assert {doubt.code for doubt in found.doubts} <= {"type-from-name"}
-
-
-@pytest.mark.parametrize(
-    ("mechanism", "asked", "said"),
-    [("left-Elevator", "", ["type-from-name"]), ("left-Elevator", "elevator", []), ("", "", [])],
-)
-def test_a_type_taken_from_a_name_is_told(mechanism, asked, said):
-    log = simulate(MECHANISMS["elevator"], GENTLE, rng=rng(1))
-
-    found = fit(replace(log, mechanism=mechanism, type="elevator"), type=asked)
-
-    assert [doubt.code for doubt in found.doubts if doubt.code == "type-from-name"] == said
 
 
 SUBSETS = [set(some) for n in range(5) for some in combinations(FOUR_TESTS, n)]
@@ -429,39 +325,6 @@ def test_how_a_position_was_rounded_at_rest_is_no_matter():
 
     for gain, error in found.errors.items():
         assert abs(moved.gains[gain] - found.gains[gain]) < 0.05 * error, gain
-
-
-@pytest.mark.parametrize(
-    ("log", "type_", "said"),
-    [
-        (Log(()), "simple", "the mechanism hardly moves in this log. Run the tests"),
-        (textbook(noise=0.0), "arm", "an arm's position must be an angle"),
-    ],
-    ids=["empty", "arm in meters"],
-)
-def test_what_cannot_be_fitted_is_refused(log, type_, said):
-    with pytest.raises((NotIdentifiable, BadRequest)) as refused:
-        fit(log, type=type_)
-
-    assert said in str(refused.value)
-
-
-@settings(max_examples=40)
-@given(
-    st.lists(st.floats(-1e8, 1e8), min_size=5, max_size=40),
-    st.lists(st.floats(-1e8, 1e8), min_size=5, max_size=40),
-    st.sampled_from(["simple", "elevator", "arm"]),
-)
-def test_any_table_of_numbers_gives_finite_gains_or_a_refusal(volts, speeds, type_):
-    n = min(len(volts), len(speeds))
-    way = np.clip(np.cumsum(speeds[:n]) * 0.02, -9e8, 9e8)
-    runs = tuple(Run(test, np.arange(n) * 0.02, volts[:n], way, speeds[:n]) for test in FOUR_TESTS)
-    try:
-        found = fit(Log(runs, units="radians"), type=type_)
-    except (NotIdentifiable, BadRequest):
-        return
-    for numbers in (found.gains, found.errors):
-        assert all(math.isfinite(value) for value in numbers.values())
 
 
 @pytest.mark.parametrize("kind", ["drivetrain", "shooter"])

@@ -16,6 +16,8 @@ from grader.exercise import find_exercise
 from grader.package_files import find_imported_modules, select_package_files, strip_notebook
 from sim.core.errors import BadRequest
 
+pytestmark = pytest.mark.slow
+
 SECRET = b"0123456789abcdef-east"
 NOT_COPIED = shutil.ignore_patterns("data", "__pycache__", ".*")
 

@@ -21,6 +21,8 @@ from grader.package_files import select_package_files
 from grader.release import StudentPackage, make_student_package, pack_course_folder
 from grader.student_data.variant import use_class_secret
 
+pytestmark = pytest.mark.slow
+
 ROOT = find_course(Path(__file__).resolve().parent)
 SECRET = b"0123456789abcdef-keys"
 STUDENTS = ("ann", "ben")

@@ -12,7 +12,7 @@ from sim.bench.simulate import simulate
 from sim.core.errors import BadRequest
 from sim.core.units import find_unit
 from sim.fit import fit
-from sim.fit.physics import Parts, check_plausibility, compare_directions, compare_sides
+from sim.fit.physics import Parts, check_plausibility, compare_sides
 from sim.physics.motors import MOTORS, find_motor
 
 GENTLE = Routine(ramp=0.5, step=3.5)
@@ -89,25 +89,6 @@ def test_quiet_about_a_clean_log_and_true_parts(kind, method):
     assert said == gravity_advice(mechanism) + fast
 
 
-@pytest.mark.parametrize("kind", PARTED)
-@pytest.mark.parametrize("seed", [11, 12, 13])
-def test_quiet_about_others_like_it_unless_they_rub_or_are_fast(kind, seed):
-    mechanism = MECHANISMS[kind].draw(rng(seed))
-    gains = mechanism.gains
-    truly = {
-        "friction-watch": gains["kS"] > 0.5,  # a stiff intake
-        "fast-mechanism": gains["kA"] / gains["kV"] < 0.02,  # and a light one
-        "kv-drag": mechanism.drag > 0.08,
-    }
-    log = recorded(mechanism, seed)
-
-    said = check_plausibility(fit(log), parts=true_parts(mechanism))
-
-    expected = {code for code, holds in truly.items() if holds} | set(gravity_advice(mechanism))
-    assert set(codes(said)) == expected
-    assert compare_directions(log, mechanism.type) == ()
-
-
 @pytest.mark.parametrize(
     ("kind", "factor"),
     [
@@ -125,11 +106,11 @@ def test_quiet_about_others_like_it_unless_they_rub_or_are_fast(kind, seed):
         ("elevator", 0.0254),
     ],
 )
-def test_a_wrong_unit_in_the_log_is_named(kind, factor, reads):
+def test_a_wrong_unit_in_the_log_is_named(kind, factor):
     said = check_plausibility(read_as(kind, factor), parts=true_parts(MECHANISMS[kind]))
 
     code = "kv-below-theory" if factor > 1.0 else "kv-above-theory"
-    reads(about(said, code))
+    assert about(said, code)
     # kA is off as much, and says where to look
     kas = [doubt.message for doubt in said if doubt.code.startswith("ka-")]
     assert len(kas) == 1
@@ -159,12 +140,6 @@ def test_wrong_parts_are_caught_and_what_would_fit_is_said(kind, wrong, code, na
     parts = replace(true_parts(MECHANISMS[kind]), **wrong)
 
     assert named in about(check_plausibility(found_in(kind), parts=parts), code)
-
-
-def test_the_number_of_motors_does_not_change_kv():
-    parts = replace(true_parts(MECHANISMS["drivetrain"]), count=2, load=None)
-
-    assert check_plausibility(found_in("drivetrain"), parts=parts) == ()
 
 
 def test_a_model_that_does_not_hold_comes_before_the_parts():
@@ -199,15 +174,6 @@ def test_drag_is_told_by_its_size(drag, code):
     assert not any(doubt.grave for doubt in said)
 
 
-def test_a_difference_within_the_errors_is_no_doubt():
-    found, parts = found_in("turret"), true_parts(MECHANISMS["turret"])
-    low = replace(found, gains={name: 0.9 * value for name, value in found.gains.items()})
-    loose = replace(low, errors={name: 0.05 * value for name, value in low.gains.items()})
-
-    assert codes(check_plausibility(low, parts=parts)) == ["kv-below-theory", "ka-below-theory"]
-    assert check_plausibility(loose, parts=parts, period=0.005) == ()
-
-
 @pytest.mark.parametrize(
     ("share", "code"),
     [
@@ -230,12 +196,6 @@ def test_weight_over_inertia_of_an_elevator_is_at_most_g_and_of_a_cascade_2_g(sh
     assert all("m/s²" in doubt.message for doubt in said)
 
 
-def test_an_elevator_on_a_spring_is_told_by_its_weight():
-    mechanism = replace(MECHANISMS["elevator"], lift=0.7 * 9.81)
-
-    assert codes(check_plausibility(fit(recorded(mechanism)))) == ["gravity-below-g"]
-
-
 @pytest.mark.parametrize(
     ("kind", "ks", "code"),
     [
@@ -253,89 +213,6 @@ def test_friction_has_a_band_to_watch_and_a_red_flag(kind, ks, code):
     assert [doubt.grave for doubt in said] == ([code == "friction-stop"] if code else [])
 
 
-def test_an_elevator_fitted_as_simple_waves_the_red_flag(reads):
-    found = found_in("drivetrain", kS=10.5, kV=-0.2)  # as SysId's recipe reads such an elevator
-
-    reads(about(check_plausibility(found), "friction-stop"))
-
-
-@pytest.mark.parametrize(
-    ("method", "period", "doubted"),
-    [
-        ("output-error", 0.005, False),
-        ("output-error", 0.02, False),  # 29 ms, but sure of it
-        ("sysid", 0.02, True),  # biased there, and does not know
-        ("sysid", 0.005, False),
-        ("output-error", 0.04, True),
-    ],
-)
-def test_a_timescale_shorter_than_the_sampling_is_told(method, period, doubted):
-    found = replace(found_in("intake"), method=method)
-    said = check_plausibility(found, period=period)
-
-    assert codes(said) == ["fast-mechanism"] * doubted
-    assert all("kA/kV = 29 ms" in doubt.message for doubt in said)
-    assert all("Log every 7" in doubt.message for doubt in said)
-
-
-@pytest.mark.parametrize("kind", ["drivetrain", "shooter", "turret", "arm", "intake"])
-@pytest.mark.parametrize(
-    ("effect", "gain"), [("asymmetric-friction", "kS"), ("asymmetric-back-emf", "kV")]
-)
-def test_directions_that_differ_are_told_by_the_gain(kind, effect, gain):
-    mechanism = MECHANISMS[kind].hide(effect)
-
-    (doubt,) = compare_directions(recorded(mechanism), mechanism.type)
-
-    assert doubt.code == "directions-differ"
-    assert doubt.message.startswith(f"{gain} is ")
-    assert doubt.message.endswith(".")
-
-
-def test_nothing_is_said_of_directions_that_cannot_be_fitted_alone():
-    lopsided = MECHANISMS["elevator"].hide("asymmetric-friction")
-    log = recorded(MECHANISMS["drivetrain"])
-    half = replace(log, runs=tuple(run for run in log.runs if run.direction == "forward"))
-
-    assert compare_directions(recorded(lopsided), "elevator") == ()
-    assert compare_directions(half, "simple") == ()
-
-
-@pytest.mark.parametrize(
-    ("changes", "gains"),
-    [
-        ({}, []),
-        ({"friction": 0.24}, ["kS"]),
-        ({"friction": 0.17}, []),  # 20 mV is nothing a robot notices
-        ({"ratio": 7.36}, ["kV", "kA"]),
-        ({"load": 52.0}, ["kA"]),
-    ],
-)
-def test_two_sides_are_compared_gain_by_gain(changes, gains):
-    other = fit(recorded(replace(MECHANISMS["drivetrain"], **changes), seed=2))
-
-    said = compare_sides(found_in("drivetrain"), other)
-
-    assert [doubt.message.partition(" ")[0] for doubt in said] == gains
-    assert set(codes(said)) <= {"sides-differ"}
-
-
-def test_a_side_that_runs_backward_or_is_in_feet_is_compared_by_size():
-    found = found_in("drivetrain")
-    mirrored = replace(found, gains={name: -value for name, value in found.gains.items()})
-
-    assert compare_sides(found, mirrored.in_units("feet")) == ()
-
-
-def test_units_shown_are_the_owners_and_the_unit_of_the_fit_does_not_matter():
-    found, parts = found_in("turret"), replace(true_parts(MECHANISMS["turret"]), ratio=60.0)
-
-    said = check_plausibility(found, parts=parts)
-
-    assert "V·s/deg" in about(said, "kv-below-theory")
-    assert check_plausibility(found.in_log_units(), parts=parts) == said
-
-
 @pytest.mark.parametrize(
     "ask",
     [
@@ -349,7 +226,7 @@ def test_units_shown_are_the_owners_and_the_unit_of_the_fit_does_not_matter():
         lambda: compare_sides(found_in("turret"), found_in("drivetrain")),
     ],
 )
-def test_what_cannot_be_compared_is_refused(ask, reads):
+def test_what_cannot_be_compared_is_refused(ask):
     with pytest.raises(BadRequest) as refused:
         ask()
-    reads(refused.value)
+    assert refused.value.advice

@@ -13,6 +13,8 @@ import pytest
 from grader.exercise import Exercise
 from grader.student_data.variant import make_folder_name
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).resolve().parents[1]
 FEW = 20  # students in the gate
 FEWER = {  # where logs are simulated, or fitted and reconciled

@@ -12,7 +12,8 @@ import ipywidgets
 import numpy as np
 import pytest
 from html_tags import Tags
-from matplotlib.image import imread
+from test_plot_gravity import PICTURES as GRAVITY
+from test_plot_motor import PICTURES as MOTOR
 
 import sim
 from sim.bench.simulate import simulate
@@ -29,7 +30,6 @@ from sim.plot import (
     plot_voltage_velocity,
     show_interactive,
 )
-from sim.plot.picture import COLORS, LINES, MARKERS
 
 ROUTINE = sim.Routine(ramp=0.5, step=3.5)
 
@@ -66,6 +66,7 @@ PICTURES = {
         [1, 2], [2, 5], intercept=0, slope=2, xlabel="x [m]", ylabel="y [V]"
     ),
 }
+PICTURES |= GRAVITY | MOTOR
 each_picture = pytest.mark.parametrize("name", PICTURES)
 
 
@@ -104,76 +105,9 @@ def test_the_same_picture_is_the_same_text(name):
     assert PICTURES[name]().svg == drawn(name)[1]
 
 
-@each_picture
-def test_a_notebook_gets_words_and_picture_and_a_terminal_gets_words(name):
-    picture, _, bundle = drawn(name)
-    assert set(bundle) == {"text/plain", "text/html"}
-    assert bundle["text/plain"].startswith(picture.alt)
-    assert picture.alt in str(picture)
-
-
-def test_color_never_speaks_alone():
-    assert len(set(COLORS)) == len(set(MARKERS)) == len(set(LINES)) == len(COLORS)
-
-
-def test_the_table_of_a_log_says_what_the_log_says():
-    table = plot_time_series(DRIVE).table
-    run = DRIVE.list_runs_of_test("dynamic-reverse")[0]
-    (row,) = (row for row in table.rows if row[0] == "dynamic-reverse")
-    assert row[1] == len(run) == 381
-    assert row[3:5] == (-3.5, -3.5)
-    assert row[5] == run.velocity.min()
-
-
-def test_velocities_are_in_the_unit_of_the_log():
-    table = plot_time_series(SHOOTER).table
-    fastest = table.rows[0][-1]
-    assert table.header[-1] == "fastest [rot/s]"
-    assert fastest == pytest.approx(
-        SHOOTER.list_runs_of_test("quasistatic-forward")[0].velocity.max() / (2 * np.pi)
-    )
-
-
-def test_a_line_is_told_in_words_and_numbers(reads):
-    picture = plot_voltage_velocity(DRIVE, lines={"truth": Line(0.15, 2.524)})
-    reads(picture.alt)
-    assert picture.table.rows == (("truth", 0.15, 2.524),)
-
-
 def test_choices_say_by_how_much_each_is_off():
     picture = plot_choices({"low": 1.5, "near": 2.002, "high": 3.0}, truth=2.0, name="kA")
     assert [row[2] for row in picture.table.rows] == ["−25 %", "+0.1 %", "+50 %"]
-
-
-def test_a_small_error_looks_small():
-    axes = plot_choices({"near": 2.002}, truth=2.0, name="kA").figure.axes[0]
-    least, most = axes.get_xlim()
-    assert least < 1.6
-    assert most > 2.4
-
-
-def test_misses_are_squared_and_summed(reads):
-    picture = plot_misses([1, 2], [3, 5], intercept=0, slope=2, xlabel="x [m]", ylabel="y [V]")
-    assert [row[3] for row in picture.table.rows] == [1.0, 1.0]  # 3 - 2 and 5 - 4
-    reads(picture.alt)
-
-
-@pytest.mark.parametrize(
-    ("label", "headed", "squared"),
-    [
-        ("y [V]", "error [V]", "2.00 V²."),
-        ("y [m/s]", "error [m/s]", "2.00 (m/s)²."),
-        ("y", "error", "2.00."),
-    ],
-)
-def test_the_errors_of_a_line_have_its_unit(label, headed, squared):
-    picture = plot_misses([1, 2], [3, 5], intercept=0, slope=2, xlabel="x [m]", ylabel=label)
-    assert picture.table.header[-1] == headed
-    assert picture.alt.endswith(squared)
-
-
-def test_the_table_of_a_curve_is_short():
-    assert len(PICTURES["curves"]().table.rows) <= 8
 
 
 @pytest.mark.parametrize(
@@ -187,10 +121,10 @@ def test_the_table_of_a_curve_is_short():
     ],
     ids=["no choices", "no curves", "a short curve", "an empty log", "no ramp"],
 )
-def test_what_cannot_be_drawn_is_refused_with_advice(draw, reads):
+def test_what_cannot_be_drawn_is_refused_with_advice(draw):
     with pytest.raises(BadRequest) as refused:
         draw()
-    reads(refused.value)
+    assert refused.value.advice
 
 
 @pytest.mark.parametrize("suffix", ["svg", "png", "pdf", "PNG"])
@@ -200,12 +134,6 @@ def test_a_picture_is_saved_whole_and_the_same_again(suffix, tmp_path):
     PICTURES["choices"]().save(two)
     assert one.read_bytes() == two.read_bytes()
     assert sorted(path.name for path in tmp_path.iterdir()) == [one.name, two.name]
-
-
-def test_a_saved_picture_is_not_blank(tmp_path):
-    PICTURES["time series"]().save(tmp_path / "log.png")
-    red, green = np.moveaxis(imread(tmp_path / "log.png"), -1, 0)[:2]
-    assert np.unique(red + 256.0 * green).size > 50
 
 
 @pytest.mark.parametrize(
@@ -227,11 +155,6 @@ def test_turning_a_knob_draws_the_picture_that_plain_code_draws():
     assert panel.children[-1].value == draw(1.0).html
     knob.value = 2.5
     assert panel.children[-1].value == draw(2.5).html
-
-
-def test_several_pictures_stand_below_each_other():
-    panel = show_interactive(lambda: [PICTURES["choices"](), PICTURES["misses"]()])
-    assert panel.children[-1].value.count("<img ") == 2
 
 
 def test_a_knob_that_asks_for_what_cannot_be_drawn_says_so():

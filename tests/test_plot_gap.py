@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from html_tags import Tags
-from matplotlib.colors import to_rgba
 
 import sim
 from sim.bench.duty_cycle import Battery, simulate_duty_cycle
@@ -14,7 +13,6 @@ from sim.bench.simulate import simulate
 from sim.core.errors import BadRequest
 from sim.physics.model import Model
 from sim.plot import make_residual_views, plot_gap_bars, plot_voltage_residual
-from sim.plot.picture import PAPER
 from sim.plot.voltage_residual import compute_missing_volts, simulate_velocity
 
 DRIVETRAIN = MECHANISMS["drivetrain"]
@@ -66,20 +64,6 @@ def test_nothing_is_seen_where_nothing_is_missing():
     assert all(view.explains < 0.1 for view in found.views.values())
 
 
-def test_what_no_plot_shows_is_said():
-    """A push in one run has no cause that speed, time, position or direction could show."""
-    log = hiding("")
-    pushed = log.runs[0].velocity + 0.3 * np.sin(7.0 * log.runs[0].time)
-    found = make_residual_views(
-        replace(log, runs=(replace(log.runs[0], velocity=pushed), *log.runs[1:])), TRUTH
-    )
-    assert found.unexplained > 0.3
-    assert (
-        f"{100 * found.unexplained:.0f} % of the gap beyond noise shows in no plot"
-        in found.headline
-    )
-
-
 def test_missing_volts_are_the_volts_of_the_friction_that_is_hidden():
     log = hiding("asymmetric-friction", noise=False)
     (lean,) = DRIVETRAIN.hide("asymmetric-friction").hidden[0].parameters.values()
@@ -89,30 +73,6 @@ def test_missing_volts_are_the_volts_of_the_friction_that_is_hidden():
     ]
     fast = np.flatnonzero(ramp.velocity > 0.3)[:-1]
     assert np.median(lacks[fast]) == pytest.approx(-lean, rel=0.05)
-
-
-def test_without_a_record_of_the_battery_there_are_four_sides():
-    log = simulate(DRIVETRAIN, ROUTINE, rng=np.random.default_rng(1))
-    assert "battery voltage" not in make_residual_views(log, TRUTH).views
-    picture = plot_voltage_residual(log, TRUTH)
-    assert len(picture.table.rows) == 4
-    assert picture.alt.startswith("Four views")
-
-
-def test_a_gap_bar_says_its_numbers():
-    picture = plot_gap_bars(
-        {"base": {"log": 3.0, "held out": 12.0}, "+ x": {"log": 1, "held out": 2}}
-    )
-    assert "base: log 3.00, held out 12.0" in picture.alt
-    assert picture.table.rows[0] == ("base", 3.0, 12.0)
-
-
-def test_a_number_at_the_noise_is_not_struck_through_by_its_line():
-    axes = plot_gap_bars({"base": {"log": 0.96}}).figure.axes[0]
-    (number,) = axes.texts
-    (line,) = (one for one in axes.lines if one.get_label() == "the noise")
-    assert number.get_zorder() > line.get_zorder()
-    assert number.get_bbox_patch().get_facecolor() == to_rgba(PAPER)
 
 
 @pytest.mark.parametrize("gaps", [{}, {"a": {}}, {"a": {"log": 1.0}, "b": {"other": 1.0}}])

@@ -34,14 +34,13 @@ def _swing():
     return Log(tuple(runs))
 
 
-def test_a_step_falls_on_the_line_of_its_gains(reads):
+def test_a_step_falls_on_the_line_of_its_gains():
     picture = plot_acceleration_velocity(_swing())
     step = next(row for row in picture.table.rows if row[0] == "dynamic-forward")
     # under 3 V: (3.0 - 0.2)/0.3 at standstill, falling by kV/kA per second
     assert step[4] == pytest.approx(2.8 / 0.3, rel=0.05)
     assert step[5] == pytest.approx(-2.0 / 0.3, rel=0.05)
     assert len(picture.figure.axes[0].lines) == 4
-    reads(picture.alt)
 
 
 @pytest.mark.parametrize(

@@ -3,6 +3,7 @@
 import math
 from dataclasses import replace
 from itertools import pairwise
+from operator import attrgetter
 
 import pytest
 from hypothesis import given
@@ -10,7 +11,6 @@ from hypothesis import strategies as st
 
 from sim.bench.mechanisms import MECHANISMS
 from sim.core.errors import BadRequest
-from sim.core.units import convert_gains
 from sim.teaching.profile_loop import (
     LOOP,
     ONBOARD,
@@ -81,40 +81,6 @@ def test_a_missing_kg_leaves_the_droop_that_the_arithmetic_says():
     assert move.error[-1] == pytest.approx(0.4 / kp, rel=0.03)  # missing kG ÷ kP
 
 
-def test_a_hidden_spring_is_in_the_error_until_its_volts_are_added():
-    robot = LIFT.hide("spring")
-    (spring,) = (part.parameters for part in robot.hidden)
-    ff = ElevatorFeedforward(*(LIFT.gains[name] for name in ("kS", "kG", "kV", "kA")))
-    pid = PIDController(0.0)
-    with_spring = follow_in_closed_loop(
-        robot,
-        RISE,
-        lambda one: (
-            compute_loop_voltage(ff, pid, one)
-            + spring["rate"] * one.now.position
-            + spring["preload"]
-        ),
-    )
-
-    assert error(LIFT.gains, robot=robot) > 1.0
-    assert 100.0 * with_spring.worst_error < 0.3
-
-
-def test_gains_per_rotor_rotation_leave_nearly_the_whole_way():
-    drum = 2.0 * math.pi * LIFT.radius
-
-    def worst(meters):
-        gains = convert_gains(LIFT.gains, factor=meters) | {"kP": 5.0 * meters}
-        move = follow_in_closed_loop(
-            LIFT, RISE, lambda one: compute_phoenix_voltage(gains, one, meters_per_rotation=drum),
-            period=ONBOARD,
-        )  # fmt: skip
-        return move.worst_error
-
-    assert worst(drum) < 0.001  # [m]
-    assert worst(drum / LIFT.ratio) > 0.3
-
-
 @given(st.floats(-2.0, 2.0), st.floats(-2.0, 2.0), st.floats(0.1, 3.0), st.floats(0.2, 20.0))
 def test_a_profile_keeps_its_limits_and_arrives(start, goal, speed, push):
     if abs(goal - start) < 1e-3:
@@ -145,15 +111,6 @@ def test_the_feedforward_is_wpilibs(now, after):
         )
 
 
-def test_from_rest_the_first_loop_has_no_ks():
-    ff, bare = (ElevatorFeedforward(ks, 2.0, 4.5, 0.2) for ks in (0.25, 0.0))
-
-    assert ff.calculateWithVelocities(0.0, 0.1) == bare.calculateWithVelocities(0.0, 0.1)
-    assert ff.calculateWithVelocities(0.1, 0.2) == pytest.approx(
-        0.25 + bare.calculateWithVelocities(0.1, 0.2)
-    )
-
-
 def test_the_feedback_is_wpilibs():
     wpi = pytest.importorskip("wpimath.controller", reason="needs the extra robot")
     mine, theirs = PIDController(3.0, 0.7, 0.05), wpi.PIDController(3.0, 0.7, 0.05)
@@ -163,65 +120,31 @@ def test_the_feedback_is_wpilibs():
         assert mine.calculate(measured, wanted) == pytest.approx(theirs.calculate(measured, wanted))
 
 
+def loop_of(now="now.velocity", after="after.velocity", measured="position", wanted="now.position"):
+    """A learner's loop that hands these numbers of a moment to the feedforward and the feedback."""
+    of = attrgetter(now, after, measured, wanted)
+
+    def loop(ff, pid, one):
+        velocity, later, seen, asked = of(one)
+        return ff.calculateWithVelocities(velocity, later) + pid.calculate(seen, asked)
+
+    return loop
+
+
 @pytest.mark.parametrize(
     ("mine", "says"),
     [
         (compute_loop_voltage, RIGHT),
+        (loop_of(), RIGHT),
         (lambda *_: ..., "still empty"),
-        (lambda *_: None, "still empty"),
-        (lambda *_: nothing, "stops with an error: name 'nothing'"),  # noqa: F821 - meant
-        (
-            lambda ff, _, one: ff.calculateWithVelocities(one.now.velocity, one.after.velocity),
-            "The feedback is missing",
-        ),
-        (
-            lambda _, pid, one: pid.calculate(one.position, one.now.position),
-            "The feedforward is missing",
-        ),
-        (
-            lambda ff, pid, one: (
-                ff.calculateWithVelocities(one.now.velocity, one.after.velocity)
-                + pid.calculate(one.now.position, one.position)
-            ),
-            "takes the measurement first",
-        ),
-        (
-            lambda ff, pid, one: (
-                ff.calculateWithVelocities(one.now.velocity, one.now.velocity)
-                + pid.calculate(one.position, one.now.position)
-            ),
-            "kA does nothing",
-        ),
-        (
-            lambda ff, pid, one: (
-                ff.calculateWithVelocities(
-                    one.now.velocity, (one.after.velocity - one.now.velocity) / 0.02
-                )
-                + pid.calculate(one.position, one.now.position)
-            ),
-            "not an acceleration",
-        ),
-        (
-            lambda ff, pid, one: (
-                ff.calculateWithVelocities(one.now.position, one.after.position)
-                + pid.calculate(one.position, one.now.position)
-            ),
-            "needs velocities",
-        ),
-        (
-            lambda ff, pid, one: (
-                ff.calculateWithVelocities(one.velocity, one.after.velocity)
-                + pid.calculate(one.position, one.now.position)
-            ),
-            "never at what is measured",
-        ),
-        (
-            lambda ff, pid, one: (
-                ff.calculateWithVelocities(one.now.velocity, one.after.velocity)
-                + pid.calculate(one.velocity, one.now.velocity)
-            ),
-            "controls a position",
-        ),
+        (lambda *_: nothing, "stops with an error"),  # noqa: F821 - meant
+        (lambda ff, _, one: loop_of()(ff, PIDController(0.0), one), "The feedback is missing"),
+        (lambda _, pid, one: pid.calculate(one.position, one.now.position), "The feedforward is"),
+        (loop_of(measured="now.position", wanted="position"), "takes the measurement first"),
+        (loop_of(after="now.velocity"), "kA does nothing"),
+        (loop_of(now="now.position", after="after.position"), "needs velocities"),
+        (loop_of(now="velocity"), "never at what is measured"),
+        (loop_of(measured="velocity", wanted="now.velocity"), "controls a position"),
         (lambda *_: 1.0, "Add two things"),
     ],
 )
@@ -229,21 +152,10 @@ def test_a_learners_loop_is_checked_and_ours_used_until_it_is_right(mine, says):
     found = check_loop(mine)
 
     assert says in found.report
-    assert found.loop is (mine if says == RIGHT else compute_loop_voltage)
+    assert found.loop is (mine if says is RIGHT else compute_loop_voltage)
 
 
 @pytest.mark.parametrize("volts", [lambda _: math.nan, lambda _: ..., lambda _: "12"])
 def test_a_loop_that_answers_with_no_number_is_told_so(volts):
     with pytest.raises(BadRequest, match="instead of volts"):
         follow_in_closed_loop(LIFT, RISE, volts)
-
-
-@pytest.mark.parametrize("limits", [(0.0, 1.0), (1.0, -1.0), (math.nan, 1.0)])
-def test_a_profile_without_limits_is_refused(limits):
-    with pytest.raises(BadRequest, match="not above zero"):
-        TrapezoidProfile(0.0, 1.0, *limits)
-
-
-def test_a_profile_that_goes_nowhere_is_refused():
-    with pytest.raises(BadRequest, match="goes nowhere"):
-        TrapezoidProfile(0.5, 0.5, 1.0, 1.0)

@@ -1,7 +1,5 @@
 """Where in its free play a run began: no log says so, and how it went on does."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from reconcile_made import recorded
@@ -9,20 +7,12 @@ from reconcile_made import recorded
 from sim.core.log import Log
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
-from sim.estimation.optimize import levenberg_marquardt
-from sim.estimation.run_nuisance import BETWEEN, ON_ONE_SIDE, RunNuisance
+from sim.estimation.run_nuisance import RunNuisance
 from sim.estimation.run_records import make_run_records
 from sim.physics.engine import State
 from sim.physics.model import Model, Part
 from sim.reconcile import reconcile
 from sim.reconcile.backlash_phase import estimate_backlash_phase
-from sim.reconcile.candidates import FURTHER, descend_candidate, score_estimate
-from sim.reconcile.cross_validation import Gap
-from sim.reconcile.local_minimum import minimize_fully
-from sim.reconcile.remarks import list_remarks
-from sim.reconcile.residual_tests.summary import ResidualSummary
-from sim.reconcile.selection_round import SelectionRound
-from sim.reconcile.story import Finding
 
 GAINS = {"kS": 0.2, "kV": 2.4, "kA": 0.3}
 SLACK, SHARE = 0.05, 0.2
@@ -39,14 +29,6 @@ BEGAN = {
 PLAYS = ModelStructure("simple") + "backlash"
 OWN = {f"backlash.{name}": value for name, value in JOINT.items()}
 VALUES = {**GAINS, **OWN}
-
-
-def named(effect):
-    return Finding(
-        effect=effect, kind="effect", size="major", ambiguous_with=(), parameters={},
-        gap_before=2.0, gap_after=1.0, sentence="", inspect="", separating_test="",
-        probability=1.0,
-    )  # fmt: skip
 
 
 def session(which, *, step, seed):
@@ -89,63 +71,6 @@ def test_each_run_is_begun_where_it_went_on_from(problem):
     )
 
 
-def test_a_second_look_is_nearer():
-    off = PredictionErrorProblem.from_records(
-        make_run_records(session(1, step=3.0, seed=2))
-    )  # -1, 0, 1 and -0.5
-    began = RunNuisance.at_first_samples(4).with_backlash_phase(np.array([-0.8, 0.2, 0.8, -0.7]))
-
-    seen = estimate_backlash_phase(off, at(off, nuisance=began))
-
-    assert seen.nuisance.backlash_phase == pytest.approx(
-        [one for _, one in BEGAN.values()], abs=0.05
-    )
-
-
-def test_a_start_that_was_told_amiss_is_gone_untold_too():
-    problem = PredictionErrorProblem.from_records(
-        make_run_records(begun_at([0.0] * len(BEGAN), step=6.0, seed=3))
-    )
-    stiff = at(problem, ModelStructure("simple"))
-    base = minimize_fully(problem, stiff)
-    told = RunNuisance.at_first_samples(len(BEGAN)).with_backlash_phase(
-        np.array([-1.0, 1.0, -1.0, 1.0])
-    )
-    values = {**base.values, **OWN}
-    start = problem.evaluate(PLAYS, values, told, base.process_noise)
-    assert levenberg_marquardt(problem, start, steps=FURTHER).cost > base.cost  # it leads nowhere
-
-    found = descend_candidate(problem, start)
-
-    assert found.cost < base.cost - 5000.0
-    assert not found.nuisance.has_backlash_phase
-
-
-def test_what_is_told_has_its_price(problem):
-    blind = at(problem)
-    seen = estimate_backlash_phase(problem, blind)
-    aside = np.count_nonzero(np.abs(seen.nuisance.backlash_phase) == 1.0)
-    between = np.count_nonzero(np.abs(seen.nuisance.backlash_phase) < 1.0)
-
-    assert aside > between > 0
-    price = float(np.sum(seen.nuisance.backlash_phase_costs))
-    assert price == pytest.approx(aside * ON_ONE_SIDE + between * BETWEEN)
-    innovations = problem.predict_errors(
-        seen.structure.model(seen.values), seen.nuisance, seen.kalman_filter
-    )
-    fit = problem._cost(problem.compute_covariance(innovations))
-    assert seen.cost == pytest.approx(fit + price)
-    assert score_estimate(problem, seen).bic > seen.cost  # and the values' own beside it
-
-
-def test_without_play_nothing_is_told_and_nothing_is_kept(problem):
-    stiff = at(problem, ModelStructure("simple"))
-    assert estimate_backlash_phase(problem, stiff) is stiff
-
-    told = estimate_backlash_phase(problem, at(problem)).nuisance
-    assert np.isnan(at(problem, ModelStructure("simple"), told).nuisance.backlash_phase).all()
-
-
 def test_play_is_named_wherever_its_runs_began_and_the_gap_closes():
     story = reconcile(
         session(0, step=4.0, seed=1),
@@ -158,18 +83,3 @@ def test_play_is_named_wherever_its_runs_began_and_the_gap_closes():
     assert found.effect == "backlash"
     assert found.parameters["slack"].value == pytest.approx(SLACK, rel=0.1)
     assert story.gap_after < 1.3 * story.noise_floor
-
-
-def test_where_no_run_turns_the_story_says_that_the_play_may_be_larger(problem):
-    point = at(problem)
-    one = SelectionRound.make_base(score_estimate(problem, point, "backlash"), Gap(0.0, 0.0))
-
-    (said,) = list_remarks(problem, [one], [named("backlash")], (), ResidualSummary())
-    assert "no fitted run changes direction" in said
-
-    turned = session(0, step=4.0, seed=1)
-    back = replace(turned.runs[0], velocity=turned.runs[0].velocity * np.sign(np.arange(600) - 300))
-    there = PredictionErrorProblem.from_records(
-        make_run_records(replace(turned, runs=(back, *turned.runs[1:])))
-    )
-    assert list_remarks(there, [one], [named("backlash")], (), ResidualSummary()) == ()

@@ -5,13 +5,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reconcile_made import based, bench, rubbing, session
+from reconcile_made import based, rubbing
 
-from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import compute_parameter_covariance, compute_standard_errors
-from sim.estimation.run_nuisance import RunNuisance
-from sim.reconcile import reconcile
-from sim.reconcile.candidates import refine_threshold
 from sim.reconcile.cross_validation import (
     Fold,
     compute_open_loop_errors,
@@ -20,7 +16,6 @@ from sim.reconcile.cross_validation import (
     select_usable_folds,
 )
 from sim.reconcile.local_minimum import minimize
-from sim.reconcile.residual_tests.whiteness import find_worst_window
 
 GAINS = {"kS": 0.5, "kV": 0.5, "kA": 0.05}
 NOISE = (1e-3, 1e-2)  # [m] and [m/s]
@@ -36,14 +31,6 @@ def fitted():
 def excluded(problem, *runs):
     records = [one.exclude() if n in runs else one for n, one in enumerate(problem.records)]
     return replace(problem, records=tuple(records))
-
-
-def test_a_motor_is_as_warm_in_the_predicted_run_as_the_runs_before_made_it():
-    mechanism = bench("turret", "heating", size=2.0)
-
-    story = reconcile(session(mechanism, "log"), type=mechanism.type)
-
-    assert [one.effect for one in story.findings if one.size == "major"] == ["heating"]
 
 
 def test_which_samples_are_compared_does_not_depend_on_the_model(fitted):
@@ -70,40 +57,6 @@ def test_a_fold_without_samples_is_not_used_and_a_gap_of_nothing_is_no_gap(fitte
     assert math.isnan(gap.position)
 
 
-def test_some_runs_have_the_noise_and_the_priors_of_all(fitted):
-    problem, _ = fitted
-    bounded = replace(problem, max_process_noise=0.5, priors={"cogging.sine": 0.1})
-
-    some = bounded.select_runs([1, 3])
-    simulated = bounded.select_runs(range(4), compared=[1, 3])
-
-    assert (some.noise, some.max_process_noise, some.priors) == (problem.noise, 0.5, bounded.priors)
-    assert len(simulated.records) == 4
-    assert simulated.sample_count == some.sample_count > 0
-
-
-@pytest.mark.parametrize("every", [1, 5])
-def test_each_signal_counts_with_its_own_samples(fitted, every):
-    problem, point = fitted
-    seen = []
-    for record in problem.records:
-        measured = record.measurements.measured.copy()
-        measured[np.arange(len(measured)) % every > 0, 1] = np.nan
-        seen.append(replace(record, measurements=replace(record.measurements, measured=measured)))
-    rare = replace(problem, records=tuple(seen))
-    positions, velocities, both = rare.compared_counts
-    cov = np.array(point.innovation_cov)
-    wider = cov * np.array([[1.0, 1.1], [1.1, 1.21]])  # velocities a tenth larger
-
-    grown = rare._cost(wider) - rare._cost(cov)
-
-    assert positions == problem.sample_count
-    assert velocities == both
-    assert grown == pytest.approx(velocities * math.log(1.21))
-    if every == 1:
-        assert rare._cost(cov) == pytest.approx(positions * math.log(np.linalg.det(cov)))
-
-
 def test_standard_errors_are_those_of_the_covariance_and_say_what_is_not_known(fitted):
     problem, point = fitted
     structure = point.structure + "deadband"
@@ -117,33 +70,3 @@ def test_standard_errors_are_those_of_the_covariance_and_say_what_is_not_known(f
     assert list(errors.values()) == pytest.approx(np.sqrt(variance).tolist())
     assert unknown["deadband.band"] == math.inf
     assert unknown["kV"] == pytest.approx(errors["kV"], rel=0.05)
-
-
-def test_a_parameter_at_its_limit_ends_no_search(fitted):
-    problem, point = fitted
-    band = {**point.values, "deadband.band": 12.0}
-    late = {**point.values, "delay.lag": 0.5}
-    dead, delayed = (
-        problem.evaluate(ModelStructure("simple", (name,)), values, point.nuisance, 1.0)
-        for name, values in (("deadband", band), ("delay", late))
-    )
-
-    assert math.isfinite(dead.cost + delayed.cost)
-    assert refine_threshold(problem, dead).values["deadband.band"] <= 12.0
-    assert find_worst_window(problem, delayed).size > 0.0
-
-
-def test_windows_with_excluded_samples_do_not_count_as_windows_without_error(fitted):
-    problem, point = fitted
-    half = excluded(problem, 0, 1)
-    nuisance = RunNuisance.at_first_samples(4)
-    here = half.evaluate(point.structure, point.values, nuisance, point.process_noise)
-    alone = problem.select_runs([2, 3])
-    there = alone.evaluate(
-        point.structure, point.values, nuisance.select_runs([2, 3]), point.process_noise
-    )
-
-    assert find_worst_window(half, here).size == pytest.approx(
-        find_worst_window(alone, there).size, rel=1e-6
-    )
-    assert find_worst_window(problem, point).size > 0.0

@@ -10,7 +10,6 @@ from sim.estimation.model_structure import ModelStructure
 from sim.estimation.run_nuisance import RunNuisance
 from sim.estimation.run_records import make_run_records
 from sim.physics.model import Part
-from sim.reconcile import local_minimum
 from sim.reconcile.backward_elimination import remove_needless_effects, simplify_effects
 from sim.reconcile.candidates import score_estimate
 from sim.reconcile.cross_validation import (
@@ -19,10 +18,9 @@ from sim.reconcile.cross_validation import (
     compute_validation_gap,
     make_folds,
 )
-from sim.reconcile.local_minimum import minimize, minimize_fully
+from sim.reconcile.local_minimum import minimize
 from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound
-from sim.reconcile.thresholds import LEAST_SCORE
 
 GAINS = {"kS": 0.5, "kV": 0.5, "kA": 0.05}
 NOISE = (1e-3, 1e-2)  # [m] and [m/s]
@@ -72,36 +70,6 @@ def test_a_wave_along_a_long_way_is_weighed_beside_friction_that_is_simulated():
     assert eased < 0.3 * bare  # which was wider, where friction was only extrapolated
 
 
-@pytest.mark.parametrize("off", [4.0, 0.3])
-def test_gains_that_are_far_off_are_found_from_where_much_seems_to_push(off):
-    problem = PredictionErrorProblem.from_records(make_run_records(session(step=4.0)))
-    far = {"kS": 0.0, "kV": off * GAINS["kV"], "kA": 20.0 * GAINS["kA"]}
-    begun = at(problem, far, process_noise=4.0**6)
-
-    found = minimize_fully(problem, begun)
-
-    assert found.cost <= minimize(problem, begun).cost
-    assert found.values == pytest.approx(GAINS, rel=0.02)
-    assert found.process_noise < problem.noise.velocity**2
-
-
-def test_a_search_goes_on_as_long_as_it_gains(monkeypatch):
-    problem = PredictionErrorProblem.from_records(make_run_records(session(step=4.0)))
-    begun = at(problem, {"kS": 0.3, "kV": 0.8, "kA": 0.1})
-    costs = [begun.cost]
-
-    def halfway(problem, point):
-        values = {name: 0.5 * (point.values[name] + GAINS[name]) for name in GAINS}
-        found = problem.evaluate(point.structure, values, point.nuisance, point.process_noise)
-        costs.append(found.cost)
-        return found
-
-    monkeypatch.setattr(local_minimum, "minimize", halfway)
-
-    assert minimize_fully(problem, begun).cost == min(costs)
-    assert len(costs) > 3  # it was not enough once
-
-
 def test_an_effect_that_needs_fewer_parameters_by_now_gives_way_to_its_sister():
     log = session(Part("constant-load", {"load": 0.3}), step=4.0)
     problem = PredictionErrorProblem.from_records(make_run_records(log))
@@ -117,19 +85,6 @@ def test_an_effect_that_needs_fewer_parameters_by_now_gives_way_to_its_sister():
     assert [one.candidate.effect for one in told] == ["", "constant-load"]
     assert told[-1].candidate.estimate.structure.effects == ("constant-load",)
     assert told[-1].candidate.estimate.values["constant-load.load"] == pytest.approx(0.3, abs=0.02)
-
-
-def test_an_effect_that_needs_its_parameters_keeps_them():
-    log = session(Part("spring", {"rate": 0.1, "preload": 0.0}), step=4.0)
-    problem = PredictionErrorProblem.from_records(make_run_records(log))
-    parts = make_folds([one.session for one in problem.records])
-    base = score_estimate(problem, minimize(problem, at(problem, GAINS)))
-    values = {**GAINS, "spring.rate": 0.1, "spring.preload": 0.0}
-    taken = score_estimate(problem, minimize(problem, at(problem, values, "spring")), "spring")
-    gaps = [compute_validation_gap(problem, one.estimate, parts) for one in (base, taken)]
-    done = make_rounds([base, taken], gaps)
-
-    assert simplify_effects(SelectionData(log, problem, parts), done) == done
 
 
 @pytest.mark.parametrize("others", [("constant-load",), ("constant-load", "stribeck")])
@@ -153,28 +108,3 @@ def test_effects_that_a_later_one_has_made_needless_are_removed(others):
     assert base is done[0]
     assert drag.candidate.effect == "drag"
     assert drag.candidate.estimate.structure.effects == ("drag",)
-
-
-def test_needed_effects_stay_each_with_the_model_that_lacks_it():
-    log = session(
-        Part("drag", {"drag": 0.2}), Part("spring", {"rate": 0.2, "preload": 0.0}), step=4.0
-    )
-    problem = PredictionErrorProblem.from_records(make_run_records(log))
-    folds = make_folds([one.session for one in problem.records])
-    values = {**GAINS, "drag.drag": 0.2, "spring.rate": 0.2, "spring.preload": 0.0}
-    models = [(), ("drag",), ("drag", "spring")]
-    found = [
-        score_estimate(
-            problem, minimize(problem, at(problem, values, *one)), one[-1] if one else ""
-        )
-        for one in models
-    ]
-    gaps = [compute_validation_gap(problem, one.estimate, folds) for one in found]
-    done = make_rounds(found, gaps)
-
-    _, drag, spring = remove_needless_effects(SelectionData(log, problem, folds), done)
-
-    assert drag.without.estimate.structure.effects == ("spring",)
-    assert spring.without.estimate.structure.effects == ("drag",)
-    assert all(one.without.bic > spring.candidate.bic + LEAST_SCORE for one in (drag, spring))
-    assert all(one.gap_without.velocity > spring.gap.velocity for one in (drag, spring))

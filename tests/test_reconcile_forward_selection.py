@@ -18,9 +18,7 @@ from sim.reconcile.candidates import Candidate
 from sim.reconcile.cross_validation import Gap
 from sim.reconcile.forward_selection import (
     add_pair,
-    choose_path,
     find_alternative,
-    select_admissible,
 )
 from sim.reconcile.model_selection import HARDLY, WIDENS, choose_next
 from sim.reconcile.selection_data import SelectionData
@@ -61,21 +59,6 @@ def test_the_likelier_candidate_is_added_or_one_that_closes_far_more(one, other,
 
 LIMIT = weighed("current-limit", 491.0, limit=4.3)
 SAG = weighed("battery-sag", 283.0, share=0.6)
-
-
-@pytest.mark.parametrize(
-    ("other", "admitted"),
-    [
-        (weighed("delay", 357.0, lag=0.003), ["delay"]),
-        (weighed("delay", 200.0, lag=0.003), ["current-limit", "battery-sag", "delay"]),
-        (weighed("delay", 357.0, lag=0.03), ["current-limit", "battery-sag", "delay"]),
-        (weighed("delay", 357.0, lag=0.003, why=WIDENS), ["current-limit", "battery-sag"]),
-    ],
-)
-def test_an_everyday_effect_goes_first_where_it_is_nearly_the_likeliest(other, admitted):
-    found = select_admissible([LIMIT, SAG, other])
-
-    assert [one.candidate.effect for one in found] == admitted
 
 
 # -- pairs ----------------------------------------------------------------------------------------
@@ -124,16 +107,6 @@ def test_two_effects_that_mask_each_other_are_tried_as_a_pair(monkeypatch, score
     assert set(begun) <= {"spring"}
 
 
-@pytest.mark.parametrize(
-    "harmless", [weighed("inertia-change", 900.0, why=WIDENS),
-                 weighed("delay", 900.0, why=WIDENS, lag=0.001)],
-)  # fmt: skip
-def test_neither_a_passing_nor_an_everyday_effect_begins_a_pair(harmless):
-    done = [make_round("", gap=4.0, candidates=(harmless,))]
-
-    assert add_pair(DATA, done) is done
-
-
 # -- other paths ----------------------------------------------------------------------------------
 
 
@@ -153,27 +126,3 @@ def test_another_path_begins_where_an_admitted_candidate_came_near(others, by_ga
     done = [make_round("", gap=9.0, candidates=(*tried, widens)), make_round("drag", gap=5.0)]
 
     assert [one.candidate.effect for one in find_alternative(done, by_gap=by_gap)] == begun
-
-
-@pytest.mark.parametrize(
-    ("end", "bic", "gap", "taken"),
-    [
-        (4.0, -300.0, 1.2, True),  # likelier and nearer
-        (4.0, -300.0, 4.5, False),  # likelier, and farther off on runs it was not fitted to
-        (4.0, 300.0, 3.9, False),  # less likely
-        (1.2, -300.0, 1.0, False),  # the first path does not stray: no other is tried
-    ],
-)
-def test_another_path_is_taken_where_the_first_strays_and_it_does_not(
-    monkeypatch, end, bic, gap, taken
-):
-    tried = (weighed("drag", 400.0), weighed("delay", 300.0))
-    done = [make_round("", gap=9.0, candidates=tried), make_round("drag", gap=end)]
-    other = make_round("delay", gap=gap)
-    other = replace(other, candidate=replace(other.candidate, bic=bic))
-    module = sys.modules[choose_path.__module__]
-    monkeypatch.setattr(module, "_add_effects", lambda _, rounds: [*rounds[:-1], other])
-
-    found = choose_path(DATA, done)
-
-    assert (found[-1] is other) is taken

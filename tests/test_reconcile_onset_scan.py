@@ -6,60 +6,24 @@ import numpy as np
 import pytest
 from reconcile_made import bench, recorded, session, told
 
-from sim.core.log import Log, Run
+from sim.core.log import Log
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import make_joint_jacobian
 from sim.estimation.run_nuisance import RunNuisance
-from sim.estimation.run_records import compute_session_length, join_records, make_run_records
+from sim.estimation.run_records import make_run_records
 from sim.physics.effects import EFFECTS
 from sim.physics.engine import State
 from sim.physics.model import Model, Part
-from sim.physics.voltage_residual import compute_voltage_residual, list_run_start_times
-from sim.reconcile import model_selection
-from sim.reconcile.candidates import score_estimate
-from sim.reconcile.cross_validation import Gap, make_folds
+from sim.physics.voltage_residual import list_run_start_times
 from sim.reconcile.judgement import is_contradicted
 from sim.reconcile.local_minimum import minimize, rate_starts
-from sim.reconcile.onset_scan import flip_duration, refine_onset, scan_onsets
+from sim.reconcile.onset_scan import scan_onsets
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.residual_tests.whiteness import WorstWindow
-from sim.reconcile.selection_data import SelectionData
-from sim.reconcile.selection_round import SelectionRound
 
 PERIOD, LATER = 0.02, 1e6  # [s]
 JOINS = 0.6  # [1] of kA
-
-
-def log_of(starts, *, lasts=1.0):
-    time = np.arange(0.0, lasts + 0.5 * PERIOD, PERIOD)
-    runs = (
-        Run("dynamic-forward", start + time, np.full(time.size, 3.0), time**2, 2.0 * time)
-        for start in starts
-    )
-    return Log(tuple(runs), units="meters", type="simple")
-
-
-@pytest.mark.parametrize(
-    ("first", "later"),
-    [
-        ([5.0, 9.0, 12.0], [1.0, 4.0, 7.5]),  # each log with a clock of its own
-        ([0.0, 0.0, 0.0], [0.0, 0.0, 0.0]),  # each run begins at zero
-    ],
-    ids=["a clock", "no clock"],
-)
-def test_two_logs_in_a_row_have_the_clock_of_their_lanes(first, later):
-    one, other = log_of(first), log_of(later)
-
-    row = join_records(one, other)
-
-    begun = [record.clock for record in make_run_records(one)]
-    begun += [
-        record.clock
-        for record in make_run_records(other, session=1, since=compute_session_length(one))
-    ]
-    assert list_run_start_times(row) == pytest.approx(begun, abs=1e-5)
-    assert begun[3] == pytest.approx(begun[2] + 1.0)  # no pause between the logs
 
 
 def drives(*, onset, until):
@@ -95,28 +59,6 @@ def test_what_joins_in_a_run_is_found_to_the_sample(third, until):
     assert found.parameters["onset"].value == pytest.approx(onset, abs=PERIOD)
     assert found.parameters["extra"].value == pytest.approx(extra, rel=0.15)
     assert story.gap_after < 1.2 * story.noise_floor
-
-
-def test_a_drop_between_two_samples_is_where_the_search_begins(third):
-    extra, sessions = drives(onset=third + 0.513, until=LATER)
-    log = sessions["log"]
-    evidence = compute_voltage_residual(log, dict(bench("drivetrain").gains), type="simple")
-
-    first, second, *_ = EFFECTS["inertia-change"].start_values(evidence)
-
-    assert first["onset"] == second["onset"] == pytest.approx(third + 0.513, abs=PERIOD)
-    assert first["extra"] == pytest.approx(extra, rel=0.35)
-    assert {first["shared"], second["shared"]} == {1.0}
-    assert first["until"] < second["until"] == LATER
-
-
-def test_a_run_without_a_drop_gives_no_such_start():
-    log = session(bench("drivetrain"), "log")
-    evidence = compute_voltage_residual(log, dict(bench("drivetrain").gains), type="simple")
-
-    first = next(iter(EFFECTS["inertia-change"].start_values(evidence)))
-
-    assert first["shared"] == 0.0
 
 
 # Moments that no velocity tells
@@ -179,81 +121,6 @@ def test_its_moment_is_where_the_innovations_change(dynamic, shared, after, last
     assert found["extra"] == pytest.approx(0.02, rel=0.5)
 
 
-def test_what_would_leave_the_whole_log_is_no_moment():
-    problem = PredictionErrorProblem.from_records(make_run_records(log_with(())))
-    point = problem.evaluate(
-        ModelStructure("simple"), GAINS, RunNuisance.at_first_samples(4), problem.noise.velocity**2
-    )
-
-    tried = list(
-        scan_onsets(
-            problem, point, EFFECTS["inertia-change"], jacobian=make_joint_jacobian(problem, point)
-        )
-    )
-
-    assert tried
-    for one in tried:
-        assert one["inertia-change.extra"] >= -0.8 * GAINS["kA"]
-        assert not (one["inertia-change.onset"] == 0.0 and one["inertia-change.until"] == LATER)
-
-
-@pytest.mark.parametrize(
-    ("effect", "score", "admitted"),
-    [("inertia-change", 120.0, False), ("inertia-change", 140.0, True), ("drag", 120.0, True)],
-)
-def test_what_may_be_one_runs_accident_has_to_be_likelier(monkeypatch, effect, score, admitted):
-    log = log_with(())
-    problem = PredictionErrorProblem.from_records(make_run_records(log))
-    base = score_estimate(
-        problem,
-        problem.evaluate(
-            ModelStructure("simple"),
-            GAINS,
-            RunNuisance.at_first_samples(4),
-            problem.noise.velocity**2,
-        ),
-    )
-    other = replace(base, effect=effect, bic=base.bic - score)
-    gap = Gap(1.0, 1.0)
-    monkeypatch.setattr(model_selection, "rank_candidates", lambda *_, **__: [other])
-    monkeypatch.setattr(model_selection, "compute_validation_gap", lambda *_: Gap(0.9, 0.9))
-
-    (one,) = model_selection.weigh_candidates(
-        SelectionData(log, problem, make_folds([0, 0, 0, 0])),
-        SelectionRound.make_base(base, gap),
-    )
-
-    assert one.report.admitted is admitted
-
-
-def test_a_gap_on_runs_that_know_nothing_of_it_is_no_reason_against_it(monkeypatch):
-    log = log_with(())
-    problem = PredictionErrorProblem.from_records(make_run_records(log))
-    base = score_estimate(
-        problem,
-        problem.evaluate(
-            ModelStructure("simple"),
-            GAINS,
-            RunNuisance.at_first_samples(4),
-            problem.noise.velocity**2,
-        ),
-    )
-    gap = Gap(1.0, 1.0)
-    scores = {"inertia-change": 500.0, "drag": 500.0, "stribeck": 50.0}
-    tried = [replace(base, effect=name, bic=base.bic - by) for name, by in scores.items()]
-    monkeypatch.setattr(model_selection, "rank_candidates", lambda *_, **__: tried)
-    monkeypatch.setattr(model_selection, "compute_validation_gap", lambda *_: gap)
-
-    inertia, drag, stribeck = model_selection.weigh_candidates(
-        SelectionData(log, problem, make_folds([0, 0, 0, 0])),
-        SelectionRound.make_base(base, gap),
-    )
-
-    assert inertia.report.admitted
-    assert drag.report.admitted
-    assert stribeck.report.why == model_selection.HARDLY
-
-
 @pytest.fixture(scope="module")
 def joined(dynamic):
     """A log in which inertia joins for good, and the point of it that has it over with its run."""
@@ -266,59 +133,6 @@ def joined(dynamic):
     return problem, problem.evaluate(
         structure, values, RunNuisance.at_first_samples(4), problem.noise.velocity**2
     )
-
-
-def test_what_was_over_with_its_run_is_tried_for_good(joined):
-    problem, point = joined
-
-    others = [minimize(problem, one) for one in flip_duration(problem, point)]
-
-    assert len(others) == 3  # two ends of it, each with and without a share of the momentum
-    best = min(others, key=lambda one: one.cost)
-    assert best.values["inertia-change.until"] == LATER
-    assert best.values["inertia-change.extra"] == pytest.approx(0.02, rel=0.05)
-    assert best.cost < minimize(problem, point).cost - 100.0
-    plain = problem.evaluate(
-        ModelStructure("simple"), GAINS, RunNuisance.at_first_samples(4), point.process_noise
-    )
-    assert not list(flip_duration(problem, plain))
-
-
-@pytest.mark.parametrize("shared", [0.0, 1.0])
-@pytest.mark.parametrize("off", [-0.011, 0.007])
-def test_a_moment_is_found_between_two_samples(dynamic, shared, off):
-    onset = dynamic + 0.0934
-    given = {"extra": 0.03, "onset": onset, "until": LATER, "shared": shared}
-    problem = PredictionErrorProblem.from_records(
-        make_run_records(log_with((Part("inertia-change", given),)))
-    )
-    begun = {
-        **GAINS,
-        **{f"inertia-change.{n}": v for n, v in {**given, "onset": onset + off}.items()},
-    }
-    structure = ModelStructure("simple") + "inertia-change"
-    point = problem.evaluate(
-        structure, begun, RunNuisance.at_first_samples(4), problem.noise.velocity**2
-    )
-
-    found = refine_onset(problem, point)
-
-    assert found.values["inertia-change.onset"] == pytest.approx(onset, abs=problem.period / 8.0)
-    assert found.cost < point.cost
-    assert refine_onset(problem, found) is found
-
-
-def test_a_moment_stays_on_the_clock():
-    problem = PredictionErrorProblem.from_records(make_run_records(log_with(())))
-    given = {"extra": 0.01, "onset": 0.0, "until": LATER, "shared": 0.0}
-    values = {**GAINS, **{f"inertia-change.{n}": v for n, v in given.items()}}
-    structure = ModelStructure("simple") + "inertia-change"
-
-    found = refine_onset(
-        problem, problem.evaluate(structure, values, RunNuisance.at_first_samples(4), 1e-4)
-    )
-
-    assert found.values["inertia-change.onset"] >= 0.0
 
 
 @pytest.mark.parametrize(

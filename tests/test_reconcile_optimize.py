@@ -1,7 +1,6 @@
 """Where a search begins, and what it leads to: what is small is found as well."""
 
 import math
-import sys
 from dataclasses import replace
 
 import numpy as np
@@ -12,19 +11,9 @@ from sim.estimation.likelihood import LARGEST, PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import make_joint_jacobian
 from sim.estimation.run_nuisance import RunNuisance
-from sim.estimation.run_records import ExcludedInterval, make_run_records
-from sim.physics.effects import EFFECTS
-from sim.physics.engine import Track
+from sim.estimation.run_records import make_run_records
 from sim.physics.model import Part
-from sim.physics.voltage_residual import compute_voltage_residual
-from sim.reconcile.candidates import rank_candidates, refine_threshold
-from sim.reconcile.cross_validation import Gap, compute_open_loop_errors, compute_rms_gap
-from sim.reconcile.forward_selection import select_effects
 from sim.reconcile.local_minimum import rate_starts
-from sim.reconcile.model_selection import WIDENS, explain_rejection
-from sim.reconcile.selection_data import SelectionData
-from sim.reconcile.selection_round import WeighedCandidate
-from sim.reconcile.story import TriedCandidate
 from sim.reconcile.thresholds import MAJOR
 
 BAND = 0.25  # [V] of an elevator whose ramps begin at 1.5 V upward, and at once downward
@@ -44,27 +33,6 @@ def test_a_threshold_far_below_where_the_ramps_begin_is_found(band):
     first = story.findings[0]
     assert first.effect == "deadband"
     assert first.parameters["band"].value == pytest.approx(band, rel=0.1)
-
-
-@pytest.mark.parametrize("band", [0.07, 0.21, 0.48, 1.3, 2.9])
-def test_a_search_begins_near_each_threshold_whatever_the_log_shows(band):
-    starts = [start["band"] for start in EFFECTS["deadband"].start_values(NOWHERE)]
-
-    assert min(abs(math.log(start / band)) for start in starts) < 0.07
-
-
-def test_a_threshold_that_is_a_little_off_is_moved():
-    built = replace(bench("drivetrain"), hidden=(Part("deadband", {"band": 0.6}),))
-    problem = PredictionErrorProblem.from_records(make_run_records(session(built, "log")))
-    structure = ModelStructure("simple") + "deadband"
-    values = {**{name: built.gains[name] for name in structure.names[:3]}, "deadband.band": 0.56}
-    nuisance = RunNuisance.at_first_samples(len(problem.records))
-    off = problem.evaluate(structure, values, nuisance, problem.noise.velocity**2)
-
-    moved = refine_threshold(problem, off)
-
-    assert moved.cost < off.cost
-    assert moved.values["deadband.band"] == pytest.approx(0.6, rel=0.03)  # it was 7 % off
 
 
 def test_a_start_that_is_far_too_large_is_halved():
@@ -130,140 +98,7 @@ def test_a_start_that_goes_the_wrong_way_or_too_far_is_turned(part):
     assert best.values[f"{name}.lean"] == pytest.approx(truth, rel=0.5)
 
 
-def test_what_cannot_be_negative_is_not_turned():
-    built = bench("drivetrain", "drag")
-    problem = PredictionErrorProblem.from_records(make_run_records(session(built, "log")))
-    base = ModelStructure("simple")
-    values = {name: built.gains[name] for name in base.names}
-    point = problem.evaluate(
-        base, values, RunNuisance.at_first_samples(len(problem.records)), problem.noise.velocity**2
-    )
-    more = [{"drag.drag": size * built.hidden[0].parameters["drag"]} for size in (0.05, 4.0)]
-
-    begun = rate_starts(
-        problem, point, base + "drag", more, jacobian=make_joint_jacobian(problem, point)
-    )
-
-    assert all(one.values["drag.drag"] >= 0.0 for _, one in begun)
-
-
-def test_two_bodies_are_tried_where_all_lively_runs_were_set_aside():
-    built = bench("drivetrain")
-    log = session(built, "log")
-    runs = [
-        one.exclude_interval(ExcludedInterval(number, 0.0, math.inf))
-        if "dynamic" in one.test
-        else one
-        for number, one in enumerate(make_run_records(log))
-    ]
-    problem = PredictionErrorProblem.from_records(runs)
-    base = ModelStructure("simple")
-    values = {name: built.gains[name] for name in base.names}
-    point = problem.evaluate(
-        base, values, RunNuisance.at_first_samples(len(runs)), problem.noise.velocity**2
-    )
-    evidence = compute_voltage_residual(log, dict(base.model(values).gains), type="simple")
-
-    found = rank_candidates(problem, point, evidence, only=["backlash"])
-
-    assert all(math.isfinite(one.bic) for one in found)
-
-
-@pytest.mark.parametrize(
-    ("inertia", "gaps", "asked"),
-    [
-        (0.05, [0.3, 0.29], 2),  # it follows the log: every suspect is tried, and again
-        (5000.0, [0.9], 0),  # voltage drives nothing in it
-        (5000.0, [0.3, 0.29], 2),  # and yet it follows
-        (0.05, [0.9, 0.85, 0.8], 1),  # the first effect took little away
-        (0.05, [0.9, 0.45, 0.44], 2),  # the first did, the second did not
-    ],
-)
-def test_a_search_that_leads_nowhere_is_given_up(monkeypatch, inertia, gaps, asked):
-    log = session(bench("drivetrain"), "log")
-    problem = PredictionErrorProblem.from_records(make_run_records(log))
-    moves = np.sqrt(np.nanmean(problem.measured[problem.moving, 1] ** 2))
-    sizes = [Gap(share * float(moves), 1.0) for share in gaps]
-    values = {"kS": 0.1, "kV": 2.0, "kA": 2.0 * inertia, "drag.drag": 0.1}
-    begun = RunNuisance.at_first_samples(len(problem.records))
-    base = problem.evaluate(ModelStructure("simple"), values, begun, problem.noise.velocity**2)
-    calls = []
-
-    def weighed(_, now, *__):
-        calls.append(now)
-        if len(calls) == len(sizes):
-            return []
-        other = replace(now.candidate, effect="drag", bic=now.candidate.bic - 500.0)
-        return [
-            WeighedCandidate(
-                other, sizes[len(calls)], TriedCandidate("drag", 500.0, 0.9, admitted=True, why="")
-            )
-        ]
-
-    room = sys.modules["sim.reconcile.forward_selection"]
-    monkeypatch.setattr(room, "weigh_candidates", weighed)
-    monkeypatch.setattr(room, "compute_validation_gap", lambda *_: sizes[0])
-    monkeypatch.setattr(room, "minimize_fully", lambda _, point: point)
-    monkeypatch.setattr(room, "_collect_seeds", lambda _: {})
-    monkeypatch.setattr(room, "simplify_effects", lambda _, done: done)
-
-    done = select_effects(SelectionData(log, problem, []), base)
-
-    assert len(calls) == asked
-    assert len(done) == 1 + min(asked, len(sizes) - 1)
-
-
-@pytest.mark.parametrize("gap", [math.nan, math.inf])
-@pytest.mark.parametrize("before", [1.0, math.inf])
-def test_a_model_that_runs_away_on_the_validation_widens_the_gap(gap, before):
-    assert explain_rejection(Gap(gap, 1.0), Gap(before, 1.0), 1000.0) == WIDENS
-
-
-def test_what_runs_away_is_not_left_out_of_the_gap(monkeypatch):
-    problem = PredictionErrorProblem.from_records(
-        make_run_records(session(bench("drivetrain"), "log"))
-    )
-    out = np.tile(problem.measured, 4)
-    out[-1] = np.nan
-    monkeypatch.setattr(PredictionErrorProblem, "simulate", lambda *_, **__: Track.from_array(out))
-    point = replace(NOWHERE, values={"kS": 0.1, "kV": 1.0, "kA": 0.1})
-
-    assert (
-        compute_rms_gap(
-            compute_open_loop_errors(
-                problem, point, RunNuisance.at_first_samples(4), own_friction=True
-            )
-        ).velocity
-        == math.inf
-    )
-
-
 # -- what is no alarm -----------------------------------------------------------------------------
-
-
-def bumped(where, *, wide):
-    """A drivetrain on a floor with a bump: half a volt, there and nowhere else."""
-    log = session(bench("drivetrain"), "log")
-    runs = [
-        replace(run, voltage=run.voltage + 0.5 * np.exp(-(((run.position - where) / wide) ** 2)))
-        for run in log.runs
-    ]
-    return replace(log, runs=tuple(runs))
-
-
-@pytest.mark.parametrize("wide", [0.2, 0.6])
-def test_what_does_not_come_back_is_not_begun_as_a_wave(wide):
-    log = bumped(0.4, wide=wide)
-    evidence = compute_voltage_residual(log, dict(bench("drivetrain").gains), type="simple")
-    way = float(np.ptp(evidence.position))
-
-    waves = [
-        start["turns"] * way / (2.0 * math.pi)
-        for start in EFFECTS["cogging"].start_values(evidence)
-    ]
-
-    assert waves
-    assert min(waves) >= 4.0
 
 
 def test_a_ripple_that_any_robot_has_is_no_finding_however_much_of_the_gap_it_takes():

@@ -1,22 +1,16 @@
 """How likely a finding is right: what each piece of evidence does to it."""
 
-import json
 import math
 from dataclasses import replace
-from types import SimpleNamespace
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from sim.physics.effects import EFFECTS
-from sim.reconcile.judgement import list_rival_scores
 from sim.reconcile.model_selection import is_ordinary_size
 from sim.reconcile.probability import (
-    FEATURES,
-    FILE,
     Evidence,
-    compute_log_ratio,
     compute_log_size,
     compute_probability,
     compute_rival_share,
@@ -25,7 +19,6 @@ from sim.reconcile.residual_tests.repeatability import RepeatedResidual
 from sim.reconcile.residual_tests.spectrum import SpectralPeak
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.residual_tests.whiteness import NO_WINDOW
-from sim.reconcile.story import TriedCandidate
 from sim.reconcile.thresholds import (
     FARTHEST,
     LARGEST_SIZE,
@@ -55,14 +48,6 @@ def test_a_little_drag_is_on_any_robot_and_counts_at_the_free_speed(kv):
     assert compute_log_size("drag", much) == pytest.approx(math.log(2.0), abs=1e-3)
 
 
-def test_every_feature_has_its_coefficient():
-    stored = json.loads(FILE.read_text(encoding="utf-8"))
-
-    assert set(stored["coefficients"]) == {"intercept", *FEATURES}
-    assert all(math.isfinite(one) for one in stored["coefficients"].values())
-    assert sum(stored["learnt_from"].values()) > 20 * len(FEATURES)
-
-
 @pytest.mark.parametrize(
     ("name", "by", "likelier"),
     [
@@ -82,11 +67,6 @@ def test_each_piece_of_evidence_counts_as_it_should(name, by, likelier):
     assert (compute_probability(other) > compute_probability(PLAIN)) is likelier
 
 
-@given(st.lists(st.floats(-50, 50), min_size=len(FEATURES), max_size=len(FEATURES)))
-def test_a_probability_lies_between_0_and_1(values):
-    assert 0.0 <= compute_probability(Evidence(*values)) <= 1.0
-
-
 @given(times=st.floats(0.2, 10.0))
 def test_the_size_is_told_in_everyday_sizes(times):
     # The largest everyday lag, times a factor, is that factor in everyday sizes.
@@ -99,11 +79,6 @@ def test_the_size_is_told_in_everyday_sizes(times):
 
     assert -FARTHEST <= found <= LARGEST_SIZE
     assert found == pytest.approx(min(math.log(times), LARGEST_SIZE), abs=0.01)
-
-
-def test_a_velocity_averaged_over_a_millisecond_is_on_any_robot():
-    assert is_ordinary_size("velocity-filter", {"velocity-filter.window": 0.001})
-    assert not is_ordinary_size("velocity-filter", {"velocity-filter.window": 0.02})
 
 
 @pytest.mark.parametrize(
@@ -137,39 +112,3 @@ def test_a_rival_counts_only_if_it_lasts_as_the_effect_does(own, others):
 
     assert 0.0 <= share <= 1.0
     assert share == pytest.approx(min(max(max(lasting, default=0.0) / own, 0.0), 1.0))
-
-
-def test_what_is_the_same_in_motion_is_no_rival():
-    tried = {"constant-load": 90.0, "asymmetric-friction": 90.0, "drag": 30.0}
-
-    for name in ("constant-load", "asymmetric-friction"):
-        assert compute_rival_share(name, 90.0, tried) == pytest.approx(30.0 / 90.0)
-    assert compute_rival_share("drag", 30.0, tried) == 1.0
-
-
-@pytest.mark.parametrize(
-    ("with_", "without", "ratio"),
-    [
-        (1.0, 2.0, math.log(0.5)),
-        (2.0, 2.0, 0.0),
-        (0.0, 1.0, -FARTHEST),
-        (math.inf, 1.0, 0.0),
-        (1.0, math.inf, 0.0),
-        (1.0, 0.0, 0.0),
-    ],
-)
-def test_gaps_that_are_no_numbers_say_nothing(with_, without, ratio):
-    assert compute_log_ratio(with_, without) == pytest.approx(ratio)
-
-
-def test_no_other_effect_of_the_last_model_is_a_rival():
-    before = SimpleNamespace(
-        tried=[
-            TriedCandidate(name, score, 0.9, admitted=True, why="")
-            for name, score in (("heating", 90.0), ("battery-sag", 80.0), ("drag", 30.0))
-        ]
-    )
-
-    found = list_rival_scores(before, ("heating", "battery-sag"), "battery-sag")
-
-    assert found == {"battery-sag": 80.0, "drag": 30.0}

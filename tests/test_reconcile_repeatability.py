@@ -9,17 +9,11 @@ from hypothesis import strategies as st
 from reconcile_made import based, recorded
 
 from sim.core.log import Log
-from sim.core.units import find_unit
 from sim.physics.engine import State
 from sim.physics.model import Model, Part
-from sim.reconcile.candidates import score_estimate
-from sim.reconcile.cross_validation import Gap
 from sim.reconcile.local_minimum import minimize
 from sim.reconcile.residual_tests.repeatability import RepeatedResidual, find_repeated_residual
-from sim.reconcile.residual_tests.summary import ResidualSummary
-from sim.reconcile.selection_round import SelectionRound
 from sim.reconcile.thresholds import REPEATED
-from sim.reconcile.verdict import reach_verdict
 
 GAINS = {"kS": 0.3, "kV": 0.5, "kA": 0.05}
 NOISE = (1e-3, 1e-2)  # [m] and [m/s]
@@ -95,32 +89,3 @@ def test_a_run_alone_has_no_habit(count):
     _, alike = found(one)
 
     assert alike == RepeatedResidual(what=alike.what)
-
-
-@pytest.mark.parametrize(
-    ("alike", "units", "said"),
-    [
-        (
-            RepeatedResidual(12.4, "position", 1, 0.5, 0.53),
-            "meters",
-            "forward, between 0.5 and 0.53 m.",
-        ),
-        (
-            RepeatedResidual(7.0, "speed", -1, -3.2, -3.0),
-            "feet",
-            "in reverse, between −10.5 and −9.84 ft/s.",
-        ),
-    ],
-)
-def test_it_is_told_where_and_by_how_much(alike, units, said):
-    problem, point = based(session(seed=6), GAINS)
-    gap = Gap(problem.noise.velocity, problem.noise.position)
-    done = [SelectionRound.make_base(score_estimate(problem, point), gap)]
-
-    verdict, remainder, remains = reach_verdict(
-        [], done, problem, residuals=ResidualSummary(repeated=alike), unit=find_unit(units)
-    )
-
-    assert (verdict, remainder) == ("nothing-missing", True)  # the gap is that of the noise
-    assert said in remains
-    assert f"({alike.size:.0f} times as large as by chance)" in remains

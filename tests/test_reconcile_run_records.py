@@ -51,11 +51,6 @@ def test_what_sinks_far_lies_on_nothing(way):
     assert math.isinf(found.high)
 
 
-def test_positions_without_noise_are_no_obstacle():
-    assert record(lifted(0.0), rough=0.0).low == 0.16
-    assert record(lifted(0.05), rough=0.0).low == pytest.approx(0.11)
-
-
 @pytest.mark.parametrize("way", [1.0, -1.0])
 @pytest.mark.parametrize(("beyond", "stops"), [(0.02, False), (0.0, True)])
 def test_a_place_that_it_later_passes_is_no_stop(way, beyond, stops):
@@ -63,13 +58,3 @@ def test_a_place_that_it_later_passes_is_no_stop(way, beyond, stops):
     found = record(way * (there - beyond * np.clip(TIME - 3.0, 0.0, 1.0)))
 
     assert math.isfinite(found.low if way > 0.0 else found.high) == stops
-
-
-def test_uneven_samples_of_a_fast_run_are_no_roughness():
-    time = TIME + 8e-3 * np.random.default_rng(8).uniform(-1.0, 1.0, TIME.size)
-    there = 3.0 * np.sin(np.clip((time - 0.5) / 2.5, 0.0, 1.0) * np.pi)
-    position = there - 0.01 * np.clip(time - 3.0, 0.0, 1.0)
-    run = Run("multistep-forward", time, time, position, np.gradient(position, time))
-    (only,) = make_run_records(Log((run,), units="meters"))
-
-    assert math.isinf(only.low)

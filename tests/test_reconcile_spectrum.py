@@ -8,21 +8,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from reconcile_made import based, recorded
 
-from sim.core.log import Log, Run
+from sim.core.log import Log
 from sim.core.units import find_unit
-from sim.estimation.likelihood import PredictionErrorProblem
-from sim.estimation.model_structure import ModelStructure
-from sim.estimation.run_nuisance import RunNuisance
-from sim.estimation.run_records import make_run_records
 from sim.physics.engine import State
 from sim.physics.model import Model, Part
 from sim.reconcile.candidates import score_estimate
 from sim.reconcile.cross_validation import Gap
 from sim.reconcile.local_minimum import minimize_fully
 from sim.reconcile.residual_tests.spectrum import (
-    FASTEST,
-    FEWEST_TURNS,
-    SpectralPeak,
     find_spectral_peak,
 )
 from sim.reconcile.residual_tests.summary import ResidualSummary
@@ -87,34 +80,9 @@ def test_a_wave_along_the_way_is_told_as_a_habit_of_places():
     assert "At the same places" in remains_of(left)[2]
 
 
-def test_runs_that_are_too_short_have_none():
-    log = session(seed=4)
-    last = round(0.9 * FEWEST_TURNS / FASTEST / 0.02)
-    short = [
-        Run(r.test, r.time[:last], r.voltage[:last], r.position[:last], r.velocity[:last])
-        for r in log.runs
-    ]
-    problem = PredictionErrorProblem.from_records(make_run_records(log))
-    brief = PredictionErrorProblem(
-        tuple(make_run_records(replace(log, runs=tuple(short)))), problem.noise
-    )
-    seen = RunNuisance.at_first_samples(len(brief.records))
-
-    point = brief.evaluate(ModelStructure("simple"), GAINS, seen, problem.noise.velocity**2)
-
-    assert find_spectral_peak(brief, point) == SpectralPeak()
-
-
 def remains_of(left):
     """The verdict on a model that leaves that, and follows else."""
     problem, point = based(session(seed=6), GAINS)
     gap = Gap(problem.noise.velocity, problem.noise.position)
     done = [SelectionRound.make_base(score_estimate(problem, point), gap)]
     return reach_verdict([], done, problem, residuals=left, unit=find_unit("meters"))
-
-
-def test_it_is_told_how_often():
-    verdict, remainder, remains = remains_of(ResidualSummary(peak=SpectralPeak(320.0, 1.6)))
-
-    assert (verdict, remainder) == ("nothing-missing", True)  # the gap is that of the noise
-    assert "back and forth every 0.62 s" in remains

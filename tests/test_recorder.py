@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 
 from sim.bench.mechanisms import MECHANISMS
-from sim.bench.recorder import RECORDERS, find_recorder
+from sim.bench.recorder import RECORDERS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.cli import sysid
-from sim.core.errors import BadRequest
 from sim.feedback import PRESETS
 from sim.fit import fit
 from sim.io import read
@@ -53,26 +52,9 @@ def test_the_delay_that_the_fit_reports_is_the_devices_and_the_wait_for_a_frame(
     assert late - 2e-3 <= found <= late + recorder.frame + 2e-3
 
 
-@pytest.mark.parametrize("name", RECORDERS)
-def test_a_log_has_the_period_and_the_frames_of_its_device(name):
-    recorder = RECORDERS[name]
-    run = recorded(name).runs[0]
-
-    moving = np.abs(run.velocity) > 0.1 * np.abs(run.velocity).max()
-    repeats = np.mean(np.diff(run.velocity)[moving[1:]] == 0.0)
-
-    assert np.median(np.diff(run.time)) == pytest.approx(recorder.period, rel=0.02)
-    assert repeats < 0.2 if recorder.frame <= recorder.period else repeats > 0.5
-
-
 @pytest.mark.parametrize(("name", "preset"), PUBLISHED.items())
 def test_the_published_delay_is_that_of_the_feedback_preset(name, preset):
     assert 0.5 * RECORDERS[name].filter == pytest.approx(PRESETS[preset].delay, abs=1e-9)
-
-
-def test_an_unknown_recorder_is_refused_with_those_there_are():
-    with pytest.raises(BadRequest, match="signal-logger"):
-        find_recorder("hoot")
 
 
 def test_the_command_records_as_asked(tmp_path, capsys):
@@ -86,10 +68,3 @@ def test_the_command_records_as_asked(tmp_path, capsys):
     assert np.median(np.diff(read(tmp_path / "a.csv").runs[0].time)) == pytest.approx(
         0.004, rel=0.02
     )
-
-
-def test_the_help_names_every_recorder(capsys):
-    run_command(sysid, name="sysid", arguments=["simulate", "--help"])
-
-    said = "".join(capsys.readouterr().out.split())  # a line may end after a hyphen
-    assert all(name in said for name in RECORDERS)

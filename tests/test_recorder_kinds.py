@@ -18,7 +18,6 @@ from sim.fit import fit
 from sim.inspect.detect_faults import inspect
 from sim.io.motion import find_landing, find_truncation, mend_motion
 from sim.reconcile import reconcile
-from sim.report.gain_verdicts import write_gain_verdict
 from sim.support.command_line import run_command
 
 KA = 0.1  # [share] by which a coarse recorder may change kA
@@ -80,15 +79,6 @@ def test_columns_are_found_by_what_they_are(tmp_path, drive, header, scale, rest
         assert np.array_equal(mine.velocity, true.velocity)
 
 
-def test_csv_of_an_arm_says_what_it_is(tmp_path):
-    arm = simulate(MECHANISMS["arm"], Routine(), rng=np.random.default_rng(1))
-    sim.write(arm, tmp_path / "arm.csv")
-
-    read = sim.read(tmp_path / "arm.csv")
-
-    assert (read.type, read.units) == (arm.type, arm.units)
-
-
 @pytest.mark.parametrize("missing", ["position", "velocity"])
 def test_missing_signal_is_computed_from_the_other(tmp_path, drive, missing):
     sim.write(drive, tmp_path / "log.csv")
@@ -114,12 +104,12 @@ def test_signal_that_never_changes_is_replaced_and_named(drive, signal):
     assert_same_gains(fit(mended), fit(drive))
 
 
-def test_arm_without_a_position_is_refused(tmp_path, capsys, reads):
+def test_arm_without_a_position_is_refused(tmp_path, capsys):
     path = tmp_path / "arm.csv"
     path.write_text("test,time_s,voltage,velocity\ndynamic-forward,0,1,0\n", encoding="utf-8")
 
     assert run_command(sysid, name="sysid", arguments=["fit", str(path), "--type", "arm"]) == 2
-    reads(capsys.readouterr().err)
+    assert "arm.csv" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("share", [0.03, 0.12])
@@ -138,32 +128,6 @@ def test_truncated_velocity_is_told_as_such_and_fitted(name, share):
     assert_same_gains(fit(mended, type=log.type), fit(log, type=log.type))
 
 
-def test_rounded_velocity_is_not_truncated(drive):
-    step = 0.06 * drive.top_speed
-
-    assert (
-        find_truncation(change(drive, velocity=lambda r: np.round(r.velocity / step) * step)) == 0
-    )
-
-
-@pytest.mark.parametrize("frame", [0.1, 0.16, 0.2])
-def test_readings_held_for_long_are_fitted(frame):
-    log = simulate(MECHANISMS["drivetrain"], Routine(), rng=np.random.default_rng(5))
-
-    def make_held(values):
-        def held(run: Run):
-            at = np.searchsorted(
-                run.time, run.time[0] + frame * ((run.time - run.time[0]) // frame)
-            )
-            return getattr(run, values)[at]
-
-        return held
-
-    held = change(log, position=make_held("position"), velocity=make_held("velocity"))
-
-    assert_same_gains(fit(held), fit(log))
-
-
 def test_wrong_scale_makes_no_gain_usable_and_prints_no_code(tmp_path, capsys, drive):
     sim.write(change(drive, velocity=lambda run: run.velocity / 60.0), tmp_path / "log.csv")
     arguments = ["fit", str(tmp_path / "log.csv")]
@@ -174,46 +138,6 @@ def test_wrong_scale_makes_no_gain_usable_and_prints_no_code(tmp_path, capsys, d
     assert "Verdict: Do not use these gains" in said
     assert run_command(sysid, name="sysid", arguments=[*arguments, "--paste", "java"]) == 2
     assert not capsys.readouterr().out
-
-
-def test_scale_that_is_a_little_wrong_leaves_kv_and_ka_open(tmp_path, drive):
-    sim.write(change(drive, velocity=lambda run: 1.08 * run.velocity), tmp_path / "log.csv")
-
-    read = LogReader().read_joined([tmp_path / "log.csv"])
-
-    assert "scales-differ" in {doubt.code for doubt in read.doubts}
-    assert "kV usable" not in write_gain_verdict(fit(read), read)
-
-
-def test_stale_first_row_is_no_fault():
-    rng = np.random.default_rng(3)
-    drive = simulate(MECHANISMS["drivetrain"], Routine(), rng=rng, period=0.005)
-
-    def lose_first_row(run: Run):
-        if run.kind != "dynamic":
-            return run.voltage
-        return np.concatenate((run.voltage[:1], [0.0], run.voltage[2:]))
-
-    spoilt = change(drive, voltage=lose_first_row)
-
-    assert inspect(spoilt).faults == ()
-
-
-def test_fall_onto_the_stop_is_seen_and_only_there():
-    arm = simulate(MECHANISMS["arm"], Routine(), rng=np.random.default_rng(4))
-    ramp = arm.list_runs_of_test("quasistatic-forward")[0]
-    time = np.arange(60) * 0.02
-    fallen = np.minimum(0.25 * time, 0.05)
-    before = Run(
-        ramp.test,
-        np.concatenate((ramp.time[0] - time[::-1] - 0.02, ramp.time)),
-        np.concatenate((np.zeros(60), ramp.voltage)),
-        np.concatenate((ramp.position[0] + 0.05 - fallen, ramp.position)),
-        np.concatenate((np.where(fallen < 0.05, -0.25 * (time > 0.0), 0.0), ramp.velocity)),
-    )
-
-    assert [find_landing(run) for run in arm.runs] == [0] * len(arm.runs)
-    assert 10 <= find_landing(before) <= 60
 
 
 @pytest.mark.parametrize("command", ["fit", "inspect"])

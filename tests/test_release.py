@@ -21,6 +21,8 @@ from grader.student_data.class_package import read_class_package
 from grader.student_data.variant import use_class_secret
 from sim.core.errors import BadRequest
 
+pytestmark = pytest.mark.slow
+
 SECRET = b"0123456789abcdef-east"
 PRIVATE = ("course/solutions/", "course/tests/", ".git", ".ci/", ".course", "__pycache__", "/data/")
 

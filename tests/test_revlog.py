@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from open_page import drive_log
 
-from sim.core.errors import Refusal, UnreadableFile
+from sim.core.errors import Refusal
 from sim.io import list_entries, read, read_motors
 
 SPARK, ENCODER, REV, STATUS = 2, 7, 5, 46
@@ -77,14 +77,6 @@ def test_a_file_is_the_test_that_its_name_says(tmp_path, run):
     assert {"conversion-factor"} <= {doubt.code for doubt in log.doubts}
 
 
-def test_with_units_a_velocity_is_in_them_per_second(tmp_path, run):
-    frames = b"".join(frames_of(run, velocity=1.0))
-    log = read(write(tmp_path / "dynamic-forward.revlog", record(frames)), units="meters")
-
-    np.testing.assert_allclose(log.runs[0].velocity, run.velocity[: len(log.runs[0])], atol=1e-5)
-    assert "conversion-factor" not in {doubt.code for doubt in log.doubts}
-
-
 def test_two_motors_are_two_logs(tmp_path, run):
     frames = b"".join([*frames_of(run, 3), *frames_of(run, 4, turned=-1.0)])
     logs = read_motors(write(tmp_path / "dynamic-forward.revlog", record(frames)))
@@ -143,12 +135,6 @@ def test_a_cut_file_is_read_up_to_its_last_whole_record(tmp_path, run):
 
     assert "truncated" in {doubt.code for doubt in log.doubts}
     assert len(log.runs[0]) >= len(run) - 4
-
-
-def test_without_a_frame_of_a_spark_it_is_refused(tmp_path):
-    for content in (b"\x00\x01\x00", b"nothing of REV's", record(b"x" * 10, kind=1)):
-        with pytest.raises(UnreadableFile):
-            read(write(tmp_path / "dynamic-forward.revlog", content))
 
 
 @given(st.binary(max_size=200))

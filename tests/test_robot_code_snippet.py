@@ -144,28 +144,6 @@ def test_the_numbers_come_back_within_a_tenth_of_their_errors(type_, language, s
         assert read[f"k{loop.capitalize()}D"] == pytest.approx(gains.kd, rel=5e-3)
 
 
-@pytest.mark.parametrize(
-    ("language", "season", "call"),
-    [
-        ("java", 2026, "FEEDFORWARD.calculateWithVelocities({}velocity, nextVelocity)"),
-        ("java", 2027, "FEEDFORWARD.calculate({}velocity, nextVelocity)"),
-        ("python", 2026, "FEEDFORWARD.calculate({}velocity, nextVelocity)"),
-        ("python", 2027, "FEEDFORWARD.calculate({}velocity, nextVelocity)"),
-    ],
-)
-def test_the_call_is_the_seasons_and_an_arms_takes_the_angle_first(language, season, call):
-    assert call.format("") in write_robot_code(found("simple"), language=language, season=season)
-    assert call.format("angle, ") in write_robot_code(
-        found("arm"), language=language, season=season
-    )
-
-
-@pytest.mark.parametrize(("language", "season"), SPELLINGS)
-def test_only_a_season_that_is_out_has_nothing_uncertain(language, season):
-    said = "not released" in write_robot_code(found("simple"), language=language, season=season)
-    assert said == (season == 2027)
-
-
 @pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("units", ["rotations", "degrees"])
 def test_an_arm_counted_in_turns_is_pasted_per_radian_and_says_so(units, language):
@@ -183,25 +161,6 @@ def test_an_arm_counted_in_turns_is_pasted_per_radian_and_says_so(units, languag
     # The same volts for the same error: what the table of the fit says per turn, per radian.
     volts = turned.feedback()["velocity"].kp / UNITS[units].si
     assert read["kVelocityP"] == pytest.approx(volts, rel=5e-3)
-
-
-def test_an_arm_in_radians_needs_no_conversion():
-    text = write_robot_code(found("arm"), language="java")
-
-    assert "= measured + kAngleOffset" in text
-    assert "kRadiansPerUnit" not in text
-
-
-@pytest.mark.parametrize("units", ["rotations", "radians", "degrees"])
-def test_an_angular_simple_mechanism_keeps_its_unit(units):
-    fit = found("simple", units="radians", log_units=units).in_log_units()
-
-    text = write_robot_code(fit, language="python")
-
-    assert "SimpleMotorFeedforwardRadians(kS, kV, kA)" in text
-    assert f"[V·s/{UNITS[units].symbol}]" in text
-    assert f"velocities in {UNITS[units].symbol}/s" in text
-    assert constants(text)["kV"] == pytest.approx(GAINS["kV"] * UNITS[units].si, rel=5e-3)
 
 
 def discrete(type_, gains, *, now, then, angle=0.0):
@@ -236,25 +195,6 @@ def test_the_object_that_robotpy_makes_calculates_our_formula(type_):
     )
 
 
-@pytest.mark.parametrize(
-    ("value", "error", "text"),
-    [
-        (0.161339, 0.0043663, "0.1613"),
-        (2.523321, 0.0026523, "2.5233"),
-        (0.000123456, 0.0000071, "0.0001235"),
-        (1234.567, 40.0, "1235.0"),
-        (123456.7, 4000.0, "123500.0"),
-        (0.00123456, 5.0, "0.00123"),  # an error above the value leaves three digits, never a zero
-        (2.5233214987, 1e-12, "2.5233"),  # and one of nothing leaves five
-        (-0.372849, 0.0066, "-0.3728"),
-        (0.0, 0.1, "0.0"),
-        (1e-9, math.inf, "0.000000001"),
-    ],
-)
-def test_a_number_has_the_digits_its_error_deserves(value, error, text):
-    assert round_to_error(value, error) == text
-
-
 @given(
     value=st.floats(-1e6, 1e6).filter(lambda value: abs(value) > 1e-12),
     error=st.floats(0.0, 1e6),
@@ -282,18 +222,12 @@ MILD = Doubt("late", "The velocity lags by 40 ms.")
         ({"gains": GAINS | {"kS": math.nan}}, {}),
     ],
 )
-def test_what_cannot_be_pasted_is_refused_in_one_line(changes, asked, reads):
+def test_what_cannot_be_pasted_is_refused_in_one_line(changes, asked):
     with pytest.raises(BadRequest) as refused:
         write_robot_code(found("simple", **changes), **({"language": "java"} | asked))
 
-    reads(str(refused.value))
+    assert refused.value.advice
     assert "\n" not in str(refused.value)
-
-
-def test_a_mild_doubt_is_mentioned_and_none_is_not():
-    said = "Warnings of the fit, to be read first: 1."
-    assert said in write_robot_code(found("simple", doubts=(MILD,)), language="python")
-    assert "Warnings" not in write_robot_code(found("simple"), language="python")
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
@@ -308,25 +242,3 @@ def test_a_loop_without_gains_says_so_and_has_no_constant(language):
     assert "kPositionP" not in late
     assert "kVelocityP" in late
     assert "The fit suggests no feedback gains." in none
-
-
-def test_an_error_far_below_what_a_model_leaves_out_is_not_printed():
-    one = found("simple")
-    sure = replace(one, errors=dict.fromkeys(one.errors, 7.6e-07))
-
-    code = write_robot_code(sure, language="java")
-
-    assert "e-07" not in code
-    assert "± less than 0.1%" in code
-
-
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_gains_that_are_no_good_start_are_not_in_the_code(language):
-    # An elevator whose position loop is slow with SysId's gains, as `sysid fit` says.
-    stiff = {"kS": 0.14, "kV": 34.6, "kA": 0.114, "kG": 0.0711}
-
-    code = write_robot_code(found("elevator", gains=stiff), language=language)
-
-    assert "No gains for the position loop: SysId's suggestion is no good start." in code
-    assert "kPositionP" not in code
-    assert "kVelocityP" in code

@@ -14,6 +14,8 @@ from grader.robotcode import python
 from grader.robotcode.bench.facts import Outcome
 from grader.robotcode.python.sandbox_files import MOST, copy_program
 
+pytestmark = pytest.mark.slow
+
 LEVEL = find_isolation_level()
 NO_ISOLATION = "" if LEVEL.startswith("isolated") else f"this system is {LEVEL}"
 isolated = pytest.mark.skipif(bool(NO_ISOLATION), reason=NO_ISOLATION or "isolated")

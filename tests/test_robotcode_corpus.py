@@ -10,6 +10,8 @@ from grader.robotcode.bench.facts import RoutineFacts, Setting
 from grader.robotcode.running import run_routine
 from sim.core.errors import UnreadableFile
 
+pytestmark = pytest.mark.slow
+
 CORPUS = whole_corpus()
 TABLE = tomllib.loads((CORPUS / "expected.toml").read_text("utf-8"))
 SOURCES = {one for one in CORPUS.rglob("*") if one.suffix in {".java", ".py"}}

@@ -9,6 +9,8 @@ from robotcode_mutants import CHANGES, SUFFIXES, Mutant, mutant, sources
 from grader.robotcode.running import run_routine
 from sim.core.errors import Refusal
 
+pytestmark = pytest.mark.slow
+
 MUTANTS = 300
 FEWER = 5  # mutants of each change at least, so that none is forgotten
 NO_MOUNTS = {"java": {}, "python": {}}

@@ -28,10 +28,6 @@ def test_a_routine_no_robot_can_run_is_refused(asked, said):
     assert said in str(refused.value)
 
 
-def test_the_defaults_are_wpilibs():
-    assert Routine() == Routine(ramp=1.0, step=7.0, timeout=10.0)
-
-
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_kind_of_test_stays_within_the_step_and_is_mirrored_in_reverse(kind):
     routine = Routine(ramp=0.35, step=3.5, timeout=10.0, kinds=(kind,))
@@ -42,29 +38,3 @@ def test_every_kind_of_test_stays_within_the_step_and_is_mirrored_in_reverse(kin
     assert routine.tests == (f"{kind}-forward", f"{kind}-reverse")
     assert np.abs(there).max() == pytest.approx(3.5, rel=0.02)
     assert (np.array(there) == -np.array(back)).all()
-
-
-@pytest.mark.parametrize("kind", ["triangle", "multistep", "chirp"])
-def test_what_turns_around_goes_both_ways(kind):
-    routine = Routine(kinds=(kind,), step=4.0)
-    volts = [
-        routine.command_voltage(f"{kind}-forward", t) for t in np.arange(0.0, 10.0, 0.01).tolist()
-    ]
-
-    assert min(volts) == pytest.approx(-4.0, rel=0.02)
-    assert volts[1] > 0.0
-
-
-def test_a_coast_is_a_step_and_then_nothing():
-    routine = Routine(kinds=("coast",), step=4.0)
-
-    assert routine.command_voltage("coast-reverse", 0.5) == -4.0
-    assert routine.command_voltage("coast-forward", 1.5) == 0.0
-
-
-@pytest.mark.parametrize("kinds", [(), ("static",), ("dynamic", "dynamic")], ids=str)
-def test_tests_there_are_not_are_refused(kinds):
-    with pytest.raises(
-        BadRequest, match="Choose from these, each at most once: quasistatic, dynamic, coast"
-    ):
-        Routine(kinds=kinds)

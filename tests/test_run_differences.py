@@ -78,28 +78,6 @@ def test_the_runs_differ_by_the_age_of_their_frames():
     assert np.ptp(lags) > 0.005  # the frames of this seed are 4 to 14 ms old
 
 
-def test_a_sensor_that_is_read_at_once_needs_no_lags():
-    problem, point = simple_problem(recorded("drivetrain", "roborio", seed=200))
-
-    assert fit_run_differences(problem, point, every=problem, period=0.02) == (problem, point)
-
-
-def test_an_arm_with_a_slow_filter_keeps_the_first_voltages_of_its_steps():
-    found = fit(recorded("arm", "sparkmax", seed=200), type="arm")
-
-    assert found.gains["kA"] == pytest.approx(MECHANISMS["arm"].gains["kA"], rel=0.01)
-
-
-def test_a_late_sensor_reads_what_the_mechanism_did_between_loops():
-    built = MECHANISMS["elevator"]
-    late = replace(built, sensor=replace(built.sensor, latency=0.013, jitter=0.0))
-
-    found = fit(simulate(late, Routine(), rng=np.random.default_rng(3)), type="elevator")
-
-    assert found.gains["kA"] == pytest.approx(built.gains["kA"], rel=0.001)
-    assert found.position_delay == pytest.approx(0.013, abs=2e-4)
-
-
 def test_a_frame_that_is_read_twice_is_not_compared():
     log = recorded("drivetrain", "roborio", seed=1)
     run = log.runs[2]
@@ -135,9 +113,3 @@ def test_friction_that_differs_by_run_is_not_taken_for_lag(name, seed):
 
     assert abs(found.gains["kS"] - truth * shares.mean()) < 2.0 * found.errors["kS"]
     assert found.errors["kS"] > 0.008 * truth  # 4 % of four runs, of which the sample tells some
-
-
-def test_friction_that_is_the_same_in_all_runs_keeps_its_small_error():
-    found = fit(frictions_by_run("drivetrain", np.ones(4), seed=9))
-
-    assert found.errors["kS"] < 0.001 * MECHANISMS["drivetrain"].friction

@@ -36,13 +36,6 @@ def sensed(**change):
     return time, speed, read_sensor(sensor, position=way, velocity=speed, time=time, rng=rng())
 
 
-def test_a_late_sensor_says_what_was():
-    time, _, seen = sensed(latency=0.04)
-
-    assert seen.velocity[2:] == pytest.approx(np.sin(6.0 * (time[2:] - 0.04)), abs=1e-3)
-    assert seen.position[2:] == pytest.approx((1 - np.cos(6.0 * (time[2:] - 0.04))) / 6, abs=1e-4)
-
-
 def test_a_filter_in_the_sensor_says_the_mean_of_a_while():
     time, _, seen = sensed(filter=0.1)
     mean = (np.cos(6.0 * (time - 0.1)) - np.cos(6.0 * time)) / 0.6

@@ -55,13 +55,15 @@ def test_reconcile_tells_a_story_in_these_words():
             SLIP, *STORIES["ambiguous"].findings, SAG, verdict="ambiguous", **REMAINS
         ),
     }
-    parts = {name: f"{write_headline(each)}\n\n{told(each)}" for name, each in stories.items()}
+    parts = {name: write_headline(each) for name, each in stories.items()}
+    whole = {f"{name}, on a terminal": told(stories[name]) for name in ("stopped", "all at once")}
     places = [replace(PLACE, error=error).sentence for error in (0.9614, -99.4, 123.4)]
     looks = [f"{what}: {how}" for found in (unsure, SLIP) for what, how in list_inspections(found)]
 
     compare(
         "reconcile",
         parts
+        | whole
         | {
             "places": "\n".join(places),
             "what to look at": "\n".join(looks),

@@ -9,9 +9,8 @@ from open_page import ask, ask_json, drive_log, served, slipped_log, write_log
 from test_open_in_browser import DESKTOP, PHONE, opened, wait_until
 
 from sim.cli.open.view import PageView, SpanText
-from sim.inspect.contaminate import contaminate
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.slow, pytest.mark.browser]
 
 FAULTS = SpanText(
     before='{log} = "', span="WHAT, {test}, {begin} to {end}, WHAT-TO-DO", between=" + ", after='"'
@@ -87,20 +86,6 @@ def test_a_dragged_span_becomes_the_line_of_the_answers(viewer):
     assert page.complaints == []
 
 
-def test_a_span_ends_with_its_test(viewer):
-    page = viewer(drive_log(), span_text=PARTS)
-    page.mouse.move(*place_of(page, 0, 1.0))
-    page.mouse.down()
-    page.mouse.move(*place_of(page, 3, 1.0), steps=5)
-    page.mouse.up()
-    length = page.evaluate("sysid.chart.runs[0].time.at(-1) - sysid.chart.runs[0].time[0]")
-    begin, end = map(float, re.findall(r"[\d.]+", page.locator("#span-text").inner_text()))
-
-    assert page.locator("#span-text").inner_text().startswith("quasistatic_forward = ")
-    assert begin == pytest.approx(1.0, abs=0.1)
-    assert end == pytest.approx(length, abs=0.02)
-
-
 def test_a_span_is_marked_from_the_keyboard(viewer):
     page = viewer(drive_log(), span_text=PARTS)
     page.locator("#moving").focus()
@@ -110,22 +95,6 @@ def test_a_span_is_marked_from_the_keyboard(viewer):
 
     assert page.evaluate("[...sysid.chart.spans]") == [[0, [10, 30]]]
     page.keyboard.press("Delete")
-    assert page.evaluate("sysid.chart.spans.size") == 0
-
-
-@pytest.mark.parametrize("way", ["shift", "button"])
-def test_a_log_is_moved_instead_of_marked(viewer, way):
-    page = viewer(drive_log())
-    page.get_by_role("button", name="Show run 2, dynamic-forward").click()
-    before = page.evaluate("sysid.chart.view[0]")
-    if way == "button":
-        page.get_by_role("button", name="Move", exact=True).click()
-    else:
-        page.keyboard.down("Shift")
-    drag(page, 2, 2.0, 1.0)
-    page.keyboard.up("Shift")
-
-    assert page.evaluate("sysid.chart.view[0]") > before
     assert page.evaluate("sysid.chart.spans.size") == 0
 
 
@@ -149,34 +118,6 @@ def test_one_cursor_tells_all_values_at_a_time(viewer):
     assert float(values["time step"].split()[0]) == pytest.approx(
         1e3 * (run.time[sample] - run.time[sample - 1]), abs=0.06
     )
-
-
-def test_axes_hold_zero_and_a_time_step_of_one_and_a_half_medians(viewer):
-    rng = np.random.default_rng(3)
-    page = viewer(contaminate(drive_log(4), "loop-overrun", severity=1.0, rng=rng).log)
-    median, late = page.evaluate("[sysid.chart.derived.median, sysid.chart.derived.late]")
-    ranges = {
-        name: page.evaluate(f"sysid.chart.rangeOfPanel('{name}')")
-        for name in ("voltage", "velocity", "position", "step")
-    }
-
-    assert all(low <= 0.0 <= high for low, high in ranges.values())
-    assert median == pytest.approx(20.0, rel=0.05)
-    assert ranges["step"][0] == 0.0
-    assert late == pytest.approx(1.5 * median)
-    assert ranges["step"][1] > late
-
-
-def test_a_velocity_in_another_unit_lies_beside_the_slope_of_its_position(viewer):
-    rng = np.random.default_rng(3)
-    spoiled = contaminate(drive_log(), "unit-error", severity=1.0, rng=rng).log
-    page = viewer(spoiled)
-    low, high = page.evaluate("sysid.chart.rangeOfPanel('velocity')")
-    slopes = page.evaluate("sysid.chart.derived.runs.flatMap(({slope}) => [...slope])")
-    speeds = np.concatenate([run.velocity for run in spoiled.runs])
-
-    assert low <= np.quantile(slopes, 0.02) <= np.quantile(slopes, 0.98) <= high
-    assert low <= speeds.min() <= speeds.max() <= high
 
 
 def test_nothing_is_told_of_a_damaged_log(viewer):
@@ -205,22 +146,6 @@ def test_the_server_refuses_what_would_give_the_answers(tmp_path):
     }
     assert summary["doubts"] == []
     assert samples == 200
-
-
-def test_the_page_of_a_fit_shows_the_signals_on_demand(browser, tmp_path):
-    (tmp_path / "session").mkdir()
-    file = write_log(slipped_log(), tmp_path / "drive.csv")
-    with served(tmp_path / "session", file) as server, opened(browser, server.address) as page:
-        page.locator("#gain-kV").wait_for()
-        page.locator("li.fault h3").wait_for()
-        page.get_by_role("button", name="Signals").click()
-        assert page.evaluate("Object.keys(sysid.chart.panels)") == [
-            "voltage", "velocity", "position", "step",
-        ]  # fmt: skip
-        assert page.evaluate("sysid.chart.faults.length") == 1  # here they are marked
-        page.get_by_role("button", name="Fit", exact=True).click()
-        assert "error" in page.evaluate("Object.keys(sysid.chart.panels)")
-        assert page.complaints == []
 
 
 @pytest.mark.parametrize("theme", ["light", "dark"])

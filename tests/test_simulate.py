@@ -9,14 +9,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from sim.bench.mechanism import Sensor
-from sim.bench.mechanisms import MECHANISMS, find_mechanism
+from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import move_gains_only, simulate
 from sim.core.errors import BadRequest
-from sim.core.log import FOUR_TESTS
 from sim.fit import fit
 from sim.physics.battery import Battery
-from sim.physics.motors import MOTORS, compute_theoretical_kv, find_motor
 
 GAINS = {"kS": 0.25, "kV": 2.0, "kA": 0.3}
 QUIET = Sensor(resolution=1e-12, velocity_noise=0.0, noise_speed=1.0, jitter=0.0)
@@ -44,23 +42,6 @@ def test_a_mechanism_drawn_at_random_is_fitted_to_its_own_truth(name, seed):
         assert gains["kG"] == pytest.approx(drawn.gains["kG"], abs=0.03)
 
 
-@pytest.mark.parametrize("name", MECHANISMS)
-def test_a_mechanism_says_what_it_is(name):
-    built = MECHANISMS[name]
-
-    assert built.name == name
-    assert built.summary
-    assert all(value > 0 for value in built.gains.values())
-    for field, (least, most) in built.spread.items():
-        assert least < most, field
-        assert 0.0 <= getattr(built, field) <= most, field
-
-
-def test_an_unknown_mechanism_lists_the_known():
-    with pytest.raises(BadRequest, match="Choose one of: arm, cascade-elevator, counterweight"):
-        find_mechanism("trebuchet")
-
-
 def test_the_drivetrain_has_the_theory_of_its_parts():
     # by hand: Ke·G/r and R·r/(n·Kt·G)·m, from WPILib's figures of the Kraken X60
     r, kt = 12 / 366, 7.09 / 366
@@ -73,36 +54,6 @@ def test_the_drivetrain_has_the_theory_of_its_parts():
     assert (round(gains["kV"], 3), round(gains["kA"], 3)) == (2.524, 0.191)
 
 
-@pytest.mark.parametrize(
-    ("name", "resistance", "volts_per_turn", "exact"),
-    [
-        ("krakenX60", 32.8e-3, 0.1200, 0.1193),
-        ("krakenX44", 43.0e-3, 0.0928, 0.0921),
-        ("neo", 114.3e-3, 0.1268, 0.1247),
-        ("cim", 90.2e-3, 0.1356, 0.1328),
-    ],
-)
-def test_a_motor_has_the_constants_of_its_data_sheet(name, resistance, volts_per_turn, exact):
-    found = MOTORS[name]
-
-    assert found.resistance == pytest.approx(resistance, abs=5e-5)
-    assert compute_theoretical_kv(found, ratio=1.0) * 2 * math.pi == pytest.approx(
-        volts_per_turn, abs=5e-5
-    )
-    assert found.back_emf * 2 * math.pi == pytest.approx(exact, abs=1e-4)
-
-
-def test_theoretical_kv_counts_gears_and_wheel():
-    assert compute_theoretical_kv(
-        find_motor("krakenX60"), ratio=6.75, radius=0.0508
-    ) == pytest.approx(2.538, abs=1e-3)
-
-
-def test_an_unknown_motor_lists_the_known():
-    with pytest.raises(BadRequest, match="Choose one of: krakenX60"):
-        find_motor("hamster")
-
-
 def test_a_step_follows_the_exponential_of_the_text_book():
     time = np.arange(0, 2, 0.02)
 
@@ -111,39 +62,6 @@ def test_a_step_follows_the_exponential_of_the_text_book():
     top, tau = (7.0 - 0.25) / 2.0, 0.15
     assert velocity == pytest.approx(top * (1 - np.exp(-time / tau)), abs=1e-12)
     assert position == pytest.approx(top * (time - tau * (1 - np.exp(-time / tau))), abs=1e-12)
-
-
-@pytest.mark.parametrize("volts", [0.25, -0.25, 0.1, 0.0])
-def test_at_rest_it_stays_at_rest_while_friction_holds(volts):
-    time = np.arange(0, 1, 0.02)
-
-    position, velocity = move_gains_only(GAINS, time=time, voltage=np.full(time.size, volts))
-
-    assert not position.any()
-    assert not velocity.any()
-
-
-def test_coasting_it_comes_to_rest_and_stays_there():
-    time = np.arange(0, 3, 0.02)
-    volts = np.where(time < 1.0, 4.0, 0.0)
-
-    _, velocity = move_gains_only(GAINS, time=time, voltage=volts)
-
-    assert velocity[50] > 1.5
-    assert velocity[-1] == 0.0
-    assert (np.diff(velocity[50:]) <= 0).all()
-
-
-def test_a_turn_within_one_step_is_met_at_its_exact_time():
-    coarse = np.array([0.0, 0.5, 1.0])
-    fine = np.linspace(0.0, 1.0, 100_001)
-    volts = np.where(fine < 0.5, 5.0, -3.0)
-
-    x_coarse, v_coarse = move_gains_only(GAINS, time=coarse, voltage=np.array([5.0, -3.0, -3.0]))
-    x_fine, v_fine = move_gains_only(GAINS, time=fine, voltage=volts)
-
-    assert v_coarse[-1] == pytest.approx(v_fine[-1], abs=1e-9)
-    assert x_coarse[-1] == pytest.approx(x_fine[-1], abs=1e-9)
 
 
 @given(
@@ -173,22 +91,6 @@ def test_no_speed_exceeds_what_the_voltage_allows(volts, ks):
     assert np.abs(velocity).max() <= max(0.0, np.abs(volts).max() - ks) / 2.0 + 1e-12
 
 
-def test_the_same_state_of_chance_gives_the_same_log():
-    one, two = (simulate(MECHANISMS["shooter"], Routine(), rng=rng()) for _ in range(2))
-
-    for a, b in zip(one.runs, two.runs, strict=True):
-        assert (a.velocity == b.velocity).all()
-        assert (a.time == b.time).all()
-
-
-def test_a_log_has_the_four_tests_in_order_and_no_overlap():
-    log = simulate(MECHANISMS["drivetrain"], Routine(ramp=0.5, step=3.5), rng=rng())
-
-    assert tuple(run.test for run in log.runs) == FOUR_TESTS
-    assert all(a.time[-1] < b.time[0] for a, b in zip(log.runs, log.runs[1:], strict=False))
-    assert (log.units, log.mechanism, log.type) == ("meters", "drivetrain", "simple")
-
-
 def test_a_ramp_starts_after_two_loops_and_has_499_samples_as_wpilibs():
     quiet = replace(MECHANISMS["shooter"], sensor=QUIET)
 
@@ -197,15 +99,6 @@ def test_a_ramp_starts_after_two_loops_and_has_499_samples_as_wpilibs():
     assert len(ramp) == 499
     assert ramp.voltage[0] == pytest.approx(0.04)
     assert ramp.voltage[-1] == pytest.approx(10.0)
-
-
-def test_a_test_ends_where_the_travel_does():
-    short = replace(MECHANISMS["drivetrain"], travel=2.0)
-
-    log = simulate(short, Routine(ramp=0.5, step=3.5), rng=rng())
-
-    assert all(np.ptp(run.position) <= 2.0 for run in log.runs)
-    assert len(log.list_runs_of_test("dynamic-forward")[0]) < 100
 
 
 @pytest.mark.parametrize(
@@ -252,17 +145,3 @@ def test_current_and_battery_are_recorded_where_asked():
     assert all(np.abs(run.current).max() <= 40.0 for run in log.runs)
     assert plain.runs[0].current is None
     assert (plain.runs[0].velocity == log.runs[0].velocity).all()
-
-
-@pytest.mark.parametrize("name", ["arm", "elevator", "turret"])
-def test_where_there_are_stops_a_test_begins_at_one_end_and_ends_before_the_other(name):
-    built = MECHANISMS[name]
-    low, high = built.stops
-    for run in simulate(built, Routine(ramp=0.5, step=4.0), rng=rng()).runs:
-        forward = run.direction == "forward"
-        begins, ends = (low, high) if forward else (high, low)
-        reach = high - low
-        assert run.position[0] == pytest.approx(begins, abs=0.03 * reach)
-        assert abs(run.position[-1] - ends) < 0.1 * reach
-        assert low <= run.position.min()
-        assert run.position.max() <= high

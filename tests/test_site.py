@@ -3,7 +3,6 @@
 import importlib.util
 import os
 import re
-import shutil
 import subprocess
 import sys
 import threading
@@ -11,14 +10,13 @@ from functools import partial
 from html.parser import HTMLParser
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
-from types import SimpleNamespace
 from urllib.parse import unquote, urlparse
 from xml.etree import ElementTree as ET
 
-import nbformat
 import pytest
 from chromium import LEAST_CONTRAST, least_contrast
-from mkdocs.structure.files import Files
+
+pytestmark = pytest.mark.slow
 
 ROOT = Path(__file__).resolve().parents[1]
 LOADS = {  # what a browser fetches by itself
@@ -69,15 +67,6 @@ def built_site(tmp_path_factory):
         path.relative_to(folder).as_posix(): SitePage(path.read_text("utf-8"))
         for path in folder.rglob("*.html")
     }
-
-
-@pytest.fixture(scope="module")
-def hook():
-    """The hook of MkDocs that adds pages."""
-    spec = importlib.util.spec_from_file_location("docs_pages", ROOT / ".ci" / "docs_pages.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
 
 
 def lost_links(folder, pages):
@@ -142,7 +131,7 @@ def tab(built_site, browser):
 
 @pytest.mark.browser
 def test_no_page_has_an_error_in_its_console_or_a_faint_link(built_site, tab):
-    texts = '[role="main"] :is(a, p, li, h2), .bs-sidebar a, .navbar a'
+    texts = '[role="main"] :is(a, p, li, h2), .bs-sidebar a, .navbar a:not(.disabled)'
     faint = {}
     for name in sorted(built_site[1]):
         tab.open(name)
@@ -156,18 +145,8 @@ def test_no_page_has_an_error_in_its_console_or_a_faint_link(built_site, tab):
 
 
 @pytest.mark.browser
-def test_the_switch_changes_the_theme_and_it_is_kept(tab):
-    tab.open("index.html")
-    tab.locator("#theme-menu").click()
-    tab.locator('[data-bs-theme-value="dark"]').click()
-    tab.open("guide.html")
-
-    assert tab.evaluate("document.documentElement.dataset.bsTheme") == "dark"
-
-
-@pytest.mark.browser
-@pytest.mark.parametrize("gain", ["kS", "kV", "kA", "kG"])
-def test_a_search_finds_gains(gain, tab):
+def test_a_search_finds_a_gain(tab):
+    gain = "kG"
     with tab.expect_response("**/search_index.json"):
         tab.open("index.html")
     tab.locator("[data-bs-target='#mkdocs_search_modal']").click()
@@ -180,19 +159,6 @@ def test_a_search_finds_gains(gain, tab):
             break
 
     assert gain in tab.locator("#mkdocs-search-results").inner_text()
-
-
-@pytest.mark.browser
-def test_the_contents_follow_the_reader(tab):
-    lesson = next((ROOT / "lessons").glob("01_*.ipynb")).stem
-    tab.open(f"lessons/{lesson}.html")
-    last = tab.locator('[role="main"] h2').last
-    last.scroll_into_view_if_needed()
-    last.evaluate("heading => heading.scrollIntoView()")
-    active = tab.locator(".bs-sidebar .nav-link.active")
-    active.first.wait_for()
-
-    assert last.inner_text() in active.all_inner_texts()
 
 
 def test_a_lost_link_and_a_lost_anchor_are_seen(tmp_path):
@@ -252,76 +218,6 @@ def test_a_lesson_says_how_to_run_it_and_offers_its_notebook(built_site, lesson)
     assert not [link for link in links if "colab" in link]  # no address of the project is known
 
 
-def test_a_known_address_gives_each_lesson_a_link_to_colab(hook):
-    page = SimpleNamespace(file=SimpleNamespace(src_uri="lessons/02_gravity.md"))
-    config = SimpleNamespace(extra={"repository": "https://github.com/a/b"})
-
-    assert (
-        "https://colab.research.google.com/github/a/b/blob/main/lessons/02_gravity.ipynb"
-        in hook.say_how_to_run(page, config)
-    )
-
-
-@pytest.mark.parametrize(
-    ("html", "shown", "warned"),
-    [
-        ('<a href="sim/docs/guide.md">g</a>', "g", False),
-        ('<a href="sim/fit/result.py">code</a>', "code", False),
-        ('<a href="sim/fit/never.py">code</a>', "code", True),
-        (
-            '<a href="https://docs.wpilib.org">w</a>',
-            '<a href="https://docs.wpilib.org">w</a>',
-            False,
-        ),
-        ('<img src="none.svg" alt="x">', None, True),
-    ],
-)
-def test_a_link_to_a_file_that_is_no_page_is_text_and_one_to_nothing_is_a_warning(
-    hook, caplog, html, shown, warned
-):
-    page = SimpleNamespace(file=SimpleNamespace(src_uri="CONTRIBUTING.md"))
-    config = SimpleNamespace(extra={"repository": ""})
-
-    resolved = hook.resolve_links(html, page=page, config=config, files=Files([]))
-
-    assert shown is None or resolved == shown
-    assert bool(caplog.records) == warned
-
-
-def test_markdown_is_rendered_as_github_does(hook):
-    html = hook.render_markdown(
-        "1. Choose:\n\n   | a | b |\n   |---|---|\n   | 1 | <2 |\n\n   ```java\n   int x;\n   ```\n"
-        "- [ ] ready\n"
-    )
-
-    assert "<li>" in html.partition("<table>")[0]  # a table within the list
-    assert "&lt;2" in html
-    assert html.count("<pre") == 1
-    assert '<input type="checkbox"> ready' in html
-
-
-def test_two_headings_of_one_name_have_two_anchors(hook):
-    html, tokens = hook.name_headings("<h1>T</h1><h2>A &amp; <code>b</code></h2><h2>A &amp; b</h2>")
-
-    assert re.findall('id="([^"]+)"', html) == ["t", "a--b", "a--b-1"]
-    assert [one["id"] for one in tokens[0]["children"]] == ["a--b", "a--b-1"]
-
-
-def test_a_kept_notebook_is_used_until_the_lesson_changes(hook, tmp_path, monkeypatch):
-    monkeypatch.setattr(hook, "KEPT", tmp_path / "kept")
-    path = tmp_path / "01_motor_model.ipynb"
-    for suffix in (".ipynb", ".py"):
-        shutil.copy(ROOT / "lessons" / f"{path.stem}{suffix}", tmp_path)
-    ran, fresh = nbformat.read(path, 4), nbformat.read(path, 4)
-    ran.cells[0].source = "ran"
-    assert hook.get_notebook(path, run=False) == fresh
-    hook.keep_notebook(ran, path)
-
-    assert hook.get_notebook(path, run=False).cells[0].source == "ran"
-    path.with_suffix(".py").write_text("# edited", "utf-8")
-    assert hook.get_notebook(path, run=False) == fresh
-
-
 def numbers_and_words(text):
     """The numbers of a text, and the text without them."""
     found = re.compile(r"-?\d+(?:\.\d+)?")
@@ -346,8 +242,3 @@ def test_the_moving_picture_is_what_its_command_draws(name, moves):
     assert "prefers-color-scheme: dark" in kept
     assert kept.endswith("off by 0.01 m/s</text></g>\n</svg>\n")
     assert "http" not in kept.replace("http://www.w3.org/2000/svg", "")
-
-
-def test_pictures_of_the_readme_are_small():
-    for path in (ROOT / ".ci" / "pictures").iterdir():
-        assert path.stat().st_size < 200_000

@@ -3,7 +3,6 @@
 import io
 import json
 import math
-import re
 import subprocess
 import sys
 from dataclasses import replace
@@ -18,10 +17,8 @@ from story_made import (
     PLACE,
     REMAINS,
     RIGHT,
-    SAG,
     SLIP,
     STORIES,
-    TESTS,
     TRIED,
     WRONG,
     gap_of,
@@ -34,21 +31,18 @@ from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.cli import sysid
 from sim.cli.open.reconcile_job import describe_story
-from sim.core.errors import BadRequest
-from sim.core.units import find_unit
-from sim.physics.effects import EFFECTS
 from sim.plot.story import (
     make_findings_table,
     plot_remaining_gap,
 )
 from sim.reconcile.story_text import (
     format_estimate,
-    list_inspections,
-    list_next_tests,
     write_headline,
 )
-from sim.report.story_terminal import show_progress, show_story
+from sim.report.story_terminal import show_story
 from sim.support.command_line import run_command
+
+pytestmark = pytest.mark.slow
 
 BEFORE, AFTER = 16.2, 1.01  # [noises] of the story's log, worked out in the first test
 EXPLAINED = STORIES["explained"]
@@ -73,26 +67,6 @@ def test_the_numbers_of_the_story_are_those_of_its_log():
     assert gap_of(log, RIGHT) * FOOT / NOISE == pytest.approx(AFTER, rel=0.01)
 
 
-@pytest.mark.parametrize("name", STORIES)
-def test_the_verdict_is_a_few_plain_sentences(name):
-    headline = write_headline(STORIES[name])
-    sentences = headline.removesuffix(".").split(". ")
-
-    assert headline.endswith(".")
-    assert 1 < len(sentences) <= 4
-    assert not [one for one in sentences if ": " in one.partition("damaged: ")[0]]
-    assert all(
-        found.effect in headline for found in STORIES[name].findings if found.size != "minor"
-    )
-
-
-def test_a_gap_that_is_large_changes_the_verdict():
-    off = replace(STORIES["nothing missing"], gap_after=3.0 * EXPLAINED.noise_floor)
-
-    assert write_headline(off) != write_headline(STORIES["nothing missing"])
-    assert re.search(r"\b3 times\b", write_headline(off))
-
-
 @pytest.mark.parametrize(
     ("value", "error", "said"),
     [
@@ -111,63 +85,7 @@ def test_a_number_has_the_digits_it_deserves(value, error, said):
     assert format_estimate(estimate) == said
 
 
-@pytest.mark.parametrize(("error", "said"), [(0.9614, "0.96"), (-99.4, "99"), (123.4, "123")])
-def test_a_place_is_told_in_numbers_that_a_person_reads(error, said):
-    assert f" {said} " in replace(PLACE, error=error).sentence
-
-
-def test_each_look_alike_says_what_to_look_at():
-    unsure = STORIES["ambiguous"].findings[0]
-
-    assert [how for _, how in list_inspections(unsure)] == [
-        unsure.inspect,
-        EFFECTS["stribeck"].inspect,
-    ]
-    assert [how for _, how in list_inspections(SLIP)] == [SLIP.inspect]
-
-
-def test_tests_to_run_next_are_told_once():
-    unsure = STORIES["ambiguous"].findings[0]
-
-    assert list_next_tests(story(unsure, unsure)) == (unsure.separating_test,)
-    assert list_next_tests(EXPLAINED) == ()
-
-
 # -- terminal ------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("name", STORIES)
-def test_a_terminal_shows_plain_lines_of_eighty_columns(name):
-    said = told(STORIES[name])
-
-    assert max(map(len, said.splitlines())) <= 80
-    assert "\x1b" not in said
-    assert all(line == line.rstrip() for line in said.splitlines())
-    assert re.sub(r"\s+", " ", write_headline(STORIES[name])) in re.sub(r"\s+", " ", said)
-
-
-def test_a_terminal_shows_findings_gaps_and_what_to_do():
-    said = told(story(SLIP, *STORIES["ambiguous"].findings, SAG, verdict="ambiguous", **REMAINS))
-
-    assert "  drag 0.1123 ± 0.0021 V·s²/ft²" in said
-    assert "  share 0.040 ± 0.01\n" in said
-    assert re.search(r"base model #{40} 16\.2\n", said)
-    assert re.search(r"\+ drag\.{4} #{2,3} 1\.01\n", said)  # 1.01 of 16.2 are 2.5 of 40
-
-
-def test_brackets_in_a_name_are_no_markup():
-    out = io.StringIO()
-
-    show_story(EXPLAINED, title="[red]drive[/].csv", console=Console(file=out, width=80))
-
-    assert out.getvalue().startswith("[red]drive[/].csv\n")
-
-
-def test_nobody_watches_a_bar_that_no_terminal_shows(capsys):
-    with show_progress() as progress:
-        progress("round 1", 0.5)
-
-    assert capsys.readouterr() == ("", "")
 
 
 # -- page ----------------------------------------------------------------------------------------
@@ -190,20 +108,6 @@ def test_the_page_gets_every_part_of_the_story():
     assert "may be off by more" in describe_story(STORIES["unexplained"])["caution"]
 
 
-def test_gains_stand_with_the_effect_and_without_it():
-    said, data = told(EXPLAINED), EXPLAINED.to_json()
-
-    assert "Gains with drag (± is one standard error):\n  kS 0.2000 ± 0.004 V\n" in said
-    assert "  kV 2.000 ± 0.01 V·s/ft; without: 2.200 ± 0.05 V·s/ft\n" in said
-    assert data["units"] == "feet"
-    assert data["gains"] == {"kS": 0.2, "kV": 2.0, "kA": 0.3}
-    assert data["errors"] == {"kS": 0.004, "kV": 0.01, "kA": 0.02}
-    assert data["without_effects"]["gains"]["kV"] == 2.2
-    assert data["without_effects"]["errors"]["kV"] == 0.05
-    assert "Gains of the model without effects" in told(STORIES["nothing missing"])
-    assert "may be off by more than their errors" in told(STORIES["unexplained"])
-
-
 @pytest.mark.parametrize("name", ["nothing missing", "explained", "unexplained"])
 def test_a_search_that_was_stopped_says_so_first_and_denies_no_cause(name):
     stopped = replace(STORIES[name], complete=False)
@@ -215,30 +119,6 @@ def test_a_search_that_was_stopped_says_so_first_and_denies_no_cause(name):
     assert "effect of the catalogue explains" not in page
     assert stopped.to_json()["complete"] is False
     assert ("missing drag" in headline) is (name == "explained")
-
-
-@pytest.mark.parametrize(
-    ("sure", "unsure", "said"),
-    [
-        (0.95, None, "The log is damaged: encoder-slip."),
-        (None, 0.7, "The log is probably damaged: hard-stop."),
-        (0.95, 0.7, "The log is damaged: encoder-slip and probably hard-stop."),
-    ],
-)
-def test_damage_is_told_as_surely_as_it_is_known(sure, unsure, said):
-    given = (("encoder-slip", sure), ("hard-stop", unsure))
-    faults = [
-        replace(SLIP, effect=name, probability=confidence)
-        for name, confidence in given
-        if confidence
-    ]
-    damaged = story(*faults, chapters=1)
-
-    assert said in write_headline(damaged)
-    assert [one["probability"] for one in damaged.to_json()["findings"]] == [
-        one for one in (sure, unsure) if one
-    ]
-    assert (unsure is None) or "hard-stop (damage to the log, 70 % likely)" in told(damaged)
 
 
 def test_a_simulation_that_ran_away_is_said_in_words():
@@ -262,28 +142,6 @@ def test_a_simulation_that_ran_away_is_said_in_words():
 # -- notebook ------------------------------------------------------------------------------------
 
 
-def test_the_pictures_show_a_gap_before_and_only_noise_after():
-    before, after = plot_remaining_gap(EXPLAINED)
-
-    assert "of the gap beyond noise shows in no plot" in before.alt
-    assert "with drag: Only noise remains." in after.alt
-
-
-def test_samples_that_do_not_count_are_in_no_picture():
-    ramp_only = tuple(np.full(150, test.startswith("quasistatic")) for test in TESTS)
-
-    assert plot_remaining_gap(replace(EXPLAINED, compared=ramp_only))[0].table.rows != (
-        plot_remaining_gap(EXPLAINED)[0].table.rows
-    )
-
-
-def test_a_picture_of_nothing_is_refused():
-    none = replace(EXPLAINED, compared=tuple(np.zeros(150, dtype=bool) for _ in TESTS))
-
-    with pytest.raises(BadRequest, match="Give longer runs"):
-        plot_remaining_gap(none)
-
-
 @pytest.mark.parametrize(
     ("probability", "size", "missing"),
     [
@@ -298,29 +156,6 @@ def test_a_finding_says_how_likely_it_is(probability, size, missing):
     assert make_findings_table(unsure).rows[0][1] == size
     assert missing in write_headline(unsure)
     assert unsure.to_json()["findings"][0]["probability"] == probability
-
-
-def test_the_gap_is_told_in_the_units_of_the_log_and_of_its_top_speed():
-    one = STORIES["nothing missing"]
-    feet = find_unit(one.shown.units)
-    top = max(run.top_speed for run in one.shown.runs)
-
-    said = re.search(r"\(([\d.]+) ft/s, ([\d.]+)% of the top speed\)", write_headline(one))
-
-    assert float(said[1]) == pytest.approx(one.gap_after, rel=0.02)
-    assert float(said[2]) == pytest.approx(100.0 * one.gap_after * feet.si / top, abs=0.06)
-
-
-def test_the_table_has_a_row_for_each_finding():
-    rows = make_findings_table(STORIES["damage and drag"]).rows
-
-    assert [row[:2] for row in rows] == [
-        ("encoder-slip", "damage to the log, over 99 % likely"),
-        ("drag", "major, over 99 % likely"),
-        ("battery-sag", "minor, over 99 % likely"),
-    ]
-    assert rows[1][2] == "drag 0.1123 ± 0.0021 V·s²/ft²"
-    assert rows[2][2] == "share 0.040 ± 0.01"
 
 
 # -- command -------------------------------------------------------------------------------------
@@ -392,20 +227,6 @@ def test_the_json_is_what_others_read(reconcile, drive):
     assert data["where"][0]["where"] == "dynamic-reverse, 0.2 to 0.4 s"
 
 
-def test_paste_prints_the_gains_of_the_last_model_as_code(reconcile, drive, capsys):
-    _, code, _, _ = reconcile(EXPLAINED, drive, "--units", "feet", "--paste", "java")
-    _, vendor, _, _ = reconcile(
-        EXPLAINED, drive, "--units", "feet", "--paste", "phoenix6", "--radius", 0.05
-    )
-    _, plain, _, _ = reconcile(STORIES["nothing missing"], drive, "--paste", "python")
-    run_command(sysid, name="sysid", arguments=["fit", str(drive), "--paste", "python"])
-
-    assert "kV = 2.0;  // [V·s/ft] ± 0.01" in code
-    assert "new SimpleMotorFeedforward(kS, kV, kA)" in code
-    assert "kV" in vendor
-    assert plain == capsys.readouterr().out
-
-
 def test_every_log_is_read_and_inspected(reconcile, drive, tmp_path):
     other = tmp_path / "other.csv"
     other.write_bytes(drive.read_bytes())
@@ -450,21 +271,6 @@ def test_a_page_is_written_beside_what_is_said(reconcile, drive, tmp_path):
     assert "The model is missing drag" in said
 
 
-def test_a_wrong_name_of_a_page_is_told_before_the_work(reconcile, drive):
-    code, out, err, asked = reconcile(EXPLAINED, drive, "--html", "drive.pdf")
-
-    assert (code, out, asked) == (2, "", [])
-    assert "End its name in .html." in err
-
-
-def test_a_validation_that_is_not_there_is_one_line(reconcile, drive):
-    code, out, err, asked = reconcile(EXPLAINED, drive, "--validation", "nowhere.csv")
-
-    assert (code, out, asked) == (2, "", [])
-    assert err.count("\n") == 1
-    assert "nowhere.csv" in err
-
-
 UNSEEN = """
 import sys
 from sim.cli import sysid
@@ -485,3 +291,10 @@ def test_for_other_programs_nothing_is_loaded_that_draws(drive):
     assert json.loads(ran.stdout)["verdict"] in {"nothing-missing", "explained", "ambiguous",
                                                   "unexplained"}  # fmt: skip
     assert ran.stderr.splitlines()[-1] == "[]"
+
+
+def test_the_pictures_show_a_gap_before_and_only_noise_after():
+    before, after = plot_remaining_gap(EXPLAINED)
+
+    assert "of the gap beyond noise shows in no plot" in before.alt
+    assert "with drag: Only noise remains." in after.alt

@@ -147,22 +147,3 @@ def test_numbers_that_decide_in_reconcile_stand_in_one_file():
     }
 
     assert found - SEARCHES - SHOWING <= {"thresholds.py", "damage.py"}
-
-
-def test_few_numbers_decide_in_reconcile_and_each_has_its_reason():
-    text = (ROOT / "sim/reconcile/thresholds.py").read_text(encoding="utf-8")
-    body = ast.parse(text).body[1:]
-    numbers = [
-        part
-        for node in body
-        if isinstance(node, ast.Assign)
-        for part in ast.walk(node.value)
-        if isinstance(part, ast.Constant)
-    ]
-
-    assert 0 < len(numbers) <= MOST_THRESHOLDS
-    assert all(
-        isinstance(reason, ast.Expr) and isinstance(reason.value, ast.Constant)
-        for value, reason in zip(body[::2], body[1::2], strict=True)
-        if isinstance(value, ast.Assign)
-    )

@@ -42,6 +42,8 @@ from sim.physics.motors import find_motor
 from sim.reconcile import reconcile
 from sim.support.command_line import run_command
 
+pytestmark = pytest.mark.slow
+
 GENTLE = Routine(ramp=0.5, step=2.0)
 KRAKEN = SwerveDrive(
     motor=find_motor("krakenX60"),

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
-from old_tools import COUNT, RUNS, document, motion, only_doubt, read_json, scaled, sysid
+from old_tools import RUNS, document, motion, read_json, scaled, sysid
 
 import sim
 
@@ -37,40 +37,6 @@ def test_rows_of_four_are_one_mechanism(tmp_path: Path, test: str, type_: str) -
 
 
 @pytest.mark.parametrize(
-    ("units", "per_rotation", "si"),
-    [
-        ("Meters", 0.5, 0.5),
-        ("Feet", 2.0, 2.0 * 0.3048),
-        ("Radians", 2.0 * np.pi, 2.0 * np.pi),
-        ("Degrees", 360.0, 2.0 * np.pi),
-        ("Rotations", 1.0, 2.0 * np.pi),
-    ],
-)
-def test_rotations_become_the_units_of_the_file_and_these_si(
-    tmp_path: Path, units: str, per_rotation: float, si: float
-) -> None:
-    log = read_json(tmp_path, sysid(4, "Simple", units=units, unitsPerRotation=per_rotation))
-
-    (run,) = log.list_runs_of_test("dynamic-forward")
-    assert log.units == units.lower()
-    assert run.velocity[-1] == pytest.approx(3.0 * si, rel=1e-15)
-
-
-def test_rows_of_six_have_the_battery_and_no_word_about_units(tmp_path: Path) -> None:
-    log = read_json(tmp_path, document(6))
-
-    assert (log.type, log.mechanism, log.units) == ("", "", "meters")
-    assert only_doubt(log).code == "units-unknown"
-    assert "taken as meters" in only_doubt(log).text
-    assert "--units" in only_doubt(log).text
-    (run,) = log.list_runs_of_test("dynamic-forward")
-    assert run.voltage[-1] == 6.0
-    assert run.velocity[-1] == 3.0
-    assert run.bus_voltage is not None
-    assert run.bus_voltage.tolist() == [12.5] * COUNT
-
-
-@pytest.mark.parametrize(
     ("asked", "units"),
     [
         pytest.param({"units": "feet"}, "feet", id="as said"),
@@ -84,18 +50,6 @@ def test_units_a_file_leaves_open_are_settled_by_asking(
 
     assert log.units == units
     assert [doubt.code for doubt in log.doubts] == ([] if "units" in asked else ["units-unknown"])
-
-
-def test_units_one_says_go_before_those_of_the_file_with_a_doubt(tmp_path: Path) -> None:
-    log = read_json(tmp_path, sysid(4, "Simple"), units="feet")
-
-    assert log.units == "feet"
-    assert log.list_runs_of_test("dynamic-forward")[0].velocity[-1] == pytest.approx(
-        3.0 * 0.5 * 0.3048
-    )
-    assert only_doubt(log).code == "contradicting-units"
-    assert "Meters" in only_doubt(log).text
-    assert read_json(tmp_path, sysid(4, "Simple"), units="meters").doubts == ()
 
 
 @pytest.mark.parametrize("motor", [None, "left", "right", "combined"])
@@ -117,14 +71,6 @@ def test_a_drivetrain_is_the_mean_of_its_sides_or_the_one_asked_for(
         np.testing.assert_allclose(run.position, share * 0.5 * position, rtol=1e-14)
         np.testing.assert_allclose(run.velocity, share * 0.5 * velocity, rtol=1e-14)
         assert (run.bus_voltage is None) == (width == 9)
-
-
-def test_a_file_of_2020_that_says_nothing_is_a_drivetrain_by_its_two_sides(tmp_path: Path) -> None:
-    log = read_json(tmp_path, document(10) | {"track-width": document(10)["slow-forward"]})
-
-    assert log.type == "simple"
-    assert len(log.runs) == 4
-    assert only_doubt(log).code == "units-unknown"
 
 
 @pytest.mark.parametrize("words", [{"test": "Elevator", "units": "Feet"}, {"units": "Feet"}])
@@ -167,32 +113,6 @@ def test_an_empty_run_and_an_unknown_one_are_doubted(tmp_path: Path) -> None:
         "empty-run": False,
         "unknown-run": True,
     }
-
-
-def test_a_gyro_that_gave_no_number_does_not_matter(tmp_path: Path) -> None:
-    made = sysid(9, "Drivetrain")
-    for row in made["slow-forward"]:
-        row[7] = row[8] = None
-
-    assert len(read_json(tmp_path, made).runs) == 4
-
-
-def test_a_mechanism_no_tool_wrote_is_doubted(tmp_path: Path) -> None:
-    log = read_json(tmp_path, sysid(4, "Catapult"))
-
-    assert (log.type, log.mechanism) == ("", "Catapult")
-    assert only_doubt(log).code == "unknown-mechanism"
-    assert "--type" in only_doubt(log).text
-
-
-def test_repeated_rows_are_dropped_with_a_doubt(tmp_path: Path) -> None:
-    made = sysid(4, "Simple")
-    made["fast-forward"].insert(5, made["fast-forward"][5])
-
-    log = read_json(tmp_path, made)
-
-    assert len(log.list_runs_of_test("dynamic-forward")[0]) == COUNT
-    assert only_doubt(log).code == "repeated-time"
 
 
 class Real(NamedTuple):

@@ -8,8 +8,6 @@ import pytest
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.core.log import Run
-from sim.inspect.detect_faults import inspect
 from sim.physics.velocity_lag import estimate_velocity_lag
 
 GENTLE = Routine(ramp=0.5, step=3.5)
@@ -49,17 +47,6 @@ def test_a_planted_delay_is_found_to_five_milliseconds(name, period, lag):
     assert estimate_velocity_lag(log.runs).lag == pytest.approx(lag, abs=0.005)
 
 
-@pytest.mark.parametrize("factor", [180.0 / np.pi, 8.46, 1.0 / 60.0, -1.0])
-def test_another_scale_is_a_scale_and_no_delay(factor):
-    log = each(bench(), lambda run: replace(run, velocity=run.velocity * factor))
-
-    found = estimate_velocity_lag(log.runs)
-
-    assert found.lag == pytest.approx(0.0, abs=0.005)
-    assert found.scale == pytest.approx(factor, rel=0.01)
-    assert found.matched
-
-
 def test_an_average_is_a_delay_of_half_its_window():
     log = each(bench(), lambda run: averaged(run, window=0.1))
 
@@ -79,18 +66,3 @@ def test_runs_that_disagree_have_a_large_error():
     assert estimate_velocity_lag(log.runs).error < 0.003
     assert estimate_velocity_lag(spread.runs).error > 0.01
     assert np.isnan(estimate_velocity_lag(log.runs[:1]).error)
-
-
-def test_a_velocity_of_another_motion_has_no_delay():
-    log = each(bench(), lambda run: replace(run, velocity=4.2 * run.position))
-
-    assert not estimate_velocity_lag(log.runs[:2]).matched
-    assert "velocity-lags" not in {doubt.code for doubt in inspect(log).doubts}
-
-
-def test_what_stands_has_no_delay():
-    time = np.arange(100) * 0.02
-    still = Run("dynamic-forward", time, np.ones(100), np.zeros(100), np.zeros(100))
-
-    assert estimate_velocity_lag([]) is None
-    assert estimate_velocity_lag([still]) is None

@@ -18,7 +18,6 @@ from sim.cli.options import LogReader
 from sim.cli.watch.live_fit import LiveFit
 from sim.cli.watch.recordings import FileSource
 from sim.core.errors import UnreadableFile
-from sim.core.log import Run
 from sim.core.vocabulary import FOUR_TESTS
 from sim.fit import fit
 from sim.inspect.contaminate import contaminate
@@ -203,24 +202,6 @@ def test_a_step_that_a_current_limit_held_down_is_repeated_with_what_it_let_thro
     assert find_voltage_limit(freed.list_runs_of_test("dynamic-forward")[0]) is None
 
 
-def test_a_step_without_a_limit_is_not_one():
-    runs = [run for seed in range(5) for run in drive_log(seed).runs]
-    robot, rng = MECHANISMS["drivetrain"], np.random.default_rng(3)
-    sagging = simulate(robot, Routine(step=3.5), rng=rng, duty_cycle=True).runs
-
-    assert {find_voltage_limit(run) for run in [*runs, *sagging]} == {None}
-
-
-@pytest.mark.shared
-def test_the_steps_of_real_robots_without_a_limit_are_not_taken_for_limited(shared):
-    """Their first reading may lie between nothing and the step."""
-    logs = [read(path) for path in sorted((shared / "data" / "real").glob("*.json"))]
-    steps = [run for log in logs for run in log.runs if run.kind == "dynamic"]
-
-    assert len(steps) >= 8
-    assert {find_voltage_limit(run) for run in steps} == {None}
-
-
 def test_a_step_that_met_its_end_is_repeated_with_one_that_settles_before():
     log = drive_log()
     log = contaminate(
@@ -245,18 +226,6 @@ def test_a_settled_step_has_95_percent_of_its_speed_at_the_end_of_the_way(kv, ka
 
     assert gone == pytest.approx(way, rel=1e-4)
     assert speed[-1] / ((volts - ks) / kv) == pytest.approx(0.95, abs=0.001)
-
-
-def test_a_test_without_samples_is_repeated():
-    log = replace(drive_log(), runs=drive_log().runs[:1])
-
-    assert advise(log, last="dynamic-forward") == (
-        "Repeat dynamic-forward: its log contains no motion."
-    )
-
-
-def test_a_run_of_nothing_has_no_limit():
-    assert find_voltage_limit(Run("dynamic-forward", [], [], [], [])) is None
 
 
 # ---- the command
@@ -319,20 +288,3 @@ def test_ctrl_c_ends_it_with_the_gains_of_the_file(tmp_path, content):
 
     assert (running.returncode, errors) == (0, "")
     assert rest[rest.index("Verdict") :].strip() == found.stdout.strip()
-
-
-def test_ctrl_c_before_any_test_says_that_there_is_nothing(tmp_path):
-    code = (
-        "import sim.cli.watch as it\n"
-        "from sim.cli import main\n"
-        "def stop(*_, **__): raise KeyboardInterrupt\n"
-        "it._follow = stop\n"
-        "main()"
-    )
-    done = subprocess.run(
-        [sys.executable, "-c", code, "watch", str(tmp_path)],
-        capture_output=True, encoding="utf-8", check=False, timeout=60,
-    )  # fmt: skip
-
-    assert (done.returncode, done.stderr) == (0, "")
-    assert done.stdout.rstrip().endswith("There are no gains: no test has ended.")

@@ -144,19 +144,6 @@ def test_a_constant_voltage_is_held_and_the_gains_are_those_of_the_kept_file(dri
     assert watched.last.pooled.found.gains == pytest.approx(expected, rel=0.01)
 
 
-def test_a_step_alone_is_found_by_the_voltage_that_was_there_before_it(start, watched):
-    robot = start()
-    wait_for_values(watched)
-    robot.publish(2)
-    update = wait_for(lambda one: one, watched.poll)
-
-    assert [run.test for run in update.log.runs] == ["dynamic-forward"]
-    assert set(update.log.runs[0].voltage) == {3.5}
-    assert update.advice == (
-        "quasistatic-forward, quasistatic-reverse and dynamic-reverse are missing."
-    )
-
-
 def test_a_robot_that_starts_again_loses_the_test_that_was_running_and_no_other(start, watched):
     robot = start()
     wait_for_values(watched)
@@ -202,15 +189,3 @@ def test_a_test_whose_begin_nobody_saw_does_not_count(start, port, tmp_path):
 def test_what_is_no_address_is_refused(tmp_path, address):
     with pytest.raises(BadRequest, match="no address|no team"):
         NetworkTablesSource(address, folder=tmp_path)
-
-
-def test_a_recording_never_replaces_a_file(start, watched, tmp_path):
-    kept = tmp_path / "kept" / "networktables-1.wpilog"
-    kept.write_text("mine", encoding="utf-8")
-    robot = start()
-    wait_for_values(watched)
-    robot.publish(0)
-    update = wait_for(lambda one: one, watched.poll)
-
-    assert [path.name for path in update.paths] == ["networktables-2.wpilog"]
-    assert kept.read_text(encoding="utf-8") == "mine"

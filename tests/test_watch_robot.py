@@ -12,7 +12,7 @@ import pytest
 from sim.core.vocabulary import FOUR_TESTS
 from sim.report.next_test import ENOUGH
 
-pytestmark = pytest.mark.robot
+pytestmark = [pytest.mark.slow, pytest.mark.robot]
 pytest.importorskip("commands2", reason="RobotPy is not installed")
 pytest.importorskip("ntcore", reason="pyntcore is not installed")
 
@@ -95,27 +95,3 @@ def test_its_growing_log_gives_after_each_test_what_the_file_gives(root, tmp_pat
     assert said[-1]["fit"]["gains"] == pytest.approx(
         {"kS": 0.15, "kV": 2.5238, "kA": 0.1911}, rel=0.02
     )
-
-
-def test_over_networktables_a_robot_that_starts_again_adds_what_was_missing(root, tmp_path, port):
-    watch = Watch("--nt", f"localhost:{port}", "--save", "kept", cwd=tmp_path)
-    try:
-        forward, reverse = [
-            [part for kind in ("quasistatic", "dynamic") for part in ("--only", f"{kind}-{way}")]
-            for way in ("forward", "reverse")
-        ]
-        run_robot(root, tmp_path, *forward, "--wait", "3", port=port)
-        first = [watch.next() for _ in range(2)]
-        run_robot(root, tmp_path, *reverse, "--wait", "3", port=port)
-        second = [watch.next() for _ in range(2)]
-    finally:
-        errors = watch.end()
-
-    assert errors == ""
-    assert first[-1]["next"] == "quasistatic-reverse and dynamic-reverse are missing."
-    assert second[-1]["next"] == ENOUGH
-    files = second[-1]["files"]
-    assert len(files) == 2
-    assert second[-1]["fit"]["gains"] == fit_gains(*files, cwd=tmp_path)
-    own = fit_gains(*sorted((tmp_path / "logs").glob("*.wpilog")), cwd=tmp_path)
-    assert second[-1]["fit"]["gains"] == pytest.approx(own, rel=0.01)

@@ -5,10 +5,11 @@ import math
 import subprocess
 import sys
 
-import numpy as np
 import pytest
 
-from sim.physics.engine import compose, ieee_math
+from sim.physics.engine import ieee_math
+
+pytestmark = pytest.mark.slow
 
 BLOCKED = """
 import importlib.abc, importlib.util, sys
@@ -55,14 +56,6 @@ def test_a_fit_has_the_same_digits(folder, log):
     assert slow.returncode == quick.returncode
 
 
-def test_it_simulates_the_same_log(folder):
-    for name, without in (("slow.csv", True), ("quick.csv", False)):
-        words = ("simulate", "intake", "--seed", "3", "--timeout", "1", "-o", name)
-        assert run_sysid(*words, cwd=folder, without_numba=without).returncode == 0
-
-    assert (folder / "slow.csv").read_bytes() == (folder / "quick.csv").read_bytes()
-
-
 def test_a_numba_that_refuses_to_start_is_done_without(monkeypatch):
     from sim.physics import engine  # noqa: PLC0415 - its private functions are replaced here
 
@@ -96,26 +89,3 @@ def test_mathematics_answers_as_compiled_code_does(name, argument, expected):
     found = getattr(ieee_math, name)(argument)
 
     assert found == expected or (math.isnan(found) and math.isnan(expected))
-
-
-def test_an_effect_without_numba_does_not_stop_at_what_is_undefined():
-    found = compose.use_ieee_math(_swing)(math.inf)
-
-    assert np.isnan(found)
-
-
-def _swing(x):
-    return math.cos(x)
-
-
-def test_a_notebook_says_why_its_first_simulation_takes_long(monkeypatch, capsys):
-    from sim.physics import engine  # noqa: PLC0415 - its private functions are replaced here
-
-    monkeypatch.setitem(sys.modules, "ipykernel", None)  # as in a kernel
-    monkeypatch.setattr(engine, "engine_can_compile", lambda: True)
-    monkeypatch.setattr(engine, "compose_engine", lambda _: "compiled")
-    for cached, said in ((False, 1), (True, 0)):
-        monkeypatch.setattr(engine, "engine_is_cached", lambda cached=cached: cached)
-
-        assert engine._build_engine.__wrapped__() == "compiled"
-        assert capsys.readouterr().out.count("Compiling the simulation, once") == said

@@ -13,6 +13,8 @@ from grader.classroom.submissions import find_submissions
 from grader.cli import run_command
 from grader.exercise import list_exercises
 
+pytestmark = pytest.mark.slow
+
 DOES = '''
 """An exercise whose check does what the answer asks for."""
 import os, time

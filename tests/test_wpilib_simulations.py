@@ -4,7 +4,6 @@ WPILib's formulas, and where they were read, stand in ``wpilib_twins.py``. A tol
 two integrators leave, and a bench that is wrong by 3 % has to miss it by a hundred times as much.
 """
 
-import math
 from collections.abc import Mapping
 from dataclasses import replace
 
@@ -170,68 +169,12 @@ def test_a_mechanism_stops_as_in_wpilib(name, twin, tolerance):
     assert apart_at_stops(bare(name), name, twin) < tolerance
 
 
-def test_what_an_arm_differs_by_is_the_step_of_the_bench():
-    """A rule of second order: half the step, a quarter of the error."""
-    coarse, middle, fine = (
-        apart_at_stops(bare("arm"), "arm", arm, step) for step in (0.002, 0.001, 0.0005)
-    )
-
-    assert coarse / middle == pytest.approx(4.0, rel=0.05)
-    assert middle / fine == pytest.approx(4.0, rel=0.05)
-
-
-def test_a_rod_has_the_gravity_of_wpilib():
-    """Its kG is the voltage that holds m·g·L/2, half the weight at the end, of a level arm."""
-    length, mass = 0.9, 3.0
-    inertia = wpilib.SingleJointedArmSim.estimateMOI(length, mass)
-    rod = replace(bare("arm"), load=inertia, lift=1.5 * G / length)
-    torque = mass * G * length / 2.0
-
-    assert inertia == pytest.approx(mass * length**2 / 3.0)
-    assert rod.gains["kG"] == pytest.approx(
-        gearbox(rod.motor, 1).withReduction(rod.ratio).voltage(torque, 0.0), rel=SAME_FORMULA
-    )
-
-
 @pytest.mark.parametrize("name", MECHANISMS)
 def test_the_battery_sinks_as_in_wpilib(name):
     """With all that the catalogue's mechanism has: friction, limits, battery."""
     built = quiet(MECHANISMS[name])
 
     assert apart_in_volts(built, built.battery) < SAME_FORMULA
-
-
-@pytest.fixture
-def robot_battery():
-    """The battery of the simulated robot controller, which clamps what a simulation is given."""
-    yield wpilib.RoboRioSim.setVInVoltage
-    wpilib.RoboRioSim.resetData()
-
-
-def test_all_the_battery_has_is_what_wpilib_comes_to(robot_battery):
-    """Current, battery, clamp, and again: what a robot program does loop by loop, until it rests.
-
-    One loop changes the next by -Rb/R, here -0.35, so that 40 leave 1e-18. (Four Kraken X60 would
-    never come to rest: -2.4.)
-    """
-    built = replace(bare("intake"), battery=Battery(rest=12.0, resistance=0.02))
-    rest, ohm = built.battery.rest, built.battery.resistance
-    wheel = wpilib.FlywheelSim(
-        wpimath.LinearSystemId.flywheelSystem(gearbox(built.motor, 1), built.load, built.ratio),
-        gearbox(built.motor, 1),
-    )
-    for run in log_of(built, Routine(step=12.0, timeout=0.5, kinds=("dynamic",))).runs:
-        for k in range(len(run)):
-            bus = rest
-            wheel.setVelocity(run.velocity[k])
-            for _ in range(40):
-                robot_battery(bus)
-                wheel.setInputVoltage(math.copysign(12.0, run.voltage[k]))
-                bus = wpilib.BatterySim.calculate(rest, ohm, [wheel.getCurrentDraw()])
-
-            assert run.bus_voltage[k] == pytest.approx(bus, rel=SAME_FORMULA)
-            assert run.voltage[k] == pytest.approx(wheel.getInputVoltage(), rel=SAME_FORMULA)
-        assert run.bus_voltage[0] < 0.8 * rest  # a motor at rest takes a quarter of it
 
 
 @pytest.mark.parametrize("wrong", [{"spin": 0.03}, {"drag": 0.03}, {"friction": 0.05}])
@@ -241,36 +184,3 @@ def test_wrong_gains_are_seen(name, twin, tolerance, wrong):
     built = replace(bare(name), **wrong)
 
     assert apart_in_tests(built, name, twin, ("dynamic",)) > TEETH * tolerance
-
-
-@pytest.mark.parametrize(
-    ("name", "twin", "tolerance", "wrong"),
-    [
-        *[(*pair, {"lift": 1.03}) for pair in WITH_STOPS],
-        *[(*pair, {"load": 0.97}) for pair in WITH_STOPS],
-        *[(*pair, {"travel": 0.99}) for pair in WITH_STOPS],
-        ("elevator", elevator, CLOSED, {"lift": 9.81 / G}),
-    ],
-)
-def test_wrong_gravity_and_a_wrong_stop_are_seen(name, twin, tolerance, wrong):
-    built = bare(name)
-    built = replace(
-        built, **{field: share * getattr(built, field) for field, share in wrong.items()}
-    )
-
-    assert apart_at_stops(built, name, twin) > TEETH * tolerance
-
-
-@pytest.mark.parametrize("figure", ["stall_torque", "stall_current", "free_current", "free_speed"])
-@pytest.mark.parametrize("name", MOTORS)
-def test_a_wrong_figure_of_a_motor_is_seen(name, figure):
-    motor = MOTORS[name]
-    wrong = replace(motor, **{figure: 1.03 * getattr(motor, figure)})
-
-    assert apart_in_figures(wrong, 1) > TEETH * SAME_FORMULA
-
-
-@pytest.mark.parametrize("wrong", [Battery(resistance=0.0206), Battery(rest=12.5)])
-@pytest.mark.parametrize("name", MECHANISMS)
-def test_a_wrong_battery_is_seen(name, wrong):
-    assert apart_in_volts(quiet(MECHANISMS[name]), wrong) > TEETH * SAME_FORMULA

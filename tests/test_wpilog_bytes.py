@@ -10,7 +10,6 @@ from hypothesis import strategies as st
 from wpilog_file import (
     HEADER,
     finish,
-    metadata,
     record,
     records,
     start,
@@ -116,39 +115,8 @@ def test_each_type_is_decoded(
     assert values(entry) == [expected]
 
 
-@pytest.mark.parametrize("count", [3, 5_000], ids=["few among many records", "many"])
-def test_strings_are_the_same_however_many_there_are(tmp_path: Path, count: int) -> None:
-    """Few strings are cut out one by one, many from the whole file as text."""
-    parts = [record(0, 0, start(1, "text", "string")), record(0, 0, start(2, "blob", "raw"))]
-    said = [f"état {index}" if index % 2 else "none" for index in range(count)]
-    parts += [record(1, index, text.encode()) for index, text in enumerate(said)]
-    parts.append(record(2, count, bytes(40_000)))
-
-    entry = contents_in(tmp_path, *parts).entries[0]
-
-    assert entry.texts() == said
-
-
 def double(number: int, time: int, value: float) -> bytes:
     return record(number, time, struct.pack("<d", value))
-
-
-def test_an_id_is_free_again_after_a_finish(tmp_path: Path) -> None:
-    found = contents_in(
-        tmp_path,
-        record(0, 0, start(1, "first", "double")),
-        double(1, 1, 1.0),
-        record(0, 2, finish(1)),
-        double(1, 3, 99.0),  # belongs to nobody
-        record(0, 4, start(1, "second", "string", "m")),
-        record(1, 5, b"two"),
-    )
-
-    assert [(entry.name, values(entry)) for entry in found.entries] == [
-        ("first", [1.0]),
-        ("second", ["two"]),
-    ]
-    assert found.damage is None
 
 
 def test_an_entry_that_comes_back_under_another_id_is_joined_in_time_order(tmp_path: Path) -> None:
@@ -172,21 +140,3 @@ def test_an_entry_that_comes_back_under_another_id_is_joined_in_time_order(tmp_p
         [1.0, 2.0, 3.0, 4.0],
     )
     assert (other.type, values(other)) == ("float", [5.0])
-
-
-def test_metadata_may_come_later(tmp_path: Path) -> None:
-    found = contents_in(
-        tmp_path, record(0, 0, start(1, "it", "double", "Meter")), record(0, 1, metadata(1, "Foot"))
-    )
-
-    assert found.entries[0].metadata == "Foot"
-
-
-def test_a_double_of_nine_bytes_is_damage(tmp_path: Path) -> None:
-    found = contents_in(
-        tmp_path, record(0, 0, start(1, "it", "double")), double(1, 1, 1.0), record(1, 2, bytes(9))
-    )
-
-    assert found.damage is not None
-    assert (found.damage.what, found.damage.torn) == ("a double of 9 bytes", False)
-    assert len(found.entries[0]) == 1

@@ -82,14 +82,6 @@ def test_one_that_unpacks_to_too_much_is_refused(packed, monkeypatch):
         read(packed)
 
 
-def test_something_else_that_is_packed_is_no_log(tmp_path):
-    path = tmp_path / "notes.xz"
-    path.write_bytes(lzma.compress(b"these are notes, and no log of a robot"))
-
-    with pytest.raises(UnreadableFile, match="does not begin with WPILOG"):
-        read(path)
-
-
 def test_it_can_be_watched_while_it_grows(plain, tmp_path):
     content = plain.read_bytes()
     half = len(content) // 2

@@ -3,7 +3,6 @@
 The logs come from the little robot in ``wpilog_file``.
 """
 
-import math
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +10,7 @@ import pytest
 from wpilog_file import FOUR, Logger, Motor, codes, motion, routine, saved
 
 import sim
-from sim.core.errors import BadSample, MissingSignal
+from sim.core.errors import MissingSignal
 
 METERS = ("volt", "meter", "meters_per_second")
 
@@ -22,7 +21,7 @@ METERS = ("volt", "meter", "meters_per_second")
     ids=["all at one time", "each value at a time of its own"],
 )
 def test_a_log_of_changes_only_reads_as_the_whole_one(
-    tmp_path: Path, late: tuple[int, int, int], state_late: int, reads
+    tmp_path: Path, late: tuple[int, int, int], state_late: int
 ) -> None:
     """A step's voltage is logged once there, so SysId's own rule would leave one sample."""
     motor = Motor("main", late=late)
@@ -30,7 +29,6 @@ def test_a_log_of_changes_only_reads_as_the_whole_one(
     changes = sim.read(saved(tmp_path, motor, changes_only=True, state_late=state_late))
 
     assert codes(changes) == ["change-only"]
-    reads(changes.doubts[0].message)
     assert [run.test for run in changes.runs] == list(FOUR)
     for ours, theirs in zip(changes.runs, whole.runs, strict=True):
         np.testing.assert_allclose(ours.time, theirs.time + late[2] / 1e6, atol=1e-9)
@@ -38,13 +36,12 @@ def test_a_log_of_changes_only_reads_as_the_whole_one(
         assert np.array_equal(ours.velocity, theirs.velocity)
 
 
-def test_a_slow_sensor_is_no_log_of_changes_only(tmp_path: Path, reads) -> None:
+def test_a_slow_sensor_is_no_log_of_changes_only(tmp_path: Path) -> None:
     slow = Motor("main", units=METERS, every=(1, 1, 5))
     log = sim.read(saved(tmp_path, slow, tests=("quasistatic-forward",)))
 
     (run,) = log.runs
     assert codes(log) == ["uneven-rates"]
-    reads(log.doubts[0].message)
     v = [motion("quasistatic-forward", loop)[1] for loop in (0, 5)]
     assert run.velocity[2] == pytest.approx(v[0] + (v[1] - v[0]) * 2 / 5)
     assert run.time[-1] == pytest.approx(1.0 + 0.02 * 38)  # the line reaches a little further
@@ -71,70 +68,24 @@ def test_what_lies_beyond_a_signal_is_not_made_up(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("leave_out", "expected", "missing"),
+    ("leave_out", "expected"),
     [
-        pytest.param(("voltage",), "voltage-main-Arm", "", id="voltage"),
-        pytest.param(
-            ("position", "velocity"),
-            "position-main-Arm",
-            "velocity missing too",
-            id="position and velocity",
-        ),
-        pytest.param(
-            ("voltage", "position", "velocity"),
-            "voltage-<motor>-Arm",
-            "position and velocity missing too",
-            id="all three",
-        ),
+        (("voltage",), "voltage-main-Arm"),
+        (("position", "velocity"), "position-main-Arm"),
+        (("voltage", "position", "velocity"), "voltage-<motor>-Arm"),
     ],
 )
-def test_a_missing_entry_is_named(
-    tmp_path: Path, leave_out: tuple[str, ...], expected: str, missing: str, reads
-) -> None:
+def test_missing_entry_is_named(tmp_path: Path, leave_out: tuple[str, ...], expected: str) -> None:
     logger = Logger()
     logger.start("/Arm/AppliedVolts")
-    logger.start("/Wrist/encoder/velocity")
-    for time in range(3):
-        logger.put("/Arm/AppliedVolts", time, 1.0)
-        logger.put("/Wrist/encoder/velocity", time, 1.0)
+    logger.put("/Arm/AppliedVolts", 1, 1.0)
     routine(logger, Motor("main", leave_out=leave_out))
 
     with pytest.raises(MissingSignal) as caught:
         sim.read(logger.save(tmp_path / "log.wpilog"))
 
-    signal = expected.split("-", maxsplit=1)[0]
-    assert caught.value.what.startswith(f"no {signal} entry: expected '{expected}' (double)")
-    assert missing in caught.value.what
+    assert f"'{expected}' (double)" in caught.value.what
     assert "'/Arm/AppliedVolts'" in caught.value.what
-    assert f"Log the {'applied ' * (signal == 'voltage')}{signal}" in caught.value.advice
-    reads(caught.value.advice)
-
-
-def test_an_entry_of_a_type_that_is_no_number_is_named(tmp_path: Path, reads) -> None:
-    logger = Logger()
-    routine(logger, Motor("main", leave_out=("voltage",)))
-    logger.start("voltage-main-Arm", "struct:Voltage")
-
-    with pytest.raises(MissingSignal) as refused:
-        sim.read(logger.save(tmp_path / "log.wpilog"))
-    reads(refused.value)
-
-
-def test_a_log_without_tests_says_how_to_get_some(tmp_path: Path, reads) -> None:
-    logger = Logger()
-    logger.start("voltage-main-Arm")
-    logger.put("voltage-main-Arm", 1, 1.0)
-    path = logger.save(tmp_path / "log.wpilog")
-
-    with pytest.raises(MissingSignal) as refused:
-        sim.read(path)
-    reads(refused.value)
-
-
-def test_a_state_that_names_no_test_is_quoted(tmp_path: Path, reads) -> None:
-    with pytest.raises(MissingSignal) as refused:
-        sim.read(saved(tmp_path, tests=("warming up",)))
-    reads(refused.value)
 
 
 def foreign(tmp_path: Path) -> Path:
@@ -162,25 +113,6 @@ ENTRIES = {
 }
 
 
-def test_entries_of_any_name_can_be_given(tmp_path: Path) -> None:
-    log = sim.read(foreign(tmp_path), entries=ENTRIES)
-
-    assert [run.test for run in log.runs] == list(FOUR)
-    assert (log.mechanism, log.units) == ("", "rotations")
-    assert log.doubts == ()
-
-
-def test_an_entry_that_names_tests_is_taken_whatever_its_name(tmp_path: Path, reads) -> None:
-    named = {signal: name for signal, name in ENTRIES.items() if signal != "state"}
-
-    log = sim.read(foreign(tmp_path), entries=named)
-
-    assert [run.test for run in log.runs] == list(FOUR)
-    with pytest.raises(MissingSignal) as refused:
-        sim.read(foreign(tmp_path))
-    reads(refused.value)
-
-
 def test_an_entry_given_wins_over_one_found(tmp_path: Path) -> None:
     logger = Logger()
     routine(logger, Motor("main"))
@@ -205,43 +137,8 @@ def test_an_entry_given_wins_over_one_found(tmp_path: Path) -> None:
         pytest.param("state", "/Arm/AppliedVolt", id="no string"),
     ],
 )
-def test_an_entry_that_cannot_be_used_is_refused(
-    tmp_path: Path, signal: str, name: str, reads
-) -> None:
+def test_an_entry_that_cannot_be_used_is_refused(tmp_path: Path, signal: str, name: str) -> None:
     with pytest.raises(MissingSignal) as caught:
         sim.read(foreign(tmp_path), entries=ENTRIES | {signal: name})
 
-    reads(str(caught.value))
-
-
-@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf, 1e300], ids=str)
-@pytest.mark.parametrize("signal", ["voltage", "position", "velocity"])
-def test_a_value_that_is_no_measurement_is_refused(
-    tmp_path: Path, signal: str, value: float
-) -> None:
-    logger = Logger()
-    for name in ("voltage", "position", "velocity"):
-        logger.start(f"{name}-m-Arm")
-    logger.start("sysid-test-state-Arm", "string")
-    for loop in range(20):
-        for name in ("voltage", "position", "velocity"):
-            bad = name == signal and loop == 7
-            logger.put(f"{name}-m-Arm", loop * 20_000, value if bad else float(loop))
-        logger.put("sysid-test-state-Arm", loop * 20_000, "dynamic-forward")
-
-    with pytest.raises(BadSample, match=f"dynamic-forward: {signal} is .* at sample 7"):
-        sim.read(logger.save(tmp_path / "log.wpilog"), units="meters")
-
-
-@pytest.mark.shared
-def test_the_pivot_without_a_voltage_is_refused_by_name(shared: Path, reads) -> None:
-    path = shared / "data" / "real" / "sciborgs-2024-pivot-no-voltage.wpilog"
-
-    with pytest.raises(MissingSignal) as caught:
-        sim.read(path)
-
-    assert caught.value.where == str(path)
-    expected = "no voltage entry: expected 'voltage-<motor>-Pivot' (double)"
-    assert caught.value.what.startswith(expected)
-    assert "'/Robot/pivot/hardware/getPosition'" in caught.value.what
-    reads(caught.value.advice)
+    assert caught.value.advice

@@ -3,7 +3,6 @@
 The logs come from the little robot in ``wpilog_file``.
 """
 
-import json
 import math
 from pathlib import Path
 
@@ -56,108 +55,41 @@ def test_units_are_read_in_either_language(
     assert scales(log) == pytest.approx((1.0, position, velocity), rel=1e-15)
 
 
+NOT_STATED = ("", "", "")
+TURN = math.tau
+
+
 @pytest.mark.parametrize(
-    ("units", "asked", "name_and_factors", "doubts"),
+    ("units", "asked", "expected", "doubts"),
     [
-        pytest.param(
-            ("volt", "turn", "revolutions_per_minute"),
-            {},
-            ("rotations", 1, math.tau, math.tau / 60),
-            ["converted-units"],
-            id="a velocity per minute",
-        ),
-        pytest.param(
-            ("volt", "turn", "rpm"),
-            {"units": "rotations"},
-            ("rotations", 1, math.tau, math.tau / 60),
-            ["converted-units"],
-            id="a velocity per minute, and the unit that the file states too",
-        ),
-        pytest.param(
-            ("volt", "Degree", "Radian per Second"),
-            {},
-            ("degrees", 1, math.tau / 360, 1),
-            ["converted-units"],
-            id="two units of the same kind",
-        ),
-        pytest.param(
-            ("millivolt", "meter", "meters_per_second"),
-            {},
-            ("meters", 0.001, 1, 1),
-            ["converted-units"],
-            id="millivolts",
-        ),
-        pytest.param(
-            ("volt", "millimeter", "meters_per_second"),
-            {},
-            ("meters", 1, 0.001, 1),
-            ["converted-units"],
-            id="millimeters",
-        ),
-        pytest.param(
-            METERS,
-            {"units": "inches"},
-            ("inches", 1, 0.0254, 0.0254),
-            ["contradicting-units"],
-            id="a person says otherwise",
-        ),
-        pytest.param(
-            ("", "", ""),
-            {"type": "simple"},
-            ("meters", 1, 1, 1),
-            ["units-assumed"] * 2,
-            id="none stated",
-        ),
-        pytest.param(
-            ("", "", ""),
-            {},
-            ("radians", 1, 1, 1),
-            ["units-assumed"] * 2,
-            id="none stated, of what is named an arm",
-        ),
-        pytest.param(
-            ("", "", ""),
-            {"type": "arm"},
-            ("radians", 1, 1, 1),
-            ["units-assumed"] * 2,
-            id="none stated, of an arm",
-        ),
-        pytest.param(
-            ("", "", ""), {"units": "feet"}, ("feet", 1, 0.3048, 0.3048), [], id="a person says it"
-        ),
-        pytest.param(
-            ("", "turn", ""),
-            {},
-            ("rotations", 1, math.tau, math.tau),
-            ["units-assumed"],
-            id="only the position's is stated",
-        ),
-        pytest.param(
-            ("", "", "turns_per_second"),
-            {},
-            ("rotations", 1, math.tau, math.tau),
-            ["units-assumed"],
-            id="only the velocity's is stated",
-        ),
-        pytest.param(
-            ("percent", "furlong", "{broken"),
-            {"units": "feet"},
-            ("feet", 1, 0.3048, 0.3048),
-            ["unknown-unit"] * 2,
-            id="units nobody knows",
-        ),
+        (("volt", "turn", "rpm"), {}, ("rotations", 1, TURN, TURN / 60), ["converted-units"]),
+        (("volt", "turn", "rpm"), {"units": "rotations"}, ("rotations", 1, TURN, TURN / 60),
+         ["converted-units"]),
+        (("volt", "Degree", "Radian per Second"), {}, ("degrees", 1, TURN / 360, 1),
+         ["converted-units"]),
+        (("millivolt", *METERS[1:]), {}, ("meters", 0.001, 1, 1), ["converted-units"]),
+        (("volt", "millimeter", METERS[2]), {}, ("meters", 1, 0.001, 1), ["converted-units"]),
+        (METERS, {"units": "inches"}, ("inches", 1, 0.0254, 0.0254), ["contradicting-units"]),
+        (NOT_STATED, {"type": "simple"}, ("meters", 1, 1, 1), ["units-assumed"] * 2),
+        (NOT_STATED, {}, ("radians", 1, 1, 1), ["units-assumed"] * 2),  # it is named an arm
+        (NOT_STATED, {"type": "arm"}, ("radians", 1, 1, 1), ["units-assumed"] * 2),
+        (NOT_STATED, {"units": "feet"}, ("feet", 1, 0.3048, 0.3048), []),
+        (("", "turn", ""), {}, ("rotations", 1, TURN, TURN), ["units-assumed"]),
+        (("", "", "turns_per_second"), {}, ("rotations", 1, TURN, TURN), ["units-assumed"]),
+        (("percent", "furlong", "{broken"), {"units": "feet"}, ("feet", 1, 0.3048, 0.3048),
+         ["unknown-unit"] * 2),
     ],
-)
-def test_odd_units_are_taken_with_a_word(
+)  # fmt: skip
+def test_odd_units_are_converted_with_a_doubt(
     tmp_path: Path,
     units: tuple[str, str, str],
     asked: dict[str, str],
-    name_and_factors: tuple[str, float, float, float],
+    expected: tuple[str, float, float, float],
     doubts: list[str],
 ) -> None:
     log = sim.read(saved(tmp_path, Motor("main", units=units)), **asked)
 
-    name, *factors = name_and_factors
+    name, *factors = expected
     assert log.units == name
     assert scales(log) == pytest.approx(tuple(factors), rel=1e-14)
     assert codes(log) == doubts
@@ -185,10 +117,3 @@ def test_motors_in_two_units_of_a_kind_are_converted(tmp_path: Path) -> None:
 
     assert log.units == "meters"
     assert scales(log) == pytest.approx((1.0, (1 + 0.0254) / 2, (1 + 0.0254) / 2))
-
-
-def test_metadata_that_is_json_of_something_else_states_no_unit(tmp_path: Path) -> None:
-    said = json.dumps({"properties": {}, "source": "NT"})
-    log = sim.read(saved(tmp_path, Motor("main", units=(said, said, said))))
-
-    assert codes(log) == ["units-assumed"] * 2

@@ -38,19 +38,20 @@ def record(number: int, payload: bytes) -> bytes:
     return head + START.to_bytes(4, "little") + payload
 
 
-def match_log(path: Path, own: bytes) -> None:
-    """A file of SIZE with the records of another one in its middle."""
+def match_log(path: Path, own: bytes, *, size: float = SIZE) -> Path:
+    """A file of a size [bytes] with the records of another one in its middle."""
     first = 12 + int.from_bytes(own[8:12], "little")
     pieces = [own[:first]]
     for number, kind in enumerate(OTHERS, FIRST_ID):
         pieces.append(record(0, make_start_payload(Start(number, f"NT:/x/{number}", kind, ""))))
     loop = [record(n, b" " * LENGTH.get(kind, LONG)) for n, kind in enumerate(OTHERS, FIRST_ID)]
     block = b"".join(loop)
-    count = SIZE // len(block)
+    count = int(size) // len(block)
     with path.open("wb") as stream:
         stream.write(b"".join(pieces))
         for number in range(count):
             stream.write(own[first:] if number == count // 2 else block)
+    return path
 
 
 def measured(path: Path) -> tuple[float, float]:

@@ -3,9 +3,11 @@
     python tests/benchmarks/bench_grade.py [times]
 
 Aims: help within 0.2 s, answers that are only read within 0.4 s, exercise 9 within 1.5 s: with a
-function that fits five logs in a process of its own. The logs of exercises 7, 8 and 12 are drawn by
-the first process and kept (`draw_cache`); only exercise 12 simulates. ``solved`` is an answer that
-earns everything, where that makes the examiner work harder than the file as it comes.
+function that fits five logs in a process of its own; robot code, which is run, within 2 s (Java)
+and 4 s (Python, in WPILib's simulation if RobotPy is installed, else on fakes). The logs of
+exercises 7, 8 and 12 are drawn by the first process and kept (`draw_cache`); only exercise 12
+simulates. ``solved`` is an answer that earns everything, where that makes the examiner work harder
+than the file as it comes.
 Processor time is the median, and tells what of the waiting is the machine being busy with other
 things (Windows does not tell it).
 """
@@ -28,14 +30,16 @@ from grader.exercise import find_exercise
 from grader.student_data.variant import make_folder_name
 
 ROOT = Path(__file__).resolve().parents[2]
-READ, FUNCTION = 0.4, 1.5  # [s]
+READ, FUNCTION, JAVA, PYTHON = 0.4, 1.5, 2.0, 4.0  # [s]
 SOLVED = (7, 8, 12)
 COMMANDS: tuple[tuple[list[str], float | None], ...] = (  # and the aim [s]
     (["--help"], 0.2),
     ([], None),
     (["exercise4", "--hint"], None),
     *(([f"exercise{number}"], READ) for number in (1, 2, 3, 4, 5, 6, 7, 8, 10, 11, 12)),
-    (["exercise4", "solutions/exercise4/ExampleSubsystem.java"], READ),
+    (["exercise4", "solutions/exercise4/ExampleSubsystem.java"], JAVA),
+    (["exercise4", "solutions/exercise4/example_subsystem.py"], PYTHON),
+    (["exercise5", "solutions/exercise5/RobotContainer.java"], JAVA),
     *(([f"exercise{number}", f"solved/exercise{number}"], READ) for number in SOLVED),
     (["exercise9"], FUNCTION),
     (["exercise9", "--json"], FUNCTION),

@@ -8,11 +8,8 @@ gains of these robots, so each table asks something that needs no truth:
 * every log is fitted or refused: in how much processor time, and with which warnings;
 * recordings of one mechanism on one day should agree within their stated errors;
 * three runs are fitted and predict the fourth, open loop, by our method and by SysId's recipe;
-* with ``--reconcile``, inspected first as the command does: how much of the base model's simulation
-  error do the named effects explain,
-  compared with a black box that knows no physics (gradient boosting over the simulated motion and
-  past voltages, each run predicted by the others; needs scikit-learn), and does a second recording
-  of the same mechanism confirm it?
+* with ``--reconcile``, inspected first as the command does: what is named, and how much of the base
+  model's simulation error is left.
 
 SysId itself refuses three tests. Its recipe is therefore prepared with all four, which tells it
 what to trim, and regressed on the rows of three.
@@ -26,7 +23,6 @@ import time
 from collections import Counter, defaultdict
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from importlib.util import find_spec
 from itertools import combinations
 from pathlib import Path
 
@@ -36,7 +32,7 @@ import sim
 from sim.cli.options import LogReader
 from sim.cli.reconcile import inspect_damage
 from sim.core.errors import Refusal
-from sim.core.log import Array, Log, Run
+from sim.core.log import Log, Run
 from sim.core.units import find_unit
 from sim.fit import fit
 from sim.fit.regression import regress_acceleration
@@ -52,8 +48,6 @@ GAINS = ("kS", "kV", "kA", "kG")
 DAY = re.compile(r"20\d\d[-_]?\d\d[-_]?\d\d")
 REBUILT = 1.25  # [1] volts per speed over those of another recording: another mechanism
 WITHIN = 2.0  # [1] standard errors of a difference, within which two recordings agree
-PAST = (1, 2, 3, 5, 8, 13)  # [samples] how far back the black box sees voltage and simulation
-FOUND = 0.9  # [1] of the base model's error, below which the black box found something
 LOGS = {
     "sciborgs-2023-elbow-arm": "arm",
     "sciborgs-2023-wrist-arm": "arm",
@@ -287,158 +281,39 @@ def print_held_out(fitted: Sequence[FittedLog]) -> None:
 def print_reconciled(fitted: Sequence[FittedLog], *, effort: float) -> None:
     """What reconcile makes of each log that can be fitted."""
     print("\nRECONCILE")
-    done = []
-    later: dict[tuple[str, ...], FittedLog] = {}
-    for one in reversed(fitted):
+    verdicts: Counter[str] = Counter()
+    seconds = []
+    for one in fitted:
         if one.log is None or one.fit is None:
             continue
-        other = later.get(one.recording) if one.recording[2] else None
-        later[one.recording] = one
-        line = reconcile_log(one, other, effort=effort)
-        if line is not None:
-            done.append(line)
-    if not done:
-        return
-    verdicts = Counter(one.verdict for one in done)
-    confirmed = [one.held_out for one in done if math.isfinite(one.held_out)]
-    shares = [one.share for one in done if math.isfinite(one.share)]
-    print(", ".join(f"{count} {verdict}" for verdict, count in sorted(verdicts.items())))
-    print(f"processor time: median {np.median([one.seconds for one in done]):.1f} s, "
-          f"most {max(one.seconds for one in done):.1f} s")  # fmt: skip
-    if confirmed:
-        print(
-            f"second recordings: error below the base model's in "
-            f"{sum(value < 1.0 for value in confirmed)} of {len(confirmed)}, "
-            f"at most {max(confirmed):.2f} of it"
-        )
-    if shares:
-        print(f"explained share: median {np.median(shares):.2f} of {len(shares)} logs")
+        started = time.process_time()
+        name = one.path.name[-60:]
+        try:
+            damages = {"log": inspect_damage(one.log)}
+            story = reconcile(one.log, type=one.fit.type, damages=damages, effort=effort)
+        except Refusal as refused:
+            print(f"{name:60} refused: {str(refused).splitlines()[0]}", flush=True)
+            continue
+        seconds.append(time.process_time() - started)
+        verdicts[story.verdict] += 1
+        print(f"{name:60} {seconds[-1]:5.1f} s  {describe_story(story, one.log)}", flush=True)
+    if seconds:
+        print(", ".join(f"{count} {verdict}" for verdict, count in sorted(verdicts.items())))
+        print(f"processor time: median {np.median(seconds):.1f} s, most {max(seconds):.1f} s")
 
 
-@dataclass(frozen=True)
-class Reconciled:
-    """What reconcile made of a log.
-
-    Args:
-        verdict: its word.
-        seconds: of processor time.
-        held_out: [1] error on a second recording, last model over base; nan without one.
-        share: [1] of the variance that the black box explains; nan where it explains too little.
-    """
-
-    verdict: str
-    seconds: float
-    held_out: float
-    share: float
-
-
-def reconcile_log(one: FittedLog, other: FittedLog | None, *, effort: float) -> Reconciled | None:
-    """Reconcile a log, print a line about it, and show it on a second recording if there is one."""
-    assert one.log is not None
-    assert one.fit is not None
-    name = one.path.name[-60:]
-    started = time.process_time()
-    try:
-        story = reconcile(
-            one.log, type=one.fit.type, damages={"log": inspect_damage(one.log)}, effort=effort
-        )
-    except Refusal as refused:
-        print(f"{name:60} refused: {str(refused).splitlines()[0]}", flush=True)
-        return None
-    seconds = time.process_time() - started
-    share = find_explained_share(story)
-    held_out = math.nan
-    if other is not None:
-        held_out = compare_second_recording(one, other, effort=effort)
+def describe_story(story: Story, log: Log) -> str:
+    """Verdict, what is left of the gap, and the named effects, in a line."""
     named = ", ".join(
         f"{found.effect} ({found.size}, {found.gap_before:.3g} -> {found.gap_after:.3g})"
         for found in story.findings
     )
-    top = max(run.top_speed for run in one.log.runs) / find_unit(one.log.units).si
-    print(
-        f"{name:60} {seconds:5.1f} s  {story.verdict}{' + remainder' if story.remainder else ''}"
+    top = max(run.top_speed for run in log.runs) / find_unit(log.units).si
+    return (
+        f"{story.verdict}{' + remainder' if story.remainder else ''}"
         f"  left {story.gap_after / story.noise_floor:.3g} floors, {story.gap_after / top:.1%} of"
-        f" top speed; share {share:.2f}; second recording {held_out:.2f}  {named or 'no effect'}",
-        flush=True,
+        f" top speed; {named or 'no effect'}"
     )
-    return Reconciled(story.verdict, seconds, held_out, share)
-
-
-def compare_second_recording(one: FittedLog, other: FittedLog, *, effort: float) -> float:
-    """[1] Ratio of two errors on a second recording: the last model's over the base model's.
-
-    The recording decides nothing; it is compared where an inspection finds no damage in it. The
-    result is nan where no effect was added, or where the mechanism was changed in between.
-    """
-    assert one.fit is not None
-    assert one.log is not None
-    assert other.log is not None
-    damages = {"log": inspect_damage(one.log), "held_out": inspect_damage(other.log)}
-    try:
-        story = reconcile(
-            one.log, held_out=other.log, type=one.fit.type, damages=damages, effort=effort
-        )
-    except Refusal:
-        return math.nan
-    return story.gap_after / story.gap_before if len(story.chapters) > 1 else math.nan
-
-
-def find_explained_share(story: Story) -> float:
-    """Of the squared error that a black box explains, the share that the named effects do [1].
-
-    The black box predicts the base model's velocity error of each run after it was trained on the
-    other runs. It sees what a simulation has: voltages and simulated motion, now and in the past.
-    """
-    if find_spec("sklearn") is None:
-        return math.nan
-    runs = story.shown.runs
-    if len(runs) == 1:
-        return math.nan
-    base, ours = (
-        [track[:, 1] - run.velocity for track, run in zip(chapter.tracks, runs, strict=True)]
-        for chapter in (story.chapters[0], story.chapters[-1])
-    )
-    features = [
-        features_of(run, track) for run, track in zip(runs, story.chapters[0].tracks, strict=True)
-    ]
-    box = min(boosted_error(features, base, mirrored=both) for both in (False, True))
-    before, after = (float(np.mean(np.square(np.concatenate(error)))) for error in (base, ours))
-    return (before - after) / (before - box) if box < FOUND**2 * before else math.nan
-
-
-def boosted_error(features: Sequence[Array], errors: Sequence[Array], *, mirrored: bool) -> float:
-    """Mean square of what is left of the errors of runs, each predicted from the others.
-
-    Args:
-        features: a run -> (n, k).
-        errors: a run -> (n,).
-        mirrored: whether a run the other way round is learned from as well: most mechanisms do the
-            same in both directions, and a run forward says little about one in reverse otherwise.
-    """
-    from sklearn.ensemble import (  # type: ignore[import-untyped]  # noqa: PLC0415 - optional
-        HistGradientBoostingRegressor,
-    )
-
-    left = []
-    for out in range(len(errors)):
-        seen = np.concatenate([one for at, one in enumerate(features) if at != out])
-        wanted = np.concatenate([one for at, one in enumerate(errors) if at != out])
-        if mirrored:
-            seen, wanted = np.concatenate((seen, -seen)), np.concatenate((wanted, -wanted))
-        model = HistGradientBoostingRegressor(max_iter=200, min_samples_leaf=40, random_state=0)
-        left.append(errors[out] - model.fit(seen, wanted).predict(features[out]))
-    return float(np.mean(np.square(np.concatenate(left))))
-
-
-def features_of(run: Run, track: Array) -> Array:
-    """(n, k) voltage, simulated position, velocity and acceleration, with past values."""
-    acceleration = np.gradient(track[:, 1], run.time)
-    now = np.column_stack((run.voltage, track, acceleration))
-    past = []
-    for steps in PAST:
-        at = np.maximum(np.arange(len(run)) - steps, 0)
-        past.append(np.column_stack((run.voltage[at], track[at, 1])))
-    return np.column_stack((now, *past))
 
 
 def main() -> None:
