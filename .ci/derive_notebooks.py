@@ -17,10 +17,13 @@ import jupytext
 import nbformat
 
 LESSONS = Path(__file__).resolve().parents[1] / "lessons"
-# A cell that only asks: its code repeats the question.
-ASKS = re.compile(r"^(?:\w+ = )?(?:Prediction|QuickCheck|QuickNumberCheck)\(", re.MULTILINE)
-KNOBS = re.compile(r"^show_interactive\(", re.MULTILINE)  # what follows repeats its picture
-ANIMATES = re.compile(r"\banimate_mechanism\(")  # what moves is the point, and not how it is drawn
+LONGEST_IN_SIGHT = 12  # [lines] of a cell
+# What a cell does whose code nobody needs to read: import, ask, show a widget, animate, list.
+PLUMBING = re.compile(
+    r"^(?:import|from) |^(?:\w+ = )?(?:Prediction|QuickCheck|QuickNumberCheck|show_interactive)\("
+    r"|\b(?:animate_mechanism|ExerciseQuestions|Table)\(|\.reveal\(",
+    re.MULTILINE,
+)
 INSTALL = """\
 # Installs the course where it is missing, for example on Colab.
 from importlib.util import find_spec
@@ -35,8 +38,8 @@ KERNEL = {"display_name": "Python 3", "language": "python", "name": "python3"}
 def derive(text: Path) -> nbformat.NotebookNode:
     """The notebook of a lesson's text, without outputs.
 
-    Folded are the cell that installs the course, what only asks, repeats a picture or draws an
-    animation.
+    Folded are the cell that installs the course, long cells, and cells that only import, ask, show
+    a widget or a table, or draw an animation.
     """
     notebook = jupytext.read(text, fmt="py:percent")
     notebook.cells.insert(0, nbformat.v4.new_code_cell(INSTALL.strip()))
@@ -50,16 +53,14 @@ def derive(text: Path) -> nbformat.NotebookNode:
         seen[name] += 1
         cell.id = name if seen[name] == 1 else f"{name}-{seen[name]}"
         cell.metadata = nbformat.from_dict({})
+        lines = [line for line in cell.source.splitlines() if line.strip()]
         folded = (
-            ASKS.search(cell.source) or ANIMATES.search(cell.source) or cell is notebook.cells[0]
+            cell is notebook.cells[0]
+            or len(lines) > LONGEST_IN_SIGHT
+            or PLUMBING.search(cell.source)
         )
         if cell.cell_type == "code" and folded:
             cell.metadata = nbformat.from_dict({"jupyter": {"source_hidden": True}})
-    for shown, words, code in zip(
-        notebook.cells, notebook.cells[1:], notebook.cells[2:], strict=False
-    ):
-        if KNOBS.search(shown.source) and words.source.startswith("No "):
-            code.metadata = nbformat.from_dict({"jupyter": {"outputs_hidden": True}})
     nbformat.validate(notebook)
     return notebook
 

@@ -18,7 +18,7 @@ from sim.core.errors import BadRequest
 
 LONGEST_CELL = 120  # [s] after which a cell counts as hung
 VIEW = "application/vnd.jupyter.widget-view+json"
-SLIDERS = "(In the notebook, there are sliders and menus here. They draw the next picture again.)"
+SLIDERS = "(In the notebook, there are sliders and menus here. They draw this picture again.)"
 SYSTEM_CHECK = re.compile(r"^## [^\n]*System check\n(.*?)(?=^## |\Z)", re.MULTILINE | re.DOTALL)
 PAGE, SLIDES, BODY = "lab/index.html.j2", "reveal/index.html.j2", "lab/base.html.j2"
 # What differs from nbconvert's templates: code is folded, and nothing is loaded from elsewhere;
@@ -103,8 +103,8 @@ def convert_notebook(notebook: Any, template: str = PAGE) -> str:  # noqa: ANN40
         cell.metadata |= {"transient": {"remove_source": hidden}, "slideshow": {"slide_type": kind}}
         for output in cell.get("outputs", ()):
             data = output.get("data", {})
-            if data.pop(VIEW, None) and data["text/plain"].startswith("VBox("):
-                data["text/plain"] = SLIDERS
+            if data.pop(VIEW, None) and "text/html" in data:
+                data["text/html"] = f"<p>{SLIDERS}</p>{data['text/html']}"
     exporter = SlidesExporter(reveal_theme="white") if template == SLIDES else HTMLExporter()
     exporter.raw_template = f"{{% extends '{template}' %}}{BLOCKS}"
     exporter.exclude_input_prompt = exporter.exclude_output_prompt = True

@@ -283,14 +283,10 @@ def _strip_cell(cell: dict[str, object]) -> dict[str, object]:
 
 
 def _collapsed(metadata: object) -> dict[str, object]:
-    """Of a cell's metadata, which of its parts JupyterLab shows collapsed."""
+    """Of a cell's metadata, whether JupyterLab shows its code collapsed."""
     flags = metadata.get("jupyter") if isinstance(metadata, dict) else None
-    hidden = {
-        flag: True
-        for flag in ("outputs_hidden", "source_hidden")
-        if isinstance(flags, dict) and flags.get(flag) is True
-    }
-    return {"jupyter": hidden} if hidden else {}
+    hidden = isinstance(flags, dict) and flags.get("source_hidden") is True
+    return {"jupyter": {"source_hidden": True}} if hidden else {}
 
 
 def _refuse_changed(files: dict[str, bytes], listed: dict[str, str], course: Path) -> None:

@@ -25,16 +25,14 @@
 #
 # **How a lesson works.** Gray cells hold code. Click into one and press *Shift + Enter*: the cell
 # runs, and its answer appears below. Go through the page from top to bottom, and run every cell.
-# You do not have to understand every line of code. In some cells a bar with three dots hides the
-# code, because this code contains an answer or only draws a picture. Run these cells like the
-# others.
+# Most code only prepares or draws something. A bar with three dots hides it: run these cells like
+# the others, you need not open them. The code that you see is worth reading.
 #
 # <details><summary>Do you see no buttons or sliders?</summary>
 #
 # You can type an answer in a cell, for example `guess_race.value = "the three lines"` for a
-# prediction or `quick.answer("kS")` for a quick check. Below each slider there is a line of code
-# with the same numbers to change. If a bar hides a picture, click on the bar to see it. All lessons
-# work this way.
+# prediction or `quick.answer("kS")` for a quick check. Where sliders are missing, you see their
+# picture with the first setting. All lessons work this way.
 # </details>
 
 # %% [markdown]

@@ -348,19 +348,11 @@ def other_parts(mass: float, ratio: float, motors: int, wheel: float) -> Picture
 
 show_interactive(
     other_parts,
-    mass=widgets.FloatSlider(
-        min=20, max=80, step=1, value=60, description="mass [kg]", continuous_update=False
-    ),
+    mass=widgets.FloatSlider(min=20, max=80, step=1, value=60, description="mass [kg]"),
     ratio=widgets.Dropdown(options=[6.75, 8.14, 5.36], description="gears : 1"),
     motors=widgets.Dropdown(options=[4, 2, 6], description="motors"),
     wheel=widgets.Dropdown(options=[4.0, 3.0, 6.0], description="wheel [in]"),
 )
-
-# %% [markdown]
-# No menus on your screen? Change the numbers here:
-
-# %%
-other_parts(mass=60.0, ratio=8.14, motors=4, wheel=4.0)
 
 # %%
 geared = built(60.0, 8.14, 4, 4.0)

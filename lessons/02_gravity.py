@@ -454,16 +454,8 @@ def askew_picture(offset: float) -> Picture:
 
 show_interactive(
     askew_picture,
-    offset=widgets.IntSlider(
-        min=-60, max=60, step=5, value=0, description="offset [deg]", continuous_update=False
-    ),
+    offset=widgets.IntSlider(min=-60, max=60, step=5, value=0, description="offset [deg]"),
 )
-
-# %% [markdown]
-# No slider? Change the number here:
-
-# %%
-askew_picture(0)
 
 # %% [markdown]
 # SysId uses the same method for an arm: it fits a cosine and a sine, and computes kG and the offset
@@ -621,8 +613,6 @@ except sim.Refusal as refusal:
 # contains 95 of 100 such fits. It is called a *confidence ellipse*. A small ellipse means that you
 # know both gains well. With the slider you add rows that were recorded while the carriage moved
 # down.
-#
-# (You may skip the code. It computes how much noise could change the fitted gains.)
 
 # %%
 SIDES = ("kS", "kG")
@@ -667,12 +657,6 @@ show_interactive(
 )
 
 # %% [markdown]
-# No slider? Change the number here: 0, 1, 5, 20.
-
-# %%
-up_and(0)
-
-# %% [markdown]
 # Without rows from the way down, the ellipse is an endless band. Everywhere in this band, kG + kS
 # is nearly the same. With a single row from the way down, the band becomes a closed ellipse.
 #
@@ -696,7 +680,13 @@ Table(("log", "kS ± [V]", "kG ± [V]"), tuple(rows), caption="± is one standar
 
 # %% [markdown]
 # So on an elevator, only the reverse tests separate kS from kG. SysId's window asks for all four
-# tests. Run all four, and be careful: the carriage falls even with 0 V.
+# tests. Run all four, and be careful: the carriage falls even with 0 V, and **each test ends with
+# 0 V**. ([`SysIdRoutine` of robotpy-commands-v2
+# 2026.2.2](https://pypi.org/project/robotpy-commands-v2/2026.2.2/)) Set the motors to *Brake*: then
+# a falling carriage turns them, and they slow it down, as in the next cell. In *Coast* mode they do
+# not, and the carriage falls freely. A TalonFX is in *Coast* mode until you change it.
+# ([`MotorOutputConfigs` of phoenix6 26.3.0](https://pypi.org/project/phoenix6/26.3.0/)) When you
+# let go of the button, the subsystem's default command takes over: lesson 5, section 8.
 #
 # <details><summary>For mentors: are reverse tests needed for gravity mechanisms?</summary>
 #

@@ -229,16 +229,8 @@ def drift_picture(name: str, ramp: float) -> list[Picture]:
 show_interactive(
     drift_picture,
     name=widgets.Dropdown(options=list(SHOWN), description="mechanism"),
-    ramp=widgets.SelectionSlider(
-        options=RAMPS, value=0.5, description="ramp [V/s]", continuous_update=False
-    ),
+    ramp=widgets.SelectionSlider(options=RAMPS, value=0.5, description="ramp [V/s]"),
 )
-
-# %% [markdown]
-# No menu or slider on your screen? Change the name and the number here:
-
-# %%
-display(*drift_picture("flywheel", 1.0))
 
 # %%
 print(guess_drift.reveal("lesson3.drift"))
@@ -327,9 +319,6 @@ guess_ramps = Prediction(
 )
 display(guess_drop, guess_ramps)
 
-# %% [markdown]
-# (You may skip the code. It computes how much noise could change the fitted gains.)
-
 # %%
 sensor = replace(drivetrain.sensor, velocity_noise=0.0, jitter=0.0, resolution=1e-9)
 quiet = simulate(replace(drivetrain, sensor=sensor), routine, rng=np.random.default_rng(0))
@@ -377,12 +366,6 @@ show_interactive(
     runs=widgets.Dropdown(options=list(SETS), description="runs", layout={"width": "25em"}),
     gains=widgets.Dropdown(options=["kS and kA", "kS and kV", "kV and kA"], description="gains"),
 )
-
-# %% [markdown]
-# No menus? Change the names here:
-
-# %%
-map_picture("all four", "kS and kA")
 
 # %% [markdown]
 # Add runs one by one: choose the first four lines of the menu. With one ramp, the ellipse of kS and
@@ -506,7 +489,7 @@ Table(("runs", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "simulated velocity R²
 # > commit](https://github.com/wpilibsuite/allwpilib/blob/79096e63a005e096b2acd4774a8ab145058c24c0/sysid/src/main/native/cpp/view/DataSelector.cpp)).
 # >
 # > **Try it:** look at the row "forward only" in section 4's table. For a *symmetric* drivetrain it
-# > is fine. Now set `LEAN` to 0 in the code above, and run it again: does each row of this
+# > is fine. Now open the code above, set `LEAN` to 0, and run it again: does each row of this
 # > section's table now show about the same gains?
 # </details>
 

@@ -206,7 +206,7 @@ for mass in (60.0, 30.0):
 # **What `null` means.** The fourth argument of `Config` is a callback for the *state* of the test.
 # The state is a word such as `quasistatic-forward`. It tells the analyzer where a test begins and
 # ends. With `null` these words go into the **WPILOG file** on the robot (the log that WPILib
-# writes).
+# writes). A team with AdvantageKit writes them with `Logger.recordOutput` (lesson 5, section 6).
 #
 # <details><summary>For mentors: where does the test state go?</summary>
 #
@@ -229,9 +229,9 @@ for mass in (60.0, 30.0):
 # it makes the word that the analyzer looks for. But `str(state)` does not.
 #
 # The log callback of `Mechanism` may be `null` too, but only if another logger records the motors
-# for you: CTRE's SignalLogger, or URCL for REV. Lesson 5 shows how. In Python, `None` fails in the
-# first loop of the test: write `lambda log: None`. In this course you write the log callback
-# yourself.
+# for you: CTRE's SignalLogger, URCL for REV, or AdvantageKit. Lesson 5 shows how. In Python, `None`
+# fails in the first loop of the test: write `lambda log: None`. In this course you write the log
+# callback yourself.
 #
 # (Source: `commands2/sysid/sysidroutine.py` of [robotpy-commands-v2
 # 2026.2.2](https://pypi.org/project/robotpy-commands-v2/2026.2.2/). CTRE's Python example uses a
@@ -242,8 +242,12 @@ for mass in (60.0, 30.0):
 # %% [markdown]
 # ### Mechanism, first callback: drive
 #
-# The routine gives your drive callback a voltage. You send it to **every** motor of the mechanism.
-# There are three rules:
+# The routine gives your drive callback a voltage. You send it to **every** motor of the mechanism,
+# but not to a *follower*: a motor that your code has told to copy another motor, its leader. The
+# leader gets the voltage, and the follower copies it. A command of its own would end the copying.
+# Two motors that face each other would then push against each other.
+# ([`Follower` of phoenix6 26.3.0](https://pypi.org/project/phoenix6/26.3.0/)) There are three
+# rules:
 #
 # 1. **Open loop.** Nothing may correct the motion. Use no PID, no `VelocityVoltage` and no Motion
 #    Magic. If a controller corrects the motion, SysId also measures this controller.
@@ -651,12 +655,6 @@ def virtual_robot(program: str) -> list[Picture]:
 show_interactive(
     virtual_robot, program=widgets.Dropdown(options=list(programs), description="program")
 )
-
-# %% [markdown]
-# No menu on your screen? Change the name in this cell and run it:
-
-# %%
-display(*virtual_robot("share of the battery"))
 
 # %% [markdown]
 # The next table shows the gains and both R² for all seven programs:

@@ -242,22 +242,10 @@ def run_it(test: str, tape: float, thumb: float, moment: float) -> Picture:
 show_interactive(
     run_it,
     test=widgets.Dropdown(options=[("ramp", RAMP), ("step", STEP)], description="test"),
-    tape=widgets.FloatSlider(
-        min=1, max=11.5, step=0.5, value=7, description="tape [m]", continuous_update=False
-    ),
-    thumb=widgets.FloatSlider(
-        min=0.1, max=1.5, step=0.1, value=THUMB, description="reaction [s]", continuous_update=False
-    ),
-    moment=widgets.FloatSlider(
-        min=0, max=1, step=0.1, value=0.7, description="moment", continuous_update=False
-    ),
+    tape=widgets.FloatSlider(min=1, max=11.5, step=0.5, value=7, description="tape [m]"),
+    thumb=widgets.FloatSlider(min=0.1, max=1.5, step=0.1, value=THUMB, description="reaction [s]"),
+    moment=widgets.FloatSlider(min=0, max=1, step=0.1, value=0.7, description="moment"),
 )
-
-# %% [markdown]
-# No sliders on your screen? Change the numbers here, and run the cell:
-
-# %%
-run_it(RAMP, tape=7.0, thumb=0.3, moment=0.7)
 
 # %%
 went = drive_test(ROBOT, routine, test=RAMP, floor=Floor(wall=WALL, tape=7.0))
@@ -317,16 +305,8 @@ show_interactive(
     morning,
     skipped=widgets.Dropdown(options=SKIPS, value="2 battery", description="skipped"),
     test=widgets.Dropdown(options=[("ramp", RAMP), ("step", STEP)], value=STEP, description="test"),
-    moment=widgets.FloatSlider(
-        min=0, max=1, step=0.1, value=1, description="moment", continuous_update=False
-    ),
+    moment=widgets.FloatSlider(min=0, max=1, step=0.1, value=1, description="moment"),
 )
-
-# %% [markdown]
-# No menu? Here is the step test with the battery that was not charged:
-
-# %%
-morning("2 battery", STEP, moment=1.0)
 
 # %% [markdown]
 # First choose "2 battery" and "step". The step test draws so much current that the battery voltage
@@ -464,7 +444,7 @@ Table(
 # controllers do not do this (lesson 4). With a brownout, both are wrong, and kA from the commanded
 # voltage is far worse. So charge the battery, begin with a small step, and log the applied voltage.
 #
-# Require **12.5 V or more at rest**, and 20 mΩ or less on a battery tester.
+# Require **more than 12.5 V at rest**, and 20 mΩ or less on a battery tester.
 #
 # <details><summary>Want to know why 12.5 V?</summary>
 #
@@ -557,7 +537,9 @@ print(f"With the commanded voltage, it gives {asked:.2f} times the true kA.")
 # │           ├─ roboRIO (2026)    → /home/lvuser/logs
 # │           └─ Systemcore (2027) → /home/systemcore/logs
 # ├─ CTRE SignalLogger: a .hoot file → Tuner X, Log Extractor (section 6)
-# └─ URCL (REV motors): it is inside the .wpilog → export it with AdvantageScope (section 6)
+# ├─ URCL (REV motors): it is inside the .wpilog → export it with AdvantageScope (section 6)
+# ├─ REVLib 2026, by itself: a .revlog file (section 6)
+# └─ AdvantageKit: a .wpilog file of its own (section 6)
 # ```
 #
 # The table shows three robots. Which is like yours?
@@ -736,6 +718,11 @@ Table(
 # 3. Load `MotorPositionRotations`, `MotorVelocityRPM` and `AppliedOutputVoltage`.
 #    ([AdvantageScope docs: URCL](https://docs.advantagescope.org/more-features/urcl))
 #
+# REVLib 2026 also writes a log of its own, a `.revlog` file. It begins with the first call of
+# REVLib. ([`StatusLogger` of robotpy-rev 2026.0.4](https://pypi.org/project/robotpy-rev/2026.0.4/))
+# It does not say which test runs. So record one file for each test, and name it after its test:
+# `sysid fit` reads `dynamic-forward.revlog` and the other three.
+#
 # There are three traps:
 #
 # - A SPARK sends most signals only when the robot program reads them. Read position, velocity and
@@ -745,6 +732,18 @@ Table(
 #   SPARK).
 # - A NEO's own encoder filters the velocity so much that the logged velocity is about 0.1 s late
 #   (lesson 6).
+# </details>
+#
+# <details><summary>If your team uses AdvantageKit</summary>
+#
+# AdvantageKit logs your motors already. So the log callback of `Mechanism` is `null`, and the state
+# goes to AdvantageKit: `state -> Logger.recordOutput("SysIdTestState", state.toString())`.
+#
+# `sysid fit` reads this log as it is, module by module. SysId's window cannot: AdvantageKit writes
+# only what has changed, and SysId expects every sample. For SysId, open the log in AdvantageScope,
+# choose *File* > *Export Data…*, the format *WPILOG* and the timestamps *AdvantageKit Cycles*.
+# ([AdvantageKit: SysId Compatibility, at one
+# commit](https://github.com/Mechanical-Advantage/AdvantageKit/blob/1262563779dd287242904e3e1a863b304cfe3072/docs/docs/data-flow/sysid-compatibility.md))
 # </details>
 
 # %% [markdown]
@@ -847,7 +846,7 @@ Table(
 #
 # - [ ] **Room.** The way is clear in both directions, for the distance you *computed*. There is
 #   tape on the floor.
-# - [ ] **Battery.** It is charged: 12.5 V or more at rest, 20 mΩ or less.
+# - [ ] **Battery.** It is charged: more than 12.5 V at rest, 20 mΩ or less.
 # - [ ] **Encoder.** When you push forward, the position rises smoothly. A positive voltage gives a
 #   positive velocity.
 # - [ ] **Log.** You have fetched a log from this robot before, and know its folder. Each mechanism
@@ -855,8 +854,19 @@ Table(
 # - [ ] **Guard.** While the guard locks the tests, pressing a button moves nothing. One person only
 #   waits to disable the robot.
 #
-# For each log, also write down the current limit and the neutral mode, **brake or coast**. (Use the
-# mode that you drive with: it decides how far the robot rolls after a test.)
+# And for the moment after a test:
+#
+# - [ ] **Release.** The neutral mode of an elevator or arm is *Brake*, and something soft lies
+#   below it. You know what the subsystem's default command does when you let go.
+#
+# Each test ends with 0 V. ([`SysIdRoutine` of robotpy-commands-v2
+# 2026.2.2](https://pypi.org/project/robotpy-commands-v2/2026.2.2/)) In *Coast* mode an elevator
+# then falls. Once the test command has ended, the subsystem's *default command* starts. If it holds
+# a position, it drives to its old target at once. ([WPILib docs: Subsystems, at one
+# commit](https://github.com/wpilibsuite/frc-docs/blob/011b777ed66fe90e41e2dfdadab4b3625453ac26/source/docs/software/commandbased/subsystems.rst))
+#
+# For each log, also write down the current limit and the neutral mode, **brake or coast**. (For a
+# drivetrain, use the mode that you drive with: it decides how far the robot rolls after a test.)
 #
 # ## 9 Knowledge check
 #

@@ -285,12 +285,6 @@ show_interactive(
 )
 
 # %% [markdown]
-# No menus? Change the two names here, and run the cell:
-
-# %%
-look("current limit", "over time")
-
-# %% [markdown]
 # The next table shows what each fault does to the gains. *kS ÷ true* is the gain that SysId finds,
 # divided by the true one: 1 is right. The two **R²** are scores that SysId shows for a fit: 1 is
 # perfect. Section 5 explains them.
@@ -509,27 +503,15 @@ WHOLE = {"description_width": "initial"}  # a slider's name is not cut off
 show_interactive(
     trimmed,
     threshold=widgets.FloatSlider(
-        min=0, max=1, step=0.05, description="threshold [m/s]", style=WHOLE, continuous_update=False
+        min=0, max=1, step=0.05, description="threshold [m/s]", style=WHOLE
     ),
     end=widgets.FloatSlider(
-        min=1,
-        max=6,
-        step=0.1,
-        value=6,
-        description="ramp ends [s]",
-        style=WHOLE,
-        continuous_update=False,
+        min=1, max=6, step=0.1, value=6, description="ramp ends [s]", style=WHOLE
     ),
     median=widgets.SelectionSlider(
         options=[1, 3, 5, 9, 15], value=1, description="median of samples", style=WHOLE
     ),
 )
-
-# %% [markdown]
-# No sliders on your screen? Change the numbers here:
-
-# %%
-trimmed(end=4.4, threshold=0.1, median=3)
 
 # %% [markdown]
 # - The threshold drops the noisy standstill, and the samples at the stop. The setting "ramp ends"
@@ -633,12 +615,6 @@ show_interactive(
     truth=widgets.Dropdown(options=["hide", "reveal"], description="truth"),
     sort=widgets.Dropdown(options=list(KEYS), description="sort by"),
 )
-
-# %% [markdown]
-# No menus? Here are all logs, sorted by the error of kA:
-
-# %%
-grid(sort="error of kA", truth="reveal")
 
 # %% [markdown]
 # This table shows the damage in each log, the errors of its gains, and the acceleration R². Decide

@@ -133,16 +133,8 @@ def ramp_picture(ramp: float) -> Picture:
 RAMPS = [0.25, 0.5, 1.0, 2.0]
 show_interactive(
     ramp_picture,
-    ramp=widgets.SelectionSlider(
-        options=RAMPS, value=1.0, description="V per s", continuous_update=False
-    ),
+    ramp=widgets.SelectionSlider(options=RAMPS, value=1.0, description="V per s"),
 )
-
-# %% [markdown]
-# No slider? Change the number here:
-
-# %%
-ramp_picture(1.0)
 
 # %% [markdown]
 # The next table compares all four ramps with a rule that we explain below:
@@ -256,19 +248,9 @@ def by_hand(intercept: float, slope: float) -> Picture:
 
 show_interactive(
     by_hand,
-    intercept=widgets.FloatSlider(
-        min=0, max=1, step=0.01, value=0.8, description="V at v = 0", continuous_update=False
-    ),
-    slope=widgets.FloatSlider(
-        min=1.5, max=3.5, step=0.01, value=2.0, description="V per m/s", continuous_update=False
-    ),
+    intercept=widgets.FloatSlider(min=0, max=1, step=0.01, value=0.8, description="V at v = 0"),
+    slope=widgets.FloatSlider(min=1.5, max=3.5, step=0.01, value=2.0, description="V per m/s"),
 )
-
-# %% [markdown]
-# No sliders? Change the numbers here:
-
-# %%
-by_hand(intercept=0.8, slope=2.0)
 
 # %% [markdown]
 # Now let NumPy do it. `np.linalg.lstsq` ("least squares") needs the equations as a table: one row
@@ -635,18 +617,11 @@ show_interactive(
         value=0.05,
         description="threshold [m/s]",
         style={"description_width": "initial"},
-        continuous_update=False,
     ),
     median=widgets.SelectionSlider(options=[1, 3, 5, 9, 15], value=1, description="median"),
     mean_dt=widgets.Checkbox(value=True, description="mean time step"),
     trim=widgets.Checkbox(value=True, description="trim the step"),
 )
-
-# %% [markdown]
-# No controls? Change the choices here:
-
-# %%
-try_choices("acceleration", 0.05, 3, mean_dt=False, trim=True)
 
 # %% [markdown]
 # ### Explain
@@ -942,22 +917,10 @@ def kp_picture(q: float, r: float, delay: int) -> Picture:
 
 show_interactive(
     kp_picture,
-    q=widgets.FloatSlider(
-        min=0.5, max=4, step=0.05, value=1.5, description="q [m/s]", continuous_update=False
-    ),
-    r=widgets.FloatSlider(
-        min=1, max=12, step=0.5, value=7, description="r [V]", continuous_update=False
-    ),
-    delay=widgets.IntSlider(
-        min=0, max=120, step=10, value=0, description="delay [ms]", continuous_update=False
-    ),
+    q=widgets.FloatSlider(min=0.5, max=4, step=0.05, value=1.5, description="q [m/s]"),
+    r=widgets.FloatSlider(min=1, max=12, step=0.5, value=7, description="r [V]"),
+    delay=widgets.IntSlider(min=0, max=120, step=10, value=0, description="delay [ms]"),
 )
-
-# %% [markdown]
-# No sliders? Change the numbers here:
-
-# %%
-kp_picture(q=1.5, r=7.0, delay=0)
 
 # %%
 window = compute_allowed_velocity_error(ks=0.14, kv=lesson_kv)  # a quarter of the top speed

@@ -378,16 +378,8 @@ def follower(gains: str, kp: float) -> Picture:
 show_interactive(
     follower,
     gains=widgets.Dropdown(options=list(GAINS), description="gains"),
-    kp=widgets.FloatSlider(
-        min=0, max=0.6, step=0.02, value=0, description="kP", continuous_update=False
-    ),
+    kp=widgets.FloatSlider(min=0, max=0.6, step=0.02, value=0, description="kP"),
 )
-
-# %% [markdown]
-# No menu? Change the name and the number here:
-
-# %%
-follower("per radian, gets rotations", 0.0)
 
 # %% [markdown]
 # The next table compares all sets of gains, without and with feedback:
@@ -488,16 +480,8 @@ def remaining_error(kp: float) -> Picture:
 
 show_interactive(
     remaining_error,
-    kp=widgets.FloatSlider(
-        min=0, max=0.6, step=0.02, value=0.12, description="kP", continuous_update=False
-    ),
+    kp=widgets.FloatSlider(min=0, max=0.6, step=0.02, value=0.12, description="kP"),
 )
-
-# %% [markdown]
-# No slider? Change the number here:
-
-# %%
-remaining_error(0.12)
 
 # %%
 print(guess_kp.reveal("lesson8.kp"))

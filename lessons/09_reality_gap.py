@@ -13,7 +13,7 @@
 # %% [markdown]
 # # Lesson 9: The reality gap
 #
-# *About 45 minutes. You need lessons 1 and 7. In this lesson you find out what is missing in your
+# *About 40 minutes. You need lessons 1 and 7. In this lesson you find out what is missing in your
 # model.*
 #
 # **At the end you can**
@@ -245,12 +245,6 @@ def under_the_microscope(which: str) -> Picture:
 show_interactive(
     under_the_microscope, which=widgets.Dropdown(options=list(suspects), description="robot")
 )
-
-# %% [markdown]
-# No menu? Change the name here:
-
-# %%
-under_the_microscope("robot B")
 
 # %% [markdown]
 # The line shows the mean of nearby samples. The percentage above each plot says how much of the

@@ -17,7 +17,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from small_course import HALF, RIGHT, lay_out
 
-from grader.classroom.grading import GradedStudent
+from grader.classroom.grading import GradedStudent, GradingJob, grade_student
 from grader.classroom.submissions import find_submissions, read_submission
 from grader.cli import run_command
 from grader.exercise import list_exercises
@@ -227,7 +227,7 @@ TEXTS = (RIGHT, HALF, STARTER, "size = [")
 )
 @settings(max_examples=300, suppress_health_check=[HealthCheck.function_scoped_fixture])
 def test_whatever_is_handed_in_is_graded_or_listed(course, tmp_path, files, form):
-    """Of 300 hand-ins composed at random: each file that somebody filled in is graded or named."""
+    """Of 300 random hand-ins, each answer is graded or named, and only an answer earns a mark."""
     place = tmp_path / hashlib.sha256(repr((files, form)).encode()).hexdigest()[:12] / "ann"
     put(place, {f"{folder}/{name}" if folder else name: text
                 for (folder, name), text in files.items()})  # fmt: skip
@@ -251,6 +251,14 @@ def test_whatever_is_handed_in_is_graded_or_listed(course, tmp_path, files, form
         assert text.encode() in graded or any(name in listed for name in {*names, "more"})
     if len({text for text in files.values() if text != STARTER}) == 1 and graded:
         assert graded & {text.encode() for text in files.values() if text != STARTER}
+    job = GradingJob(
+        "ann", "", one.files, one.problems, "ann", ("exercise1",), course, None, run=False
+    )
+    (record,) = grade_student(job).records
+    marked = record["status"] in {"passed", "failed"}
+
+    assert marked == bool(graded & {RIGHT.encode(), HALF.encode()})
+    assert record["score"] == (0 if not marked else 3 if RIGHT.encode() in graded else 2.5)
 
 
 @pytest.fixture
@@ -405,3 +413,22 @@ def test_answers_that_are_right_for_both_may_be_alike(course, tmp_path):
 
     assert find_likenesses(there, exercises, graded("ann", "ben")) == ()
     assert len(find_likenesses(there, exercises, graded("ann"))) == 1  # copied, and wrong for ben
+
+
+def test_a_log_that_the_class_made_for_somebody_else_is_told(root, tmp_path):
+    """Under another name, too; the log of one's own package is not."""
+    from grader.classroom.likeness import find_foreign_logs  # noqa: PLC0415 - only here
+
+    (tmp_path / "students").mkdir()
+    for name in ("ann", "ben"):
+        with zipfile.ZipFile(tmp_path / "students" / f"{name}.zip", "w") as archive:
+            archive.writestr("log.wpilog", f"WPILOG {name}")
+    own = 'log = "our-robot.wpilog"\n'
+    for name in ("ann", "ben"):
+        files = {"answers.toml": own, "our-robot.wpilog": "WPILOG ben"}
+        put(tmp_path / "in" / name / "practice", files)
+    there = find_submissions(tmp_path / "in", list_exercises(root))
+
+    assert find_foreign_logs(there, tmp_path) == (
+        "ann, practice: our-robot.wpilog is a file that this class made for ben",
+    )

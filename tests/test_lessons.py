@@ -34,6 +34,10 @@ ASSUMED = (  # INSTRUCTORS.md's sentence about how the minutes are calculated
 )
 PICTURE = '<figure><img alt="a picture"></figure><table></table>'  # with the table of its numbers
 QUESTION = r"\b(?:Prediction|Quick(?:Number)?Check|ExerciseQuestions)\("
+PLUMBING = (  # what a cell in sight does not do
+    r"^(?:import|from) |^(\w+ = )?(Prediction|QuickCheck|QuickNumberCheck|show_interactive)\("
+    r"|animate_mechanism\("
+)
 SCREENFUL = 40  # [lines] of a function; what is longer belongs into sim
 DERIVE = "run  python .ci/derive_notebooks.py  and commit the notebook with its text"
 
@@ -168,7 +172,8 @@ def test_every_question_is_on_a_slide(text, run):
     code = [cell for cell in notebook.cells if cell.cell_type == "code"]
     shown = [output.data for cell in code for output in cell.outputs if "data" in output]
     widgets = [data["text/plain"] for data in shown if VIEW in data]
-    questions = [words for words in widgets if not words.startswith(("VBox(", "EffectSearch("))]
+    other = ("InteractivePicture(", "EffectSearch(")
+    questions = [words for words in widgets if not words.startswith(other)]
     source = "\n".join(cell.source for cell in code)
 
     assert len(questions) == len(re.findall(QUESTION, source)) > 0
@@ -200,15 +205,11 @@ def test_a_mechanism_moves_in_the_lessons_that_need_it(number, run):
 
 
 @each_lesson
-def test_every_widget_has_plain_code_after_it(text, run):
-    cells = run(text).cells
-    for cell, words, code in zip(cells, cells[1:], cells[2:], strict=False):
-        if cell.cell_type == "code" and re.search(
-            r"^show_interactive\(", cell.source, re.MULTILINE
-        ):
-            called = re.search(r"^show_interactive\(\s*(\w+)", cell.source, re.MULTILINE)[1]
-            assert words.source.startswith("No "), words.source
-            assert called in code.source
+def test_a_picture_with_widgets_is_there_where_no_widget_lives(text, run):
+    for cell in run(text).cells:
+        if re.search(r"^show_interactive\(", cell.source, re.MULTILINE):
+            (data,) = (output.data for output in cell.outputs if VIEW in output.get("data", {}))
+            assert Page(data["text/html"]).pictures
 
 
 @each_lesson
@@ -247,15 +248,6 @@ def test_what_the_lesson_is_said_to_say_it_says(text, shared):
         for said in re.findall(r'"([^"]+)"', claim):
             for part in said.rstrip(".").split("…"):
                 assert part in source, said
-
-
-@each_lesson
-def test_a_picture_that_repeats_its_sliders_is_collapsed(text):
-    cells = nbformat.read(text.with_suffix(".ipynb"), 4).cells
-    for cell, words, code in zip(cells, cells[1:], cells[2:], strict=False):
-        if re.search(r"^show_interactive\(", cell.source, re.MULTILINE):
-            assert words.source.startswith("No ")
-            assert code.metadata["jupyter"]["outputs_hidden"]
 
 
 @each_lesson
@@ -314,11 +306,9 @@ def _text_load(cell):
 
 
 def _code_load(cell):
-    """What the questions, pictures and tables of a cell of code ask; a folded output is skipped."""
-    if cell.metadata.get("jupyter", {}).get("outputs_hidden"):
-        return Load(0, 0, 0, 0)
-    html = [output["data"].get("text/html", "") for output in cell.outputs if "data" in output]
-    pages = [Page(one) for one in html]
+    """What the questions, pictures and tables of a cell of code ask; a widget counts once."""
+    shown = [output["data"] for output in cell.outputs if "data" in output]
+    pages = [Page(data.get("text/html", "")) for data in shown if VIEW not in data]
     sliders = len(re.findall(r"^(?:show_interactive\(|search$)", cell.source, re.MULTILINE))
     return Load(
         words=0,
@@ -367,14 +357,14 @@ def test_the_plan_for_a_class_adds_half_to_the_minutes_of_the_lessons():
 
 def test_what_is_folded_or_repeated_takes_no_time():
     folded = "<details><summary>Answer</summary>\n\nlong words\n\n| a |\n|---|\n</details>"
-    code = {"jupyter": {"outputs_hidden": True}}
+    picture = _html_output(PICTURE)
     cells = [
         nbformat.v4.new_code_cell("install"),
         nbformat.v4.new_markdown_cell(f"# Two words\n\n{folded}\n\n| a | b |\n|---|---|\n"),
         nbformat.v4.new_markdown_cell("```\ncode\n```\n[link](https://address.org) $x + y$"),
-        nbformat.v4.new_code_cell("guess = Prediction(\n", outputs=[_html_output(PICTURE)]),
-        nbformat.v4.new_code_cell("look(1)", outputs=[_html_output(PICTURE)], metadata=code),
-        nbformat.v4.new_code_cell("show_interactive(look)", outputs=[_html_output("<table>")]),
+        nbformat.v4.new_code_cell("guess = Prediction(\n", outputs=[picture]),
+        nbformat.v4.new_code_cell("show_interactive(look)", outputs=[_widget_output(PICTURE)]),
+        nbformat.v4.new_code_cell("Table(look)", outputs=[_html_output("<table>")]),
     ]
 
     load = measure_load(nbformat.v4.new_notebook(cells=cells))
@@ -454,14 +444,20 @@ def test_no_code_of_a_lesson_holds_a_right_answer(text):
 
 
 @each_lesson
-def test_the_code_of_a_question_or_an_animation_is_collapsed(text):  # it answers, or only draws
-    for cell in nbformat.read(text.with_suffix(".ipynb"), 4).cells[1:]:
-        asks = re.search(
-            r"^(\w+ = )?(Prediction|QuickCheck|QuickNumberCheck)\(", cell.source, re.MULTILINE
-        )
-        moves = "animate_mechanism(" in cell.source
-        hidden = cell.metadata.get("jupyter", {}).get("source_hidden", False)
-        assert hidden == bool(cell.cell_type == "code" and (asks or moves)), cell.source
+def test_little_code_is_in_sight_and_a_cell_of_it_is_short(text):
+    """In sight is what one reads or writes; folded is what imports, asks, and draws widgets."""
+    cells = nbformat.read(text.with_suffix(".ipynb"), 4).cells
+    in_sight = []
+    for cell in cells:
+        if cell.cell_type == "code" and not cell.metadata.get("jupyter", {}).get("source_hidden"):
+            assert not re.search(PLUMBING, cell.source, re.MULTILINE), cell.source
+            in_sight.append([line for line in cell.source.splitlines() if line.strip()])
+
+    assert max(map(len, in_sight)) <= 12
+    assert sum(map(len, in_sight)) <= 60
+    for cell in cells:
+        if cell.cell_type == "code" and re.search(r"(?:return|=) \.\.\.", cell.source):
+            assert "jupyter" not in cell.metadata, f"the learner writes here:\n{cell.source}"
 
 
 @each_lesson
@@ -510,6 +506,11 @@ def test_lesson_7_reads_the_log_that_exercise_9_made(tmp_path, root):
 def _html_output(html):
     """An output of a cell that shows HTML."""
     return nbformat.v4.new_output("display_data", data={"text/html": html})
+
+
+def _widget_output(html):
+    """An output of a cell that shows widgets, and HTML where no widget lives."""
+    return nbformat.v4.new_output("display_data", data={"text/html": html, VIEW: {}})
 
 
 def _plain(text):

@@ -99,7 +99,13 @@ def test_a_newcomer_soon_sees_something_move(printed, browser):
     open_notebook(page, printed)
     there = time.monotonic()
     choose_run_all(page)
-    page.locator(".jp-OutputArea svg[role=img]").first.wait_for()
+    scene = page.locator(".jp-OutputArea svg[role=img]").first
+    scene.scroll_into_view_if_needed()
+    page.wait_for_function(
+        "([scene, before]) => scene.innerHTML !== before",
+        arg=[scene.element_handle(), scene.inner_html()],
+        polling=OFTEN,
+    )
     moving = time.monotonic()
     took = f"open after {there - begun:.1f} s, moving {moving - there:.1f} s later"
     print(f"lesson 0: {took}")  # noqa: T201 - a figure to read; a busy machine may take longer

@@ -46,7 +46,7 @@ def test_a_test_begins_with_a_full_battery():
     lesson = (ROOT / "lessons/05_preflight_and_run.py").read_text(encoding="utf-8")
 
     assert "12.5 V" in WHY["battery"]
-    assert "**12.5 V or more at rest**, and 20 mΩ or less on a battery tester" in lesson
+    assert "**more than 12.5 V at rest**, and 20 mΩ or less on a battery tester" in lesson
 
 
 @pytest.mark.parametrize("folder", ["exercises", "solutions"])

@@ -5,7 +5,7 @@ import re
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 
 __all__ = ["draw", "make_folder_name", "names_of"]  # what try_it.py uses, too
 
+Effects = tuple[tuple[str, tuple[tuple[str, float], ...]], ...]  # names, each with its parameters
+
 FILES = ("answers.toml",)
 ANSWER_NAMES = ("effects", "gap_before", "gap_after")
 HERE = Path(__file__).resolve().parent
@@ -41,6 +43,7 @@ NARROWER = 0.985  # [of the gap without] what a refit by chance does not do
 SAME = 1.1  # [1] ratio up to which two gaps are the same: rounding, and a search from elsewhere
 NARROW = 0.95  # [of the gap with gains alone] above which effects do nothing for the held-out log
 REPORTED = 0.5  # points for the two gaps
+REMEMBERED = 16  # searches and fits that are kept while this runs
 
 
 @dataclass(frozen=True)
@@ -72,7 +75,7 @@ class Answers:
     @cached_property
     def search(self) -> "HandSearch":
         """The search for effects in the learner's logs."""
-        return self.variant.make_search()
+        return _make_search(self.variant)
 
     @property
     def validation_count(self) -> int:
@@ -81,18 +84,27 @@ class Answers:
 
     def fitted(self, parts: "Sequence[Part]") -> "Estimate":
         """Some of the answer's effects, and gains fitted to the logs: each selection once."""
-        names = tuple(part.effect for part in parts)
-        if names not in self._fitted:
-            self._fitted[names] = self.search.fit_gains(parts)
-        return self._fitted[names]
+        return _fit_gains(
+            self.search, tuple((one.effect, tuple(one.parameters.items())) for one in parts)
+        )
 
     def measure_gap(self, parts: "Sequence[Part]", log: str = "validation") -> float:
         """The gap of a log with some of the answer's effects [times the noise]."""
         return self.search.measure_gap(self.fitted(parts), log)
 
-    @cached_property
-    def _fitted(self) -> "dict[tuple[str, ...], Estimate]":
-        return {}
+
+@lru_cache(maxsize=REMEMBERED)
+def _make_search(variant: Variant) -> "HandSearch":
+    """The search in a learner's logs: what does not depend on an answer is fitted once."""
+    return variant.make_search()
+
+
+@lru_cache(maxsize=REMEMBERED)
+def _fit_gains(search: "HandSearch", effects: Effects) -> "Estimate":
+    """The gains with effects as an answer gives them."""
+    from sim.physics.model import Part  # noqa: PLC0415 - numpy only where it is needed
+
+    return search.fit_gains([Part(name, dict(values)) for name, values in effects])
 
 
 def list_answer_tables() -> tuple[str, ...]:

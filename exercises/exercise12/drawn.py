@@ -66,7 +66,7 @@ MOST_DRAWS = 50  # so many in a row that cannot be determined would be our fault
 TIMEOUT = 8.0  # [s] of a test of the validation and of the held-out log
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)  # so that it can be a key of a cache
 class Variant:
     """One learner's mechanism.
 

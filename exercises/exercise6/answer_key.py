@@ -19,7 +19,7 @@ LISTED = tuple(sorted(STEPS))
 WHY = {  # item of the checklist -> what a wrong decision overlooks
     "travel": "how much room does the ramp need, forward and back? Do the wheels push the robot? "
     "Do the motors brake after the test, as the plan says? In coast mode the robot rolls on.",
-    "battery": "below 12.5 V at rest, the voltage drops too far in a step.",
+    "battery": "at 12.5 V at rest or less, the voltage drops too far in a step.",
     "encoder": "a positive voltage must give a rising position, without jumps.",
     "log": "you need the log after the test. Has anybody fetched one from this robot before?",
     "guard": "can somebody start a test by accident?",

@@ -11,7 +11,8 @@ def show_interactive(draw: Callable[..., Picture | Sequence[Picture]], **knobs: 
     """Show a picture below widgets that set the arguments of the function that draws it.
 
     The picture is plain HTML, so the page needs no drawing library. It is the same picture that
-    the function returns without widgets: ``draw(ramp=1.0)``.
+    the function returns without widgets: ``draw(ramp=1.0)``. A page that cannot show widgets shows
+    the picture alone.
 
     Args:
         draw: function of keyword arguments that returns one picture, or several.
@@ -23,6 +24,10 @@ def show_interactive(draw: Callable[..., Picture | Sequence[Picture]], **knobs: 
     import ipywidgets  # type: ignore[import-untyped]  # noqa: PLC0415 - no types; for notebooks
 
     shown = ipywidgets.HTML()
+
+    class InteractivePicture(ipywidgets.VBox):  # type: ignore[misc]  # no types
+        def _repr_mimebundle_(self, **how: object) -> Any:  # noqa: ANN401 - ipywidgets has no types
+            return super()._repr_mimebundle_(**how) | {"text/html": shown.value}
 
     def redraw(_: object = None) -> None:
         try:
@@ -36,4 +41,4 @@ def show_interactive(draw: Callable[..., Picture | Sequence[Picture]], **knobs: 
     for knob in knobs.values():
         knob.observe(redraw, "value")
     redraw()
-    return ipywidgets.VBox([*knobs.values(), shown])
+    return InteractivePicture([*knobs.values(), shown])
