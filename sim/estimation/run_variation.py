@@ -175,8 +175,8 @@ def _run_information(
         scores = np.add.reduceat(free.T * innovations[rows], starts, axis=1).T
         excess = max(_excess(information, scores), 1.0)
         whole = np.vstack([free, np.sqrt(known)[:, None] * shares])
-        root = np.linalg.qr(whole, mode="r") / math.sqrt(excess)
-        runs.append(RunInformation(root, score / excess))
+        root = np.asarray(np.linalg.qr(whole, mode="r"))
+        runs.append(RunInformation(root / math.sqrt(excess), score / excess))
     return runs
 
 
