@@ -223,7 +223,7 @@ def test_a_model_that_lacks_something_is_doubted_and_reconcile_named(effect, cod
 @pytest.mark.parametrize(
     ("effect", "size"),
     [
-        ("asymmetric-friction", 2.0),
+        ("asymmetric-friction", 1.0),
         ("drag", 1.0),
         ("drag", 0.1),
         ("stribeck", 1.0),

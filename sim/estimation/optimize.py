@@ -90,16 +90,6 @@ def make_joint_jacobian(
     return JointJacobian(table, root, root.T @ (rows.T @ residuals))
 
 
-def append_prior_rows(
-    problem: PredictionErrorProblem, point: Estimate, *, fine: bool = False
-) -> tuple[Array, Array]:
-    """Jacobian (2 n + priors, k) and residuals (2 n + priors,): innovations, then the priors."""
-    table = problem.compute_jacobian(point, fine=fine)
-    white = problem.whiten(point, point.innovations)
-    rows, residuals = make_prior_rows(problem, point)
-    return np.vstack([table, rows]), np.concatenate([white, residuals])
-
-
 def make_prior_rows(problem: PredictionErrorProblem, point: Estimate) -> tuple[Array, Array]:
     """The priors' rows of the Jacobian (priors, k) and their residuals (priors,).
 
@@ -259,31 +249,6 @@ def compute_standard_errors(problem: PredictionErrorProblem, point: Estimate) ->
         for name in errors
     }
     return {name: error if error < most[name] else math.inf for name, error in errors.items()}
-
-
-def invert_information(table: Array, *, weak: NDArray[np.bool_]) -> tuple[Array, Array]:
-    """(k, k) inverse of JᵀJ for a Jacobian J (n, k), by eliminating well-determined parameters.
-
-    Args:
-        table: (n, k) the Jacobian, its prior rows included.
-        weak: (k,) whether only a prior tells a column from the others. The others are eliminated
-            first, so that a weak prior is not lost in rounding next to much information.
-
-    Returns:
-        The inverse, with huge variances where it is singular; and (k, weak) the change of all
-        parameters per change of each weak one, the others at their optimum.
-    """
-    strong = ~weak
-    square = table.T @ table
-    alone = invert_symmetric(square[np.ix_(strong, strong)])
-    shift = alone @ square[np.ix_(strong, weak)]
-    together = np.zeros((weak.size, shift.shape[1]))
-    together[strong], together[weak] = -shift, np.eye(shift.shape[1])
-    free = table @ together
-    own = invert_symmetric(free.T @ free)
-    inverse = together @ own @ together.T
-    inverse[np.ix_(strong, strong)] += alone
-    return inverse, together
 
 
 def invert_symmetric(square: Array) -> Array:

@@ -9,6 +9,10 @@ more than noise, and the error of their common gains is that of a mean over few 
 f_i is the variance of the scores of short intervals of the run, divided by that which independent
 innovations would give: correlated innovations are fewer independent samples.
 
+A parameter with a prior is the size of a small effect whose formula is only approximate: breakaway
+friction is not exactly exponential, and drag not exactly quadratic. So its size has a further error
+of ``FORM`` of itself, and the other parameters change with it.
+
 T is estimated from the scores of the runs: given T, that of run i is normal with covariance
 G_i + G_i T G_i.
 
@@ -30,7 +34,9 @@ VARIES: Mapping[str, float] = {
 }  # fmt: skip
 """Gain -> first guess of its standard deviation between runs of one day, as a share of it."""
 LEAST_VOLTS = 0.05  # [V] a smaller kS or kG varies as much as one of this size
+FORM = 0.05  # [share of a small effect] error of its formula on a robot
 FIXED = 1e-4  # [share of a parameter's size] standard deviation of those that do not vary
+LEAST_SINGULAR = 1e-10  # [1] of a root with unit columns; a smaller one is rounding
 NO_INFORMATION = 1e-12  # [1/size²] keeps the error of an undetermined parameter finite
 INTERVAL = 0.5  # [s] within which the innovations of an incomplete model are correlated
 LEAST_EIGENVALUE = 1e-6  # [share of the largest] of the information; a smaller one is rounding
@@ -43,43 +49,49 @@ class RunInformation:
     """Fisher information and score of one run, its nuisance parameters marginalized.
 
     Args:
-        information: (k, k) Fisher information G.
+        root: (j, k) root R of the Fisher information G = RᵀR.
         score: (k,) gradient of half the sum of squares.
     """
 
-    information: Array
+    root: Array
     score: Array
 
     def select_parameters(self, chosen: NDArray[np.bool_]) -> "RunInformation":
         """The information about some of the parameters, the others known."""
-        return RunInformation(self.information[np.ix_(chosen, chosen)], self.score[chosen])
+        return RunInformation(self.root[:, chosen], self.score[chosen])
+
+    @property
+    def information(self) -> Array:
+        """(k, k) Fisher information G."""
+        return self.root.T @ self.root
 
 
-def compute_run_variation_covariance(
-    problem: PredictionErrorProblem, point: Estimate, jacobian: Array, innovations: Array
-) -> Array:
+def compute_run_variation_covariance(problem: PredictionErrorProblem, point: Estimate) -> Array:
     """(searched, searched) covariance of the parameters when gains vary from run to run.
 
     Args:
         problem: the measurements, with ``varying_friction`` off.
         point: the best estimate.
-        jacobian: (2 n + ..., searched + nuisance) Jacobian of the whitened innovations.
-        innovations: (2 n + ...,) whitened innovations.
     """
     sizes = _sizes(problem, point)
-    runs = _run_information(problem, point, jacobian, innovations, sizes)
+    runs = _run_information(problem, point, sizes)
     known = problem.select_priors(point.structure)
     names = point.structure.searched_names
     free = np.array([name not in known for name in names])
     guess = np.array([VARIES.get(name, FIXED) for name in names])
     square = guess**2
     square[free] = _variances([run.select_parameters(free) for run in runs], guess[free])
-    prior = [
-        (size / known[name]) ** 2 if name in known else 0.0
-        for name, size in zip(names, sizes, strict=True)
-    ]
-    covariance = _marginal_covariance(runs, square, np.array(prior))
-    return np.asarray(covariance * np.outer(sizes, sizes))
+    priors = np.diag([1.0 / known.get(name, math.inf) for name in names]) * sizes
+    # roots instead of information, so that rounding loses no weak prior
+    roots = np.vstack([*(_marginal_root(run, square) for run in runs), priors[~free]])
+    covariance = _invert_root(roots) * np.outer(sizes, sizes)
+    # how all parameters change with the size of each small effect
+    change = np.zeros((sizes.size, np.count_nonzero(~free)))
+    change[free] = -np.linalg.lstsq(roots[:, free], roots[:, ~free], rcond=None)[0]
+    change[~free] = np.eye(change.shape[1])
+    values = np.array([point.values[name] for name in names])
+    form = sizes[:, None] * change * (FORM * values / sizes)[~free]
+    return np.asarray(covariance + form @ form.T)
 
 
 def _variances(runs: list[RunInformation], guess: Array) -> Array:
@@ -116,36 +128,31 @@ def _log_likelihood(runs: list[RunInformation], square: Array) -> Array:
     return np.asarray(0.5 * np.sum(along**2 / (1.0 + values) - np.log1p(values), axis=(1, 2)))
 
 
-def _marginal_covariance(runs: list[RunInformation], square: Array, prior: Array) -> Array:
-    """(k, k) covariance of the common parameters, given their variances between runs.
+def _marginal_root(run: RunInformation, square: Array) -> Array:
+    """(j, k) root of (T + G⁻¹)⁻¹, the information of a run about the common parameters.
 
     Args:
-        runs: their information.
-        square: (k,) variances between runs.
-        prior: (k,) information of the priors.
+        run: its information.
+        square: (k,) variances between runs, the diagonal of T.
     """
-    root, total = np.sqrt(square), np.diag(prior + NO_INFORMATION)
-    for run in runs:
-        values, vectors = _scaled_eigenvectors(run, root)
-        inverse = vectors / square[:, None]
-        total = total + (inverse * (values / (1.0 + values))) @ inverse.T
-    return np.asarray(np.linalg.inv(total))
+    varied = np.eye(len(run.root)) + (run.root * square) @ run.root.T
+    return np.asarray(np.linalg.solve(np.linalg.cholesky(varied), run.root))
 
 
-def _scaled_eigenvectors(run: RunInformation, root: Array) -> tuple[Array, Array]:
-    """Eigenvalues of T^(1/2) G T^(1/2) and (k, k) its eigenvectors times T^(1/2)."""
-    values, vectors = np.linalg.eigh(run.information * np.outer(root, root))
-    return np.maximum(values, 0.0), root[:, None] * vectors
+def _invert_root(root: Array) -> Array:
+    """(k, k) inverse of RᵀR for a root R (n, k), with huge variances where it is singular."""
+    size = np.maximum(np.linalg.norm(root, axis=0), math.sqrt(NO_INFORMATION))
+    _, values, vectors = np.linalg.svd(root / size, full_matrices=False)
+    inverse = vectors.T / np.maximum(values, LEAST_SINGULAR) / size[:, None]
+    return np.asarray(inverse @ inverse.T)
 
 
 def _run_information(
-    problem: PredictionErrorProblem,
-    point: Estimate,
-    jacobian: Array,
-    innovations: Array,
-    sizes: Array,
+    problem: PredictionErrorProblem, point: Estimate, sizes: Array
 ) -> list[RunInformation]:
     """The information of each run that is compared."""
+    jacobian = problem.compute_jacobian(point, fine=True)
+    innovations = problem.whiten(point, point.innovations)
     count, runs = sizes.size, []
     nuisance = problem.list_nuisance_priors(point)
     known = np.array([1.0 / sd**2 for sd, _ in nuisance])
@@ -164,14 +171,16 @@ def _run_information(
         information = free.T @ columns
         score = free.T @ innovations[rows] - shares.T @ own
         time = problem.records[number].measurements.time
-        starts = 2 * find_interval_starts(time, INTERVAL)  # two measurements to a sample
+        starts = 2 * _interval_starts(time, INTERVAL)  # two measurements to a sample
         scores = np.add.reduceat(free.T * innovations[rows], starts, axis=1).T
         excess = max(_excess(information, scores), 1.0)
-        runs.append(RunInformation(information / excess, score / excess))
+        whole = np.vstack([free, np.sqrt(known)[:, None] * shares])
+        root = np.asarray(np.linalg.qr(whole, mode="r"))
+        runs.append(RunInformation(root / math.sqrt(excess), score / excess))
     return runs
 
 
-def find_interval_starts(time: Array, length: float) -> NDArray[np.intp]:
+def _interval_starts(time: Array, length: float) -> NDArray[np.intp]:
     """Index of the first sample in each interval of this length [s] that has samples."""
     return np.flatnonzero(np.diff((time - time[0]) // length, prepend=-1.0))
 

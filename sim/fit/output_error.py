@@ -21,7 +21,9 @@ from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.measurements import measure_runs
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import compute_parameter_covariance, make_joint_jacobian
+from sim.estimation.run_variation import compute_run_variation_covariance
 from sim.fit.everyday_effects import (
+    add_absent_effects,
     fit_everyday_effects,
     list_everyday_effects,
     remove_everyday_effects,
@@ -32,7 +34,6 @@ from sim.fit.fit_doubts import (
     warn_of_opposed_signs,
     warn_of_strong_effects,
 )
-from sim.fit.gain_covariance import compute_gain_covariances
 from sim.fit.gravity_type_hint import hint_gravity_type
 from sim.fit.identifiability import doubt_undetermined, moves_both_ways, refuse_unrelated
 from sim.fit.open_loop_fallback import (
@@ -168,21 +169,22 @@ def _fit_problem(log: Log, *, type: str) -> Fit:  # noqa: A002 - as above
     )
     problem, likeliest, replay = _add_everyday_effects(problem, likeliest, replay)
     searched, point, replay = fit_velocity_only(problem, likeliest, replay)
-    gains, errors = compute_gains_with_errors(
+    gains, by_noise = compute_gains_with_errors(
         point, compute_parameter_covariance(searched, point), type=type
     )
     # a gain is refused if noise alone leaves it undetermined; errors of the model are warnings
     share = searched.noise.velocity / float(np.sqrt(point.innovation_cov[1, 1]))
-    least = {name: min(share, 1.0) * error for name, error in errors.items()}
+    least = {name: min(share, 1.0) * error for name, error in by_noise.items()}
     both_ways = moves_both_ways([record.measurements for record in searched.records])
     if type == "elevator" and not both_ways:
         least |= {"kS": math.inf, "kG": math.inf}
     hint = hint_gravity_type(log, problem, replay, type=type)
     unknown = doubt_undetermined(gains, least, log=log, type=type, both_ways=both_ways, hint=hint)
     refuse_unrelated(replay, log=log, hint=hint)
-    for wide, spread in compute_gain_covariances(searched, point, replay):
-        others = compute_gains_with_errors(wide, spread, type=type)[1]
-        errors = {name: max(error, others[name]) for name, error in errors.items()}
+    whole = (searched, point) if searched.priors else add_absent_effects(searched, point)
+    _, errors = compute_gains_with_errors(
+        whole[1], compute_run_variation_covariance(*whole), type=type
+    )
     gains_only = replay
     if list_everyday_effects(point):
         gains_only = replay_open_loop(searched, remove_everyday_effects(point))

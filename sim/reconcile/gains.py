@@ -6,7 +6,6 @@ from dataclasses import replace
 from sim.core.errors import Refusal
 from sim.core.units import Unit, convert_gains
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
-from sim.estimation.optimize import append_prior_rows, compute_parameter_covariance
 from sim.estimation.run_variation import compute_run_variation_covariance
 from sim.fit import fit
 from sim.fit.output_error import compute_gains_with_errors
@@ -18,23 +17,15 @@ from sim.reconcile.story import ParameterEstimate
 def estimate_gains(
     problem: PredictionErrorProblem, point: Estimate, unit: Unit
 ) -> dict[str, ParameterEstimate]:
-    """The gains of an estimate, in the log's unit.
-
-    Each standard error is the larger of those from noise and from variation between runs.
-    """
+    """The gains of an estimate, in the log's unit, with errors that allow for varying runs."""
     shared = replace(problem, varying_friction=False)  # one friction, whose variation is estimated
     same = shared.evaluate(
         point.structure, point.values, point.nuisance.with_common_friction, point.process_noise
     )
-    table, residuals = append_prior_rows(shared, same, fine=True)
-    noise = compute_parameter_covariance(problem, point)
-    variation = compute_run_variation_covariance(shared, same, table, residuals)
-    type_ = point.structure.type
-    gains, errors = compute_gains_with_errors(point, noise, type=type_)
-    _, others = compute_gains_with_errors(point, variation, type=type_)
-    most = {name: max(error, others[name]) for name, error in errors.items()}
+    spread = compute_run_variation_covariance(shared, same)
+    gains, errors = compute_gains_with_errors(point, spread, type=point.structure.type)
     return _describe(
-        convert_gains(gains, factor=unit.si), convert_gains(most, factor=unit.si), unit
+        convert_gains(gains, factor=unit.si), convert_gains(errors, factor=unit.si), unit
     )
 
 

@@ -35,6 +35,7 @@ from sim.core.errors import Refusal
 from sim.core.log import Log, Run
 from sim.core.units import find_unit
 from sim.fit import fit
+from sim.fit.between_recordings import SHARES
 from sim.fit.regression import regress_acceleration
 from sim.fit.result import Fit
 from sim.fit.sysid_rows import prepare_rows
@@ -47,6 +48,7 @@ SUFFIXES = (".csv", ".json", ".wpilog")
 GAINS = ("kS", "kV", "kA", "kG")
 DAY = re.compile(r"20\d\d[-_]?\d\d[-_]?\d\d")
 REBUILT = 1.25  # [1] volts per speed over those of another recording: another mechanism
+MEDIAN = 0.6745  # [standard deviations] median size of a normal deviation
 WITHIN = 2.0  # [1] standard errors of a difference, within which two recordings agree
 LOGS = {
     "sciborgs-2023-elbow-arm": "arm",
@@ -214,6 +216,8 @@ def volts_at_top_speed(log: Log) -> float:
 def print_repetitions(fitted: Sequence[FittedLog]) -> None:
     """How many pairs of gains from recordings of one mechanism agree within their errors.
 
+    The error of a pair holds that of both fits and what recordings of one day differ by.
+
     Where the fastest samples of two recordings need volts per speed that differ by more than
     ``REBUILT``, the gears or the conversion factor changed between them: such a pair is listed, and
     does not count.
@@ -236,7 +240,8 @@ def print_repetitions(fitted: Sequence[FittedLog]) -> None:
                 both = one.gains.get(gain), other.gains.get(gain)
                 if not all(both):
                     continue
-                error = math.hypot(one.errors[gain], other.errors[gain])
+                between = SHARES[gain] / MEDIAN * 0.5 * abs(sum(both))
+                error = math.hypot(one.errors[gain], other.errors[gain], between)
                 apart = abs(one.gains[gain] - other.gains[gain])
                 count += 1
                 agree += apart <= WITHIN * error
