@@ -21,6 +21,7 @@ from urllib.error import URLError
 from urllib.request import Request, urlopen
 
 ROOT = Path(__file__).resolve().parents[1]
+NODE = ROOT / "build" / "node" / "bin"  # where prepare_machine.py puts what comes from npm
 SCREEN = 10.0  # [s] from the end of the install to the first useful screen
 PATIENCE = 1320.0  # [s] for one command: the tests have to leave time for the rest
 SCREEN_SAYS = "Next:"  # how the line begins that says what to do
@@ -40,7 +41,6 @@ def main() -> None:
         sys.stdout.reconfigure(errors="replace")  # a Windows console may lack a sign
     with tempfile.TemporaryDirectory(prefix="gate-") as folder:
         environment = fresh_environment(Path(folder) / "env")
-        needed_programs(Path(folder) / "env")
         start, test = commands()
         say(f"README, first command: {start}")
         watch(start, environment)
@@ -82,7 +82,7 @@ def fresh_environment(folder: Path) -> dict[str, str]:
     scripts = folder / ("Scripts" if os.name == "nt" else "bin")
     kept = {k: v for k, v in os.environ.items() if not k.startswith(("PYTHON", "PIP_REQUIRE"))}
     return kept | {
-        "PATH": f"{scripts}{os.pathsep}{os.environ['PATH']}",
+        "PATH": os.pathsep.join((str(scripts), str(NODE), os.environ["PATH"])),
         "VIRTUAL_ENV": str(folder),
         "JUPYTER_CONFIG_DIR": str(folder / "jupyter"),
     }
@@ -168,50 +168,6 @@ def serves(address: str) -> bool:
             return bool(page.status == OK)
     except (URLError, ConnectionError, TimeoutError):
         return False
-
-
-def needed_programs(folder: Path) -> None:
-    """Install what tests need beside Python, where the machine allows it; they skip without.
-
-    Args:
-        folder: the virtual environment, which also takes what comes from npm.
-    """
-    install_program(
-        ("chromium", "chromium-browser", "google-chrome", "chrome"),
-        package="chromium",
-        tests="browser tests",
-    )
-    install_program(("javac",), package="default-jdk-headless", tests="tests that compile Java")
-    npm = shutil.which("npm")
-    if npm and sys.platform == "linux" and os.geteuid() == 0:  # elsewhere the Hub's test is skipped
-        say("installing JupyterHub's proxy for the test of JupyterHub")
-        package = "configurable-http-proxy@5"
-        command = [npm, "install", "--silent", "--global", f"--prefix={folder}", package]
-        subprocess.run(command, check=False)
-
-
-def install_program(names: tuple[str, ...], *, package: str, tests: str) -> None:
-    """Install a program with apt, if it is not there.
-
-    Args:
-        names: what the program may be called.
-        package: the Debian package that has it.
-        tests: which tests are skipped without it.
-    """
-    if any(map(shutil.which, names)):
-        return
-    apt = shutil.which("apt-get")
-    if not apt or os.geteuid() != 0:
-        say(f"no {names[0]} here and no way to install one: {tests} will be skipped")
-        return
-    say(f"installing {package} for {tests}")
-    for step in ("update -q", f"install -q -y --no-install-recommends {package}"):
-        subprocess.run(
-            [apt, *step.split()],
-            check=True,
-            stdout=subprocess.DEVNULL,
-            env=os.environ | {"DEBIAN_FRONTEND": "noninteractive"},
-        )
 
 
 def fail(line: str) -> NoReturn:
