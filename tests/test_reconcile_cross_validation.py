@@ -7,7 +7,10 @@ import numpy as np
 import pytest
 from reconcile_made import based, rubbing
 
-from sim.estimation.optimize import compute_parameter_covariance, compute_standard_errors
+from sim.estimation.run_variation import (
+    compute_run_variation_covariance,
+    compute_standard_errors,
+)
 from sim.reconcile.cross_validation import (
     Fold,
     compute_open_loop_errors,
@@ -66,7 +69,7 @@ def test_standard_errors_are_those_of_the_covariance_and_say_what_is_not_known(f
     errors = compute_standard_errors(problem, point)
     unknown = compute_standard_errors(problem, beside)
 
-    variance = np.diag(compute_parameter_covariance(problem, point))
+    variance = np.diag(compute_run_variation_covariance(problem, point))
     assert list(errors.values()) == pytest.approx(np.sqrt(variance).tolist())
     assert unknown["deadband.band"] == math.inf
     assert unknown["kV"] == pytest.approx(errors["kV"], rel=0.05)

@@ -6,10 +6,10 @@ from reconcile_made import rubbing
 
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
-from sim.estimation.optimize import compute_standard_errors
 from sim.estimation.random_friction import get_friction_sd
 from sim.estimation.run_nuisance import RunNuisance
 from sim.estimation.run_records import make_run_records
+from sim.estimation.run_variation import compute_standard_errors
 from sim.physics.model import Part
 from sim.reconcile.cross_validation import (
     compute_open_loop_errors,

@@ -21,7 +21,6 @@ FACTOR = 4.0  # [1] by which a line search changes the process noise
 LEAST_Q = 1e-12  # [noises of a velocity, squared, per second] less is no process noise
 TINY = 1e-9  # [of a parameter's size] step that shows whether a parameter is at its limit
 LEAST_INFORMATION = 1e-100  # of a parameter, so that it has an inverse
-LARGEST_ERROR = 1e6  # [sizes of a parameter] a larger standard error is rounding alone
 LEAST_EIGENVALUE = 1e-11  # [1] of the scaled information; a smaller one is rounding
 NO_INFORMATION = 1e-20  # [1] what replaces such an eigenvalue
 
@@ -229,26 +228,6 @@ def compute_parameter_covariance(problem: PredictionErrorProblem, point: Estimat
     inverse = invert_symmetric(square)
     count = len(point.structure.searched_names)
     return np.asarray(inverse[:count, :count])
-
-
-def compute_standard_errors(problem: PredictionErrorProblem, point: Estimate) -> dict[str, float]:
-    """Searched parameter -> its standard error; infinite where the log does not determine it.
-
-    Args:
-        problem: the measurements.
-        point: the best estimate.
-    """
-    structure = point.structure
-    variances = np.diag(compute_parameter_covariance(problem, point)).tolist()
-    errors = {
-        name: math.sqrt(max(variance, 0.0))
-        for name, variance in zip(structure.searched_names, variances, strict=True)
-    }
-    most = {
-        name: LARGEST_ERROR * structure.find_parameter_scale(name, point.values[name])
-        for name in errors
-    }
-    return {name: error if error < most[name] else math.inf for name, error in errors.items()}
 
 
 def invert_symmetric(square: Array) -> Array:

@@ -21,7 +21,7 @@ Source: N. Laird and J. Ware, "Random-effects models for longitudinal data", Bio
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,6 +37,7 @@ LEAST_VOLTS = 0.05  # [V] a smaller kS or kG varies as much as one of this size
 FORM = 0.05  # [share of a small effect] error of its formula on a robot
 FIXED = 1e-4  # [share of a parameter's size] standard deviation of those that do not vary
 LEAST_SINGULAR = 1e-10  # [1] of a root with unit columns; a smaller one is rounding
+LARGEST_ERROR = 1e6  # [sizes of a parameter] a larger standard error is rounding alone
 NO_INFORMATION = 1e-12  # [1/size²] keeps the error of an undetermined parameter finite
 INTERVAL = 0.5  # [s] within which the innovations of an incomplete model are correlated
 LEAST_EIGENVALUE = 1e-6  # [share of the largest] of the information; a smaller one is rounding
@@ -70,9 +71,14 @@ def compute_run_variation_covariance(problem: PredictionErrorProblem, point: Est
     """(searched, searched) covariance of the parameters when gains vary from run to run.
 
     Args:
-        problem: the measurements, with ``varying_friction`` off.
+        problem: the measurements.
         point: the best estimate.
     """
+    if problem.varying_friction:  # T contains the variance of the friction
+        problem = replace(problem, varying_friction=False)
+        point = problem.evaluate(
+            point.structure, point.values, point.nuisance.with_common_friction, point.process_noise
+        )
     sizes = _sizes(problem, point)
     runs = _run_information(problem, point, sizes)
     known = problem.select_priors(point.structure)
@@ -92,6 +98,26 @@ def compute_run_variation_covariance(problem: PredictionErrorProblem, point: Est
     values = np.array([point.values[name] for name in names])
     form = sizes[:, None] * change * (FORM * values / sizes)[~free]
     return np.asarray(covariance + form @ form.T)
+
+
+def compute_standard_errors(problem: PredictionErrorProblem, point: Estimate) -> dict[str, float]:
+    """Searched parameter -> its standard error; infinite where the log does not determine it.
+
+    Args:
+        problem: the measurements.
+        point: the best estimate.
+    """
+    structure = point.structure
+    variances = np.diag(compute_run_variation_covariance(problem, point)).tolist()
+    errors = {
+        name: math.sqrt(max(variance, 0.0))
+        for name, variance in zip(structure.searched_names, variances, strict=True)
+    }
+    most = {
+        name: LARGEST_ERROR * structure.find_parameter_scale(name, point.values[name])
+        for name in errors
+    }
+    return {name: error if error < most[name] else math.inf for name, error in errors.items()}
 
 
 def _variances(runs: list[RunInformation], guess: Array) -> Array:

@@ -7,7 +7,7 @@ from itertools import pairwise
 
 from sim.core.units import Unit
 from sim.estimation.likelihood import PredictionErrorProblem
-from sim.estimation.optimize import compute_standard_errors
+from sim.estimation.run_variation import compute_standard_errors
 from sim.physics.effect import LATER, UNTIL
 from sim.physics.effects import EFFECTS
 from sim.reconcile.backward_elimination import find_separating_test

@@ -1,7 +1,6 @@
 """The gains that reconcile reports: with the effects that it found, and without them."""
 
 from collections.abc import Mapping
-from dataclasses import replace
 
 from sim.core.errors import Refusal
 from sim.core.units import Unit, convert_gains
@@ -18,11 +17,7 @@ def estimate_gains(
     problem: PredictionErrorProblem, point: Estimate, unit: Unit
 ) -> dict[str, ParameterEstimate]:
     """The gains of an estimate, in the log's unit, with errors that allow for varying runs."""
-    shared = replace(problem, varying_friction=False)  # one friction, whose variation is estimated
-    same = shared.evaluate(
-        point.structure, point.values, point.nuisance.with_common_friction, point.process_noise
-    )
-    spread = compute_run_variation_covariance(shared, same)
+    spread = compute_run_variation_covariance(problem, point)
     gains, errors = compute_gains_with_errors(point, spread, type=point.structure.type)
     return _describe(
         convert_gains(gains, factor=unit.si), convert_gains(errors, factor=unit.si), unit
