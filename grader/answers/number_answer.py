@@ -193,11 +193,11 @@ def judge_number(
         wider = asked.describe_tolerance(partial, asked.band.partial)
         earned = HALF * points
         verdict = f"close: within {wider}, not yet within {near}"
-    if by_hand:
-        verdict += f". {'Did you round too early?' if earned else START_AGAIN}"
     slips = diagnose_number(name, given, key)
     codes = {slip.misconception for slip in slips}
     said = _describe_wrong_number(name, value, slips)
+    if by_hand and not said:
+        verdict += f". {'Did you round too early?' if earned else START_AGAIN}"
     assumed = f"{UNIT_ASSUMED}{asked.unit})" if asked.unit and not converted else ""
     raise WrongAnswer(
         f"{shown}{assumed}",

@@ -141,6 +141,13 @@ MISTAKES = (
         "M-R2",
     ),
     Mistake(
+        "speed for each volt",
+        ANSWERS,
+        change_number("kV", lambda right: 1.0 / right["kV"]),
+        "kv",
+        "speed for each volt",
+    ),
+    Mistake(
         "a number from nowhere",
         ANSWERS,
         scale_numbers(3.4, "kV"),
