@@ -232,6 +232,17 @@ def test_the_loop_in_the_motor_controller_has_an_output_of_its_own(checked, kind
     assert found.misconception == "M-DUTY"
 
 
+@pytest.mark.parametrize("kind", ["drivetrain", "elevator"])
+def test_a_kp_per_meter_in_the_motor_controller_is_named(checked, kind):
+    student = of(kind=kind)
+    inside = OWN.module.draw(student).held_by("Slot0Configs")
+    wrong = inside.times_to("Meters") / inside.times
+    found = checked(in_place(student, "Slot0Configs", kp=wrong), student=student)["kp"]
+
+    assert "this value is per m, but Slot0Configs counts rotations" in found.hint
+    assert (found.status, found.misconception) == ("failed", "M-UNITS")
+
+
 LATER = "config.Slot0.kV = 3;"
 TALON = "TalonFXConfiguration config = new TalonFXConfiguration(); "
 SPARK = "SparkMaxConfig config = new SparkMaxConfig(); "

@@ -10,6 +10,7 @@ import pytest
 from grader.exercise import Exercise
 from grader.student_data.variant import make_folder_name
 from sim.bench.slip import compute_slip_voltage
+from sim.fit import fit
 from sim.inspect.detect_faults import inspect
 from sim.io import list_entries, read, read_motors
 
@@ -77,6 +78,16 @@ def test_the_logs_are_sound_and_what_they_say_to_be(copy, student):
     assert max(float(row["stator_current"]) for row in rows) == pytest.approx(
         variant.drive.slip_current, rel=0.05
     )
+
+
+@pytest.mark.parametrize("student", TWO)
+def test_gains_of_the_wrong_log_are_named(copy, student):
+    turning = read(data_of(copy, student) / "turning.wpilog", entries=GYRO)
+    ks = fit(turning).in_units("radians").gains["kS"]
+
+    graded = grade_answer(copy, f"kS = {ks:.5g}", student)["ks"]
+
+    assert "this is the kS of turning on the spot" in graded.hint
 
 
 @pytest.mark.parametrize("student", TWO)

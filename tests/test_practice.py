@@ -51,6 +51,16 @@ def grade_answer(folder, texts, *, student="ann", **answers):
     return {check.id: check for check in found.checks}
 
 
+def test_the_kp_of_a_position_loop_is_named(solved, tmp_path):
+    fitted = OWN.module.of_bench(OWN.module.draw("ann")).fit
+    wrong = f"{fitted.feedback()['position'].kp:.5g}"
+
+    found = grade_answer(tmp_path, solved, kP=wrong)["gains-kp"]
+
+    assert found.status == "failed"
+    assert "the kP of a position loop" in found.hint
+
+
 def robot(folder, *, noise=0.0):
     """A drivetrain of one's own: its log in a folder, and what its owner writes about it."""
     built = replace(MECHANISMS["drivetrain"], drag=0.05)

@@ -142,6 +142,8 @@ def loop_of(now="now.velocity", after="after.velocity", measured="position", wan
         (lambda _, pid, one: pid.calculate(one.position, one.now.position), "The feedforward is"),
         (loop_of(measured="now.position", wanted="position"), "takes the measurement first"),
         (loop_of(after="now.velocity"), "kA does nothing"),
+        (loop_of(now="after.velocity", after="now.velocity"), "velocities are swapped"),
+        (loop_of(wanted="after.position"), "not of the next loop"),
         (loop_of(now="now.position", after="after.position"), "needs velocities"),
         (loop_of(now="velocity"), "never at what is measured"),
         (loop_of(measured="velocity", wanted="now.velocity"), "controls a position"),

@@ -143,6 +143,7 @@ def find_feedback_slip(value: float, variant: Variant, *, text: str = "") -> Wro
     ways = [
         *_list_rotations("kP", variant),
         ("unmodified", [shown]),
+        ("coded", [variant.coded("kP")] if variant.place == SLOT0 else []),
         ("output", {shown * times, shown * times / FULL} - {needed}),
         ("12-turned", [shown * times * FULL]),
         ("unit", [shown / FULL]),

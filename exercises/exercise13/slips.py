@@ -57,11 +57,6 @@ def _rarer_of_tests(variant: "Variant", asked: Mapping[str, float]) -> dict[str,
             (asked["kV"] * own, alone, ""),
             (turning["kV"], spun.format("kV"), ""),
             (asked["kV"] * around, wheel, GEARING),
-            (
-                1.0 / asked["kV"],
-                "this is upside down: speed for each volt. kV is volts for each unit of speed",
-                "",
-            ),
         ),
         "kA": (
             (turning["kA"], spun.format("kA"), ""),
@@ -69,6 +64,11 @@ def _rarer_of_tests(variant: "Variant", asked: Mapping[str, float]) -> dict[str,
         ),
         "kS": ((turning["kS"], spun.format("kS"), ""),),
         "worn_radius": (
+            (
+                variant.radius / own,
+                "is your ratio of turns upside down? A worn wheel is smaller than the others",
+                "",
+            ),
             (
                 2.0 * math.pi * asked["worn_radius"],
                 "this is how far one turn of the wheel goes. That is 2π times the radius",
@@ -97,9 +97,16 @@ def _rarer_of_tests(variant: "Variant", asked: Mapping[str, float]) -> dict[str,
 
 def _of_current(variant: "Variant", slip: float) -> Rows:
     """The rarer slips about the current at which the wheels slip."""
+    from sim.bench.swerve_logs import KINETIC  # noqa: PLC0415 - numpy only where it is needed
+
     stall = BATTERY / variant.drive.motor.resistance
     return (
         (slip / 4.0, "did you divide by four? push.csv already has the current of one motor", ""),
+        (
+            slip * KINETIC,
+            "is this the current just after the slip begins? It falls then. Read the row before",
+            "",
+        ),
         (
             stall,
             "this is the stall current at 12 V. In push.csv, look where the wheel begins to turn",

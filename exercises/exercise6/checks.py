@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable, Mapping
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -153,10 +153,14 @@ def _planned(kind: str, answers: Answers) -> str:
         share = 100.0 * slow.fastest / machine.free
         return f"ramp and step need {run}; the ramp reaches {share:.0f} % of the free speed"
     codes = {one.misconception for one in found} - {""}
+    hints = [one.says for one in found]
+    exchanged = replace(plan, ramp=plan.step, step=plan.ramp)
+    if plan.ramp > plan.step and len(broken(machine, exchanged)) < len(found):
+        hints.insert(0, "your ramp is larger than your step: did you swap them?")
     mark = "timeout" if math.isinf(plan.release) else f"{plan.release:g} {machine.symbol}"
     raise WrongAnswer(
         f"{plan.ramp:g} V/s, {plan.step:g} V, {plan.timeout:g} s, let go at {mark}",
-        hint=". Also: ".join(one.says for one in found),
+        hint=". Also: ".join(hints).replace("?. ", "? "),
         misconception=codes.pop() if len(codes) == 1 else "",
         earned=POINTS / 2.0 if len(found) == 1 else 0.0,
     )

@@ -77,13 +77,17 @@ def _too_far(name: str, test: Test, travel: float) -> str:
 def _tells(machine: Machine, plan: Plan) -> Iterator[Broken]:
     slow = quasistatic(machine, plan)
     end = "your mark" if slow.by_mark else "the timeout"
+    needs = "kS + kG" if machine.kind == "elevator" else "kS"
     if slow.lasts < LESS * MOVES:
-        yield Broken(f"your ramp moves it for {slow.lasts:.2f} s until {end}; at least {MOVES:g} s")
+        says = f"your ramp moves it for {slow.lasts:.2f} s until {end}; at least {MOVES:g} s"
+        if not slow.by_mark:
+            says += f". For the first {slow.still:.2f} s it stands still: until then, "
+            says += f"your ramp is below {needs} ({machine.hold:.2f} V)"
+        yield Broken(says)
     if slow.fastest < LESS * QUARTER * machine.free:
         yield _too_slow(slow, end)
     push = plan.step - machine.hold
     if push <= 0.0:
-        needs = "kS + kG" if machine.kind == "elevator" else "kS"
         yield Broken(f"your step does not move it: {needs} is {machine.hold:.2f} V")
     elif push / machine.ka < LESS * SIGNAL * machine.scatter:
         times = push / machine.ka / machine.scatter

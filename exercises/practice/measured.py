@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from grader.answers.choice_answer import normalize_choice
 from grader.answers.number_answer import AnswerKey, AskedNumber, Band, ask_gains, read_answer_number
-from grader.answers.wrong_number import Scene
+from grader.answers.wrong_number import Lookalike, Scene, WrongNumber
 from grader.check import NotReachedError, WrongAnswer, shorten
 from sim.core.errors import Refusal
 
@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 UNITS = {"Meters": "m", "Rotations": "rot", "Radians": "rad"}
 ANALYSES = {"simple": "Simple", "elevator": "Elevator", "arm": "Arm"}
 KP = Band(0.05, 0.15)
+POSITION = WrongNumber(
+    "position", "this is the kP of a position loop. Write the kP of the velocity loop"
+)
 
 
 @dataclass(frozen=True)
@@ -95,10 +98,11 @@ def _measured(found: "Fit", units: str, parts: Parts | None, why: str) -> Measur
     symbol = UNITS[units]
     names = [name for name in ("kS", "kV", "kA", "kG") if name in found.gains]
     asked = ask_gains({name: found.gains[name] for name in names}, position=symbol)
-    suggested = found.feedback().get("velocity")
-    if suggested is not None:
-        asked["kP"] = AskedNumber("kP", suggested.kp, f"V·s/{symbol}", KP)
-    scene = Scene(angular=units != "Meters")
+    loops = found.feedback()
+    if "velocity" in loops:
+        asked["kP"] = AskedNumber("kP", loops["velocity"].kp, f"V·s/{symbol}", KP)
+    other = (Lookalike(loops["position"].kp, POSITION),) if "position" in loops else ()
+    scene = Scene(angular=units != "Meters", lookalikes={"kP": other})
     if parts is not None:
         scene = replace(scene, ratio=parts.ratio, motors=parts.motors)
     return Measured(found, AnswerKey(asked, scene), units, parts, why)

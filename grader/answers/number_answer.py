@@ -16,10 +16,16 @@ from grader.check import Check, WrongAnswer, check, shorten
 LARGEST = 1e300  # beyond it a number is infinite, or soon will be
 HALF = 0.5  # [share] of the points inside the wider band
 LITTLE = 2.0  # [wider bands] a number that is off by more is far outside
+ROUNDED = "Did you round too early?"
+KA_ALONE = (
+    "Your kV is right, so your units are, too. kA comes from the first moments of a dynamic test: "
+    "check that your fit uses all of them, and that the velocity is not smoothed too much"
+)
 START_AGAIN = "Check the numbers you started from, and their units"
 CALCULATION = re.compile(r"[-+*/·^]+\s*[\d(]")  # how the rest of a number begins that is a sum
 NO_UNIT = "It has no unit, and it is not in percent: write the number alone."
 UNIT_ASSUMED = " (no unit given, so I assumed "
+OF_BOTH = ("gear", "radius")  # slips that make kV and kA wrong, never kA alone
 FAST = 0.05  # [s] a time constant kA/kV below this fits into two or three samples of 20 ms
 
 
@@ -193,11 +199,12 @@ def judge_number(
         wider = asked.describe_tolerance(partial, asked.band.partial)
         earned = HALF * points
         verdict = f"close: within {wider}, not yet within {near}"
-    if by_hand:
-        verdict += f". {'Did you round too early?' if earned else START_AGAIN}"
     slips = diagnose_number(name, given, key)
     codes = {slip.misconception for slip in slips}
     said = _describe_wrong_number(name, value, slips)
+    if by_hand and not said:
+        again = ROUNDED if earned else START_AGAIN
+        verdict += f". {KA_ALONE if is_ka_alone(name, given, key) else again}"
     assumed = f"{UNIT_ASSUMED}{asked.unit})" if asked.unit and not converted else ""
     raise WrongAnswer(
         f"{shown}{assumed}",
@@ -240,12 +247,20 @@ def diagnose_number(
 ) -> tuple[WrongNumber, ...]:
     """The mistakes that would explain a wrong number; those that another number shares alone."""
     found = _find_wrong_numbers(name, given, key)
+    if is_ka_alone(name, given, key):
+        found = tuple(slip for slip in found if slip.code not in OF_BOTH)
     for other in key.asked:
         if other != name and other in given:
             shared = {slip.code for slip in _find_wrong_numbers(other, given, key)}
             both = tuple(slip for slip in found if slip.code in shared)
             found = both or found
     return found if len(found) <= MANY else ()
+
+
+def is_ka_alone(name: str, given: Mapping[str, object], key: AnswerKey) -> bool:
+    """Whether this is the kA of a test, and kV of the same test is right."""
+    kv = _read_value("kV", given, key) if "kV" in key.asked else None
+    return name == "kA" and key.scene.ramp > 0 and kv is not None and key.asked["kV"].is_right(kv)
 
 
 def _find_wrong_numbers(

@@ -89,16 +89,17 @@ def explain_wrong_number(
         unit: the unit of the answer.
     """
     found = list(_explain_by_factors(name, value, right=right, scene=scene, unit=unit))
-    if name == "kS" and {"kV", "kA"} <= key.keys():
+    rarer = tuple(likely.slip for likely in scene.rarer.get(name, ()) if _looks_like(value, likely))
+    if name == "kS" and {"kV", "kA"} <= key.keys() and not rarer:  # theirs is the narrower band
         excess = key["kA"] / key["kV"] * scene.ramp
         if excess > 0 and right(value - excess):
             found.append(_INTERCEPT)
+    if name == "kV" and value and right(1.0 / value):
+        found.append(_UPSIDE_DOWN)
     for likely in scene.lookalikes.get(name, ()):
         if _looks_like(value, likely) and likely.slip not in found:
             found.append(likely.slip)
-    return tuple(found) or tuple(
-        likely.slip for likely in scene.rarer.get(name, ()) if _looks_like(value, likely)
-    )
+    return tuple(found) or rarer
 
 
 def _looks_like(value: float, likely: Lookalike) -> bool:
@@ -110,6 +111,10 @@ _INTERCEPT = WrongNumber(
     "a little too large, by about the voltage that accelerates the mechanism during the ramp. Is "
     "your kS where the line through the quasistatic runs crosses v = 0?",
     "M-KS-INTERCEPT",
+)
+
+_UPSIDE_DOWN = WrongNumber(
+    "upside-down", "this is upside down: speed for each volt. kV is volts for each unit of speed"
 )
 
 

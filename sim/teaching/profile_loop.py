@@ -337,6 +337,14 @@ def _wrong_loops() -> list[tuple[float, str]]:
             ),
         ),
         (
+            ff.calculateWithVelocities(after.velocity, now.velocity) + feedback,
+            "The two velocities are swapped: first that of now, then that of the next loop.",
+        ),
+        (
+            forward + pid.kP * (after.position - measured),
+            "The feedback compares the measurement with the setpoint of now, not of the next loop.",
+        ),
+        (
             ff.calculateWithVelocities(now.velocity, acceleration) + feedback,
             "The second argument is a velocity, not an acceleration.",
         ),

@@ -4,6 +4,7 @@ import math
 
 from grader.mistake import (
     Mistake,
+    Numbers,
     change_number,
     exchange_numbers,
     make_wrong_answer,
@@ -19,6 +20,11 @@ def another_module(text: str) -> str:
     """The module after the right one."""
     right = next(name for name in MODULES if f'worn = "{name}"' in text)
     return make_wrong_answer("worn", f'"{MODULES[MODULES.index(right) - 1]}"')(text)
+
+
+def find_sound_radius(right: Numbers) -> float:
+    """The radius [m] of the three sound wheels: the next size above the worn one."""
+    return min(radius for radius in (0.0476, 0.0508) if radius > right["worn_radius"])
 
 
 MISTAKES = (
@@ -69,6 +75,8 @@ MISTAKES = (
         "kv", "speed for each volt"),
     Mistake("a quarter of a motor's current", ANSWERS, scale_numbers(0.25, "slip_current"),
         "slip-current", "did you divide by four?"),
+    Mistake("the current after the slip", ANSWERS, scale_numbers(0.9, "slip_current"),
+        "slip-current", "the current just after the slip begins?"),
     Mistake("a speed in km/h", ANSWERS, scale_numbers(3.6, "top_speed"), "top-speed",
         "Is this in km/h?", "M-UNITS"),
     Mistake("a torque from a wrong current", ANSWERS,
@@ -77,6 +85,11 @@ MISTAKES = (
     Mistake("the lever twice", ANSWERS,
         change_number("inertia", lambda right: right["inertia"] * right["lever"]), "inertia",
         "by the lever twice?", "M-LEVER"),
+    Mistake("the ratio of turns upside down", ANSWERS,
+        change_number(
+            "worn_radius", lambda right: find_sound_radius(right) ** 2 / right["worn_radius"]
+        ),
+        "worn-radius", "ratio of turns upside down"),
     Mistake("a number from nowhere", ANSWERS, scale_numbers(1.31, "max_torque"), "max-torque",
         "outside the accepted"),
     Mistake("not a number", ANSWERS, replace_text(("kA = ", "kA = nan # ")), "ka", "nan"),

@@ -3,7 +3,13 @@
 import re
 from collections.abc import Callable
 
-from grader.mistake import Mistake, make_wrong_answer, scale_numbers
+from grader.mistake import (
+    Mistake,
+    change_number,
+    exchange_numbers,
+    make_wrong_answer,
+    scale_numbers,
+)
 
 ANSWERS = "answers.toml"
 BIG, SLOW = "M-BIG-STEP", "M-SLOW-SAFE"
@@ -62,6 +68,11 @@ MISTAKES = (
         lambda text: make_wrong_answer("elevator_timeout", "10")(
             scale_numbers(4.0, "elevator_release")(text)
         ), "elevator", "m; you have"),
+    Mistake("ramp and step swapped", ANSWERS,
+        exchange_numbers("drivetrain_ramp", "drivetrain_step"), "drivetrain", "did you swap them?"),
+    Mistake("a timeout without kG", ANSWERS,
+        change_number("elevator_timeout", lambda right: right["elevator_timeout"] - 1.5),
+        "elevator", "below kS + kG"),
     Mistake("a timeout that saves nobody", ANSWERS, make_wrong_answer("shooter_timeout", "30"),
         "shooter", "no test may be longer"),
     Mistake("more volts than there are", ANSWERS, puts(shooter_ramp="5", shooter_timeout="9"),

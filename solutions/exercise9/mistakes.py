@@ -141,6 +141,20 @@ MISTAKES = (
         "M-R2",
     ),
     Mistake(
+        "a velocity that is smoothed too much",
+        ANSWERS,
+        scale_numbers(1.4, "kA"),
+        "ka",
+        "Your kV is right, so your units are, too",
+    ),
+    Mistake(
+        "speed for each volt",
+        ANSWERS,
+        change_number("kV", lambda right: 1.0 / right["kV"]),
+        "kv",
+        "speed for each volt",
+    ),
+    Mistake(
         "a number from nowhere",
         ANSWERS,
         scale_numbers(3.4, "kV"),
