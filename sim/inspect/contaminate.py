@@ -17,7 +17,6 @@ from sim.inspect.fault import MOST, DamagedLog, Fault, FaultStrike, LogInterval
 from sim.inspect.faults import find_fault
 
 FEWEST = 10  # [samples] of a run that can be damaged
-MOVING = 0.1  # [share of a run's top speed] above it a sample is in motion
 SPEC = re.compile(
     r"(?P<name>[^:@]+)(?::(?P<severity>[^@]*))?(?:@(?P<test>[^+]*)(?:\+(?P<at>.*))?)?"
 )
@@ -203,11 +202,10 @@ def _choose_start(run: Run, fault: Fault, *, at: float | None, rng: np.random.Ge
         if abs(run.voltage[np.searchsorted(run.time, run.time[0] + at)]) < fault.least_voltage:
             raise _refuse_low_voltage(run, fault)
         return at
-    speed = np.abs(run.velocity)
     possible = np.abs(run.voltage) >= fault.least_voltage
     if not possible.any():
         raise _refuse_low_voltage(run, fault)
-    moving = np.flatnonzero((speed > MOVING * run.top_speed) & possible)
+    moving = np.flatnonzero(run.moving & possible)
     first, last = (moving[0], moving[-1]) if moving.size else (0, -1)
     begin, end = (float(run.time[i] - run.time[0]) for i in (first, last))
     return begin + float(rng.uniform(*fault.when)) * (end - begin)

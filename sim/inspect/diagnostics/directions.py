@@ -8,7 +8,7 @@ from sim.core.advice import Action
 from sim.core.doubt import Doubt
 from sim.core.log import DIRECTIONS, Array, Run
 from sim.core.units import find_unit
-from sim.inspect.log_features import MOVING, LogFeatures
+from sim.inspect.log_features import LogFeatures
 
 FEWEST = 10  # [samples in motion] of a run that is evaluated
 APART_KS = 0.12, 0.35  # [V, share of their mean] largest normal difference of kS
@@ -71,7 +71,7 @@ def _line(features: LogFeatures, way: str) -> _Line | None:
     if len(run) < FEWEST:
         return None
     sign = 1.0 if way == "forward" else -1.0
-    fast = sign * run.velocity > max(MOVING * run.top_speed, features.still_speed)
+    fast = run.moving & (sign * run.velocity > features.still_speed)
     begins = run.time[int(np.argmax(fast))] + SETTLED * baseline.timescale
     fast &= (run.time > begins) & (run.time < run.time[-1] - SMOOTH)
     if fast.sum() < 3 * FEWEST:
