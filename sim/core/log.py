@@ -23,6 +23,7 @@ __all__ = [  # with the fixed names, which code that works on logs needs
     "KINDS",
     "LARGEST",
     "MOVING",
+    "STANDSTILL",
     "TESTS",
     "TYPES",
     "Array",
@@ -34,6 +35,7 @@ Array: TypeAlias = NDArray[np.float64]
 
 LARGEST = 1e9  # [any SI unit] larger than any reading of a robot; its square still fits a double
 MOVING = 0.1  # [share of a run's top speed] faster samples are in motion, however noisy
+STANDSTILL = 0.02  # [share of the top speed] slower, static friction decides the speed
 CONSTANT_KINDS = frozenset({"dynamic", "coast", "multistep"})  # tests with a constant command
 LONE_STEP = 2.0  # [1] ratio to the changes before and after, from which on a change is a step
 LEAST_STEP = 0.25  # [share of the largest voltage] least step of a command

@@ -31,7 +31,7 @@ RISE = 0.06  # [s] from the first voltage of a step to the first motion that a l
 FILTERED = 0.3  # [s] by which an averaged velocity may be late
 MOSTLY = 0.98  # [share of samples] if more velocities are not zero, the sensor is noisy at rest
 AROUND = 5  # samples before and after a motion that show when it began and ended
-MOVING = 0.01  # [share of the top speed] a slower sample is at rest, if the position agrees
+LEAST_SPEED = 0.01  # [share of the top speed] slower is at rest, if the position agrees
 NOISY = 0.3  # [of that speed] a velocity with more noise at rest does not show what moves
 FINE = 3.0  # [sensor steps] of a position between two samples at speed, which then must differ
 JUMP = 0.1  # [V] a larger change of voltage is a step, which a mean would smear
@@ -117,7 +117,7 @@ def measure_runs(
 
     measurements = measure()
     noise = estimate_noise(measurements) if measurements and rest_by_position else None
-    speed = MOVING * top
+    speed = LEAST_SPEED * top
     if noise is None or _rest_noise(runs, speed=speed, noise=noise) <= NOISY * speed:
         return measurements
     return measure(noise)
@@ -282,11 +282,11 @@ def _measure_run(
         friction: as in ``measure_runs``.
         noise: noise of the samples, if the position decides what is at rest; else None.
     """
-    moving = np.abs(run.velocity) > MOVING * top
-    least = MOVING * top
+    moving = np.abs(run.velocity) > LEAST_SPEED * top
+    least = LEAST_SPEED * top
     if noise is not None:
         least += OUTLIER * noise.velocity
-        progress = _find_progress(run, speed=MOVING * top, noise=noise)
+        progress = _find_progress(run, speed=LEAST_SPEED * top, noise=noise)
         moving = (np.abs(run.velocity) > least) | progress
     first = 0
     if friction is not None and moving.any() and not moving[0]:

@@ -18,7 +18,7 @@ from sim.core.log import Array, Log, Run
 from sim.core.units import find_unit
 from sim.estimation.initial_guess import clamp_to_physical, orient_forward
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
-from sim.estimation.measurements import measure_runs
+from sim.estimation.measurements import LEAST_SPEED, measure_runs
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import compute_parameter_covariance, make_joint_jacobian
 from sim.estimation.run_variation import compute_run_variation_covariance
@@ -70,7 +70,6 @@ PAIRS = {"velocity-filter.window": (0.0, 1.0, 2.5, 5.0), "delay.lag": (0.3, 1.0,
 """[sample periods] start values of both lags together."""
 FIRST_STEPS, BEST = 2, 3  # steps of a search from each pair, and how many pairs are then continued
 FASTEST, SLOWEST = 1e-4, 0.5  # [s] sample periods; outside of them the times are not in seconds
-STILL = 0.01  # [share of the log's top speed] a run that is slower stands still
 HOLE = 10.0  # [s] longest gap in a run
 
 
@@ -111,7 +110,7 @@ def _leave_out_still_runs(log: Log, *, type: str) -> tuple[Log, tuple[Doubt, ...
 
     How hard a stop pushes back is unknown, so such a run says nothing about the gains.
     """
-    still = [run for run in log.runs if run.top_speed <= STILL * log.top_speed]
+    still = [run for run in log.runs if run.top_speed <= LEAST_SPEED * log.top_speed]
     if type == "simple" or not still or len(still) == len(log.runs):
         return log, ()
     tests = " and ".join(run.test for run in still)
@@ -119,7 +118,7 @@ def _leave_out_still_runs(log: Log, *, type: str) -> tuple[Log, tuple[Doubt, ...
         "still-run",
         f"In {tests} the mechanism does not move, so that was left out. Repeat it with more volts.",
     )
-    moving = tuple(run for run in log.runs if run.top_speed > STILL * log.top_speed)
+    moving = tuple(run for run in log.runs if run.top_speed > LEAST_SPEED * log.top_speed)
     return replace(log, runs=moving), (doubt,)
 
 

@@ -7,13 +7,13 @@ import numpy as np
 
 from sim.core.advice import Action
 from sim.core.errors import BadRequest, NotIdentifiable
-from sim.core.log import Log
+from sim.core.log import STANDSTILL, Log
 from sim.core.units import Unit, find_unit
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.run_records import FEWEST
 from sim.physics.voltage_residual import VoltageResidual, compute_voltage_residual
 from sim.reconcile.recordings import Recordings
-from sim.reconcile.thresholds import FEWEST_SAMPLES, LOST, OTHER_UNITS, STANDSTILL
+from sim.reconcile.thresholds import FEWEST_SAMPLES, LOST, OTHER_UNITS
 
 FEWEST_RUNS = 2
 
