@@ -168,8 +168,7 @@ def estimate_noise(measurements: tuple[RunMeasurements, ...]) -> SensorNoise:
                 fresh[column].append(values)
     sizes = []
     for third, values in zip(thirds, fresh, strict=True):
-        every = np.concatenate(third) if third else np.zeros(1)
-        spread = ROBUST * float(np.median(np.abs(every))) / math.sqrt(THIRD)
+        spread = compute_noise_deviation(third)
         least = find_sensor_step(values) / math.sqrt(12.0)  # the standard deviation of rounding
         sizes.append(max(spread, least, 1e-12))
     ranges = [
@@ -210,7 +209,7 @@ def compute_noise_at_speed(measurements: Sequence[RunMeasurements], noise: Senso
     if not classes[-1].size:
         return noise.velocity
     least = noise.resolution[1]
-    sizes = [ROBUST * float(np.median(np.abs(one))) / math.sqrt(THIRD) for one in classes]
+    sizes = [compute_noise_deviation([one]) for one in classes]
     grown = np.maximum.accumulate(np.maximum(sizes, least))
     grows = grown[-1] >= UNEVEN * grown[0]
     return float(np.sqrt(np.mean(np.square(grown)))) if grows else noise.velocity
@@ -226,6 +225,12 @@ def find_sensor_step(values: Sequence[Array]) -> float:
     steps = np.diff(np.sort(np.concatenate(values)))
     steps = steps[steps > SINGLE * float(np.sum(steps))]
     return float(steps.min()) if steps.size else 0.0
+
+
+def compute_noise_deviation(thirds: Sequence[Array]) -> float:
+    """[unit] Standard deviation of noise, from third differences of some runs; 0 without any."""
+    every = np.concatenate([np.zeros(0), *thirds])
+    return ROBUST * float(np.median(np.abs(every))) / math.sqrt(THIRD) if every.size else 0.0
 
 
 def compute_third_differences(time: Array, values: Array) -> Array:
@@ -315,8 +320,7 @@ def _rest_noise(runs: Sequence[Run], *, speed: float, noise: SensorNoise) -> flo
         rest = ~_find_progress(run, speed=speed, noise=noise)
         four = rest[:-3] & rest[1:-2] & rest[2:-1] & rest[3:]
         thirds.append(compute_third_differences(run.time, run.velocity)[four])
-    every = np.concatenate(thirds)
-    return ROBUST * float(np.median(np.abs(every))) / math.sqrt(THIRD) if every.size else 0.0
+    return compute_noise_deviation(thirds)
 
 
 def _find_progress(run: Run, *, speed: float, noise: SensorNoise) -> NDArray[np.bool_]:

@@ -11,12 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.core.log import Array, Log, Run
+from sim.estimation.measurements import compute_noise_deviation
 from sim.inspect.anomalies import Anomaly, find_anomalies, predict_velocity
 from sim.inspect.baseline_model import BaselineModel, fit_baseline
 from sim.physics.velocity_lag import VelocityLag, estimate_velocity_lag
 
 STANDING = 0.03  # [share of the log's top speed] slower samples are at rest
-WHITE, NORMAL = 20.0**0.5, 0.6745  # deviation of white noise's third differences; median of |x|
 FEWEST = 6  # [samples] of voltage that tell a ramp from a step
 RAMP, STEP = 0.55, 0.7  # median voltage of the first half over that of the second: 1/3 in a ramp
 STRAIGHT = 0.05  # [share of the largest voltage] median deviation of a ramp from its line
@@ -114,10 +114,9 @@ class LogFeatures:
         thirds = []
         for run in self.log.runs:
             new = run.velocity[find_held_samples(run.velocity)[0]] if len(run) else run.velocity
-            third = np.abs(np.diff(new, n=3))
+            third = np.diff(new, n=3)
             thirds.append(third[np.abs(new[3:]) > STANDING * run.top_speed])
-        third = np.concatenate([*thirds, np.zeros(0)])
-        return float(np.median(third) / NORMAL / WHITE) if third.size else 0.0
+        return compute_noise_deviation(thirds)
 
     @cached_property
     def still_speed(self) -> float:
