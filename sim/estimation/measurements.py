@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from sim.core.log import Array, Log, Run
 
+MIN_SAMPLES = 4  # of a run that can be compared: fewer have no third difference
 REPEATED = 0.3  # [share of fast samples] if more repeat the one before, the log repeats frames
 FAST = 0.3  # [share of a run's top speed] above it every fresh reading differs from the last
 FRAME_QUANTILE = 0.2  # quantile of the gaps between changes that is the length of a frame
@@ -102,7 +103,7 @@ def measure_runs(
             effects, which is judged by how it leaves its rest.
     """
     top = log.top_speed
-    runs = [run for run in log.runs if len(run) > 3]  # noqa: PLR2004 - fewer have no third difference
+    runs = [run for run in log.runs if len(run) >= MIN_SAMPLES]
     step = find_sensor_step([run.position for run in runs])
     fresh = [_select_fresh_readings(run, step=step) for run in runs]
     if log.computed == "position":  # it would count the velocity's readings twice
@@ -163,7 +164,7 @@ def estimate_noise(measurements: tuple[RunMeasurements, ...]) -> SensorNoise:
         for column in (0, 1):
             there = run.moving & ~np.isnan(run.measured[:, column])
             values = run.measured[there, column]
-            if values.size > 3:  # noqa: PLR2004 - as above
+            if values.size >= MIN_SAMPLES:
                 thirds[column].append(compute_third_differences(run.time[there], values))
                 fresh[column].append(values)
     sizes = []
@@ -201,7 +202,7 @@ def compute_noise_at_speed(measurements: Sequence[RunMeasurements], noise: Senso
     for run in measurements:
         there = run.moving & ~np.isnan(run.measured[:, 1])
         velocity = run.measured[there, 1]
-        if velocity.size > 3:  # noqa: PLR2004 - fewer have no third difference
+        if velocity.size >= MIN_SAMPLES:
             every.append(compute_third_differences(run.time[there], velocity))
             speeds.append(np.abs(velocity[1:-2] + velocity[2:-1]))
     order = np.argsort(np.concatenate(speeds), kind="stable")

@@ -14,6 +14,7 @@ from sim.core.errors import BadRequest
 from sim.core.log import Array, Log, Run
 from sim.core.units import find_unit
 from sim.estimation.measurements import (
+    MIN_SAMPLES,
     RunMeasurements,
     compute_noise_deviation,
     estimate_noise,
@@ -23,7 +24,6 @@ from sim.fit import Fit
 from sim.physics.engine import State, Track, simulate_run
 from sim.physics.model import Model, Part
 
-FEWEST = 4  # samples of a run that is simulated
 LEAST_LAG = 1e-5  # [s] a shorter lag is left out
 
 
@@ -70,7 +70,7 @@ def replay_fit(found: Fit, log: Log) -> tuple[RunReplay, ...]:
     """
     fitted = found.in_units("radians" if find_unit(log.units).angular else "meters")
     sign, model = make_fit_model(fitted)
-    runs = [run for run in log.runs if len(run) >= FEWEST]
+    runs = [run for run in log.runs if len(run) >= MIN_SAMPLES]
     friction = None if fitted.type == "simple" else model.gains["kS"]
     measured = measure_runs(replace(log, runs=tuple(runs)), friction=friction)
     if not measured:

@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.core.log import STANDSTILL, Array
+from sim.core.log import DIRECTIONS, STANDSTILL, Array
 from sim.estimation.measurements import SensorNoise
 from sim.gap.binned_residuals import FEWEST, BinnedResiduals, SampleTable
 from sim.gap.place import POSITION, REST, RUN, SPEED, STEPS
@@ -14,7 +14,6 @@ from sim.gap.residuals import Residuals
 
 LEAST_TIMES, TIMES, SPEEDS, POSITIONS, VOLTS = 6, 12, 8, 12, 4  # numbers of columns
 AFTER = (0.0, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6)  # [s] edges since a step: narrow just after it
-DIRECTIONS = ("forward", "reverse")
 JUMPS = ("the voltage jumps up", "the voltage jumps down")
 RESTS = ("at rest under forward voltage", "at rest under reverse voltage")
 

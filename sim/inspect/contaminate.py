@@ -15,8 +15,8 @@ from sim.core.log import Log, Run
 from sim.core.vocabulary import TESTS
 from sim.inspect.fault import MOST, DamagedLog, Fault, FaultStrike, LogInterval
 from sim.inspect.faults import find_fault
+from sim.inspect.log_features import MIN_SAMPLES
 
-FEWEST = 10  # [samples] of a run that can be damaged
 SPEC = re.compile(
     r"(?P<name>[^:@]+)(?::(?P<severity>[^@]*))?(?:@(?P<test>[^+]*)(?:\+(?P<at>.*))?)?"
 )
@@ -173,7 +173,7 @@ def _choose_run(log: Log, fault: Fault, *, test: str | None, rng: np.random.Gene
         there = there[:1]
     else:
         there = [index for index, run in enumerate(log.runs) if run.kind in fault.kinds]
-        there = [index for index in there if len(log.runs[index]) >= FEWEST] or there
+        there = [index for index in there if len(log.runs[index]) >= MIN_SAMPLES] or there
     if not there:
         raise BadRequest(
             f"no test in this log that {fault.name} could happen in",
@@ -181,11 +181,11 @@ def _choose_run(log: Log, fault: Fault, *, test: str | None, rng: np.random.Gene
             advice=f"It takes a {kinds} test.",
         )
     index = there[int(rng.integers(len(there)))]
-    if len(log.runs[index]) < FEWEST:
+    if len(log.runs[index]) < MIN_SAMPLES:
         raise BadRequest(
             f"the run has {len(log.runs[index])} samples, too few to damage",
             where=_describe_place(log, log.runs[index].test),
-            advice=f"Choose a run of at least {FEWEST}.",
+            advice=f"Choose a run of at least {MIN_SAMPLES}.",
         )
     return index
 

@@ -17,6 +17,7 @@ from sim.inspect.baseline_model import BaselineModel, fit_baseline
 from sim.physics.velocity_lag import VelocityLag, estimate_velocity_lag
 
 STANDING = 0.03  # [share of the log's top speed] slower samples are at rest
+MIN_SAMPLES = 10  # of a run that is evaluated, or damaged
 FEWEST = 6  # [samples] of voltage that tell a ramp from a step
 RAMP, STEP = 0.55, 0.7  # median voltage of the first half over that of the second: 1/3 in a ramp
 STRAIGHT = 0.05  # [share of the largest voltage] median deviation of a ramp from its line

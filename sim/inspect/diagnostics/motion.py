@@ -7,13 +7,12 @@ from sim.core.errors import Refusal
 from sim.core.log import Array, Run
 from sim.fit import Fit, fit
 from sim.inspect.baseline_model import BaselineModel
-from sim.inspect.log_features import LogFeatures
+from sim.inspect.log_features import MIN_SAMPLES, LogFeatures
 
 GOOD_R2 = 0.9  # simulated velocity R² that WPILib's documentation calls good
 MISFIT = 0.12  # [share of the top speed] error of a simulation over ``MISFIT_TIME``
 MISFIT_TIME = 0.1  # [s]
 REPEATABLE = 0.06  # [share of the top speed] largest normal difference of two runs of a test
-FEWEST = 10  # [samples in motion] of a run with enough motion
 RISE = 2  # [samples] between 10 % and 90 % of the top speed, at least
 INTERCEPT = 0.35  # [V] by which a fast ramp may shift a line that is drawn by hand
 
@@ -111,7 +110,7 @@ def check_too_little_motion(features: LogFeatures) -> list[Doubt]:
         return [_nothing_moves(runs)]
     for run in features.log.runs:
         moving = int((run.moving & (np.abs(run.velocity) > features.still_speed)).sum())
-        if moving < FEWEST and run.kind in ("quasistatic", "dynamic"):
+        if moving < MIN_SAMPLES and run.kind in ("quasistatic", "dynamic"):
             doubts.append(
                 Doubt(
                     "little-motion",
@@ -164,7 +163,8 @@ def _rise_samples(run: Run) -> int:
 
 def check_ramp_rate(features: LogFeatures) -> list[Doubt]:
     """Doubts about ramps so fast that a line through their voltages misses kS."""
-    ramps = [run for run in features.log.runs if run.kind == "quasistatic" and len(run) > FEWEST]
+    long = [run for run in features.log.runs if len(run) > MIN_SAMPLES]
+    ramps = [run for run in long if run.kind == "quasistatic"]
     if features.baseline is None or not ramps:
         return []
     rate = float(np.median([_ramp_rate(run) for run in ramps]))

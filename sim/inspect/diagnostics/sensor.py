@@ -6,7 +6,7 @@ from sim.core.advice import Action
 from sim.core.doubt import Doubt
 from sim.core.units import BATTERY, find_unit
 from sim.fit.sysid_rows import estimate_noise_floor
-from sim.inspect.log_features import LogFeatures
+from sim.inspect.log_features import MIN_SAMPLES, LogFeatures
 from sim.inspect.log_units import FAR
 
 LAG = 0.02, 1.5  # [s, periods] largest delay without a filter
@@ -17,7 +17,6 @@ FILTERS = {  # [s] WPILib's figures for the delay of a velocity
     "CTRE Phoenix 5, or REV's data port": 0.0815,
 }
 ALIKE = 0.15  # [share] largest difference of a delay from one of them
-FEWEST = 10  # [samples] of a ramp that is evaluated
 PASSES = 0.1  # [share of a ramp's rows] that may be at rest and count as motion
 FASTEST = 60.0  # [m/s] nothing on a robot is faster
 
@@ -67,7 +66,7 @@ def check_plausible_speed(features: LogFeatures) -> list[Doubt]:
 def check_rest_noise(features: LogFeatures) -> list[Doubt]:
     """Doubts about small noise at rest that still exceeds SysId's threshold."""
     both = zip(features.log.runs, features.rest_lengths, strict=True)
-    ramps = {run: n for run, n in both if run.kind == "quasistatic" and len(run) > FEWEST}
+    ramps = {run: n for run, n in both if run.kind == "quasistatic" and len(run) > MIN_SAMPLES}
     if not ramps:
         return []
     threshold = min(estimate_noise_floor(run.velocity) for run in ramps)
