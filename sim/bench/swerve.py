@@ -16,9 +16,9 @@ import math
 from dataclasses import dataclass
 
 from sim.bench.mechanism import Mechanism, Sensor
+from sim.core.units import GRAVITY
 from sim.physics.motors import Motor, find_motor
 
-GRAVITY = 9.81  # [m/s²]
 WHEELS = Sensor(resolution=2.3e-5, velocity_noise=0.0075, noise_speed=0.05, jitter=0.0004)
 GYRO = Sensor(resolution=1e-4, velocity_noise=0.01, noise_speed=0.05, jitter=0.0004)
 """The sensors going straight and turning. The gyro's figures are assumed: a hundredth of a degree,

@@ -22,6 +22,8 @@ __all__ = [  # with the fixed names, which code that works on logs needs
     "FOUR_TESTS",
     "KINDS",
     "LARGEST",
+    "MOVING",
+    "STANDSTILL",
     "TESTS",
     "TYPES",
     "Array",
@@ -32,6 +34,8 @@ __all__ = [  # with the fixed names, which code that works on logs needs
 Array: TypeAlias = NDArray[np.float64]
 
 LARGEST = 1e9  # [any SI unit] larger than any reading of a robot; its square still fits a double
+MOVING = 0.1  # [share of a run's top speed] faster samples are in motion, however noisy
+STANDSTILL = 0.02  # [share of the top speed] slower, static friction decides the speed
 CONSTANT_KINDS = frozenset({"dynamic", "coast", "multistep"})  # tests with a constant command
 LONE_STEP = 2.0  # [1] ratio to the changes before and after, from which on a change is a step
 LEAST_STEP = 0.25  # [share of the largest voltage] least step of a command
@@ -92,6 +96,13 @@ class Run:
     def top_speed(self) -> float:
         """[m/s or rad/s] speed that 98 % of the samples do not exceed."""
         return float(np.percentile(np.abs(self.velocity), 98)) if len(self) else 0.0
+
+    @cached_property
+    def moving(self) -> NDArray[np.bool_]:
+        """(n,) whether the mechanism moves, by its velocity alone."""
+        moving = np.abs(self.velocity) > MOVING * self.top_speed
+        moving.setflags(write=False)
+        return moving
 
     @cached_property
     def voltage_slide(self) -> Array:

@@ -6,6 +6,10 @@ from dataclasses import dataclass
 
 from sim.core.errors import BadRequest
 
+GRAVITY = 9.81  # [m/s²]
+TURN = 2.0 * math.pi  # [rad]
+BATTERY = 12.0  # [V] nominal: a motor's data sheet is for it, and a controller gives no more
+
 
 @dataclass(frozen=True)
 class Unit:
@@ -31,7 +35,7 @@ UNITS: dict[str, Unit] = {
         Unit("feet", "ft", 0.3048, angular=False),
         Unit("inches", "in", 0.0254, angular=False),
         Unit("radians", "rad", 1.0, angular=True),
-        Unit("rotations", "rot", 2.0 * math.pi, angular=True),
+        Unit("rotations", "rot", TURN, angular=True),
         Unit("degrees", "deg", math.pi / 180.0, angular=True),
     )
 }

@@ -14,11 +14,10 @@ from dataclasses import replace
 import numpy as np
 
 from sim.core.errors import NotIdentifiable
-from sim.core.log import Array, Log, Run
+from sim.core.log import STANDSTILL, Array, Log, Run
 
 INTERVAL = 0.2  # [s] length of an integration interval; at least four samples
 LEAST_VARIATION = 0.03  # [share of the voltage] a voltage that varies less is constant
-STANDING = 0.02  # [share of the top speed] slower samples are not used
 LEAST_PERIODS = 0.05  # [sample periods] a shorter kA/kV cannot be seen in the samples
 LEAST_TIMESCALE, MOST_TIMESCALE = 1e-3, 10.0  # [s] limits of kA/kV on a robot
 
@@ -38,7 +37,9 @@ def guess_gains(log: Log, *, type: str) -> dict[str, float]:  # noqa: A002 - the
     """
     top = log.top_speed
     parts = [
-        _integral_rows(run, standing=STANDING * top, type=type) for run in log.runs if len(run) > 1
+        _integral_rows(run, standing=STANDSTILL * top, type=type)
+        for run in log.runs
+        if len(run) > 1
     ]
     table = np.concatenate(parts) if parts else np.empty((0, 4))
     names = ("kS", "kV", "kA", *{"elevator": ("kG",), "arm": ("level", "upright")}.get(type, ()))

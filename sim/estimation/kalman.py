@@ -14,20 +14,17 @@ import math
 from collections.abc import Collection
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sim.core.log import Array
 from sim.estimation.measurements import SensorNoise
+from sim.feedback.linear_quadratic import Matrix, solve_riccati
 from sim.physics.engine import NO_CORRECTION
 from sim.physics.model import Model
 
-DOUBLINGS = 40  # at most; 2⁴⁰ samples ahead is as good as infinity
 RELEVANT = 0.01  # [share of an innovation's variance] less, from a voltage, is ignored
-
-_Four: TypeAlias = tuple[float, float, float, float]
 
 
 @dataclass(frozen=True, eq=False)
@@ -200,45 +197,12 @@ def _voltage_covariance(rate: float, period: float) -> Array:
 def _steady_covariance(transition: Array, process_cov: Array, variance: Array) -> Array:
     """(2, 2) steady-state covariance of the prediction: the solution X of the Riccati equation.
 
-    X = A X Aᵀ - A X (X + R)⁻¹ X Aᵀ + Q        each iteration looks twice as far ahead
-
-    Source: the structure-preserving doubling of Chu, Fan and Lin (2005).
+    X = A X Aᵀ - A X (X + R)⁻¹ X Aᵀ + Q        the dual of a regulator's
     """
-    a, g, x = _as_four(transition.T), _as_four(np.diag(1.0 / variance)), _as_four(process_cov)
-    for _ in range(DOUBLINGS):
-        p, q, r, s = _multiply(g, x)
-        size = (1.0 + p) * (1.0 + s) - q * r
-        middle = ((1.0 + s) / size, -q / size, -r / size, (1.0 + p) / size)
-        onward = _multiply(middle, a)
-        more = _multiply(_transpose(a), _multiply(x, onward))
-        after = _add(x, more)
-        g = _add(g, _multiply(a, _multiply(_multiply(middle, g), _transpose(a))))
-        a = _multiply(a, onward)
-        done = max(map(abs, more)) <= 1e-9 * max(map(abs, after))
-        x = after
-        if done:
-            break
-    return np.array(x).reshape(2, 2)
+    a, g, h = map(_as_four, (transition.T, np.diag(1.0 / variance), process_cov))
+    return np.array(solve_riccati(a, g, h)).reshape(2, 2)
 
 
-# (2, 2) matrices as four floats (``_Four``): for so few numbers NumPy is ten times slower.
-
-
-def _as_four(matrix: Array) -> _Four:
+def _as_four(matrix: Array) -> Matrix:
     a, b, c, d = matrix.ravel().tolist()
     return a, b, c, d
-
-
-def _multiply(a: _Four, b: _Four) -> _Four:
-    return (
-        a[0] * b[0] + a[1] * b[2], a[0] * b[1] + a[1] * b[3],
-        a[2] * b[0] + a[3] * b[2], a[2] * b[1] + a[3] * b[3],
-    )  # fmt: skip
-
-
-def _add(a: _Four, b: _Four) -> _Four:
-    return a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]
-
-
-def _transpose(a: _Four) -> _Four:
-    return a[0], a[2], a[1], a[3]

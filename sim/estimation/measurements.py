@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from sim.core.log import Array, Log, Run
 
+MIN_SAMPLES = 4  # of a run that can be compared: fewer have no third difference
 REPEATED = 0.3  # [share of fast samples] if more repeat the one before, the log repeats frames
 FAST = 0.3  # [share of a run's top speed] above it every fresh reading differs from the last
 FRAME_QUANTILE = 0.2  # quantile of the gaps between changes that is the length of a frame
@@ -31,7 +32,7 @@ RISE = 0.06  # [s] from the first voltage of a step to the first motion that a l
 FILTERED = 0.3  # [s] by which an averaged velocity may be late
 MOSTLY = 0.98  # [share of samples] if more velocities are not zero, the sensor is noisy at rest
 AROUND = 5  # samples before and after a motion that show when it began and ended
-MOVING = 0.01  # [share of the top speed] a slower sample is at rest, if the position agrees
+LEAST_SPEED = 0.01  # [share of the top speed] slower is at rest, if the position agrees
 NOISY = 0.3  # [of that speed] a velocity with more noise at rest does not show what moves
 FINE = 3.0  # [sensor steps] of a position between two samples at speed, which then must differ
 JUMP = 0.1  # [V] a larger change of voltage is a step, which a mean would smear
@@ -102,7 +103,7 @@ def measure_runs(
             effects, which is judged by how it leaves its rest.
     """
     top = log.top_speed
-    runs = [run for run in log.runs if len(run) > 3]  # noqa: PLR2004 - fewer have no third difference
+    runs = [run for run in log.runs if len(run) >= MIN_SAMPLES]
     step = find_sensor_step([run.position for run in runs])
     fresh = [_select_fresh_readings(run, step=step) for run in runs]
     if log.computed == "position":  # it would count the velocity's readings twice
@@ -117,7 +118,7 @@ def measure_runs(
 
     measurements = measure()
     noise = estimate_noise(measurements) if measurements and rest_by_position else None
-    speed = MOVING * top
+    speed = LEAST_SPEED * top
     if noise is None or _rest_noise(runs, speed=speed, noise=noise) <= NOISY * speed:
         return measurements
     return measure(noise)
@@ -163,13 +164,12 @@ def estimate_noise(measurements: tuple[RunMeasurements, ...]) -> SensorNoise:
         for column in (0, 1):
             there = run.moving & ~np.isnan(run.measured[:, column])
             values = run.measured[there, column]
-            if values.size > 3:  # noqa: PLR2004 - as above
+            if values.size >= MIN_SAMPLES:
                 thirds[column].append(compute_third_differences(run.time[there], values))
                 fresh[column].append(values)
     sizes = []
     for third, values in zip(thirds, fresh, strict=True):
-        every = np.concatenate(third) if third else np.zeros(1)
-        spread = ROBUST * float(np.median(np.abs(every))) / math.sqrt(THIRD)
+        spread = compute_noise_deviation(third)
         least = find_sensor_step(values) / math.sqrt(12.0)  # the standard deviation of rounding
         sizes.append(max(spread, least, 1e-12))
     ranges = [
@@ -202,7 +202,7 @@ def compute_noise_at_speed(measurements: Sequence[RunMeasurements], noise: Senso
     for run in measurements:
         there = run.moving & ~np.isnan(run.measured[:, 1])
         velocity = run.measured[there, 1]
-        if velocity.size > 3:  # noqa: PLR2004 - fewer have no third difference
+        if velocity.size >= MIN_SAMPLES:
             every.append(compute_third_differences(run.time[there], velocity))
             speeds.append(np.abs(velocity[1:-2] + velocity[2:-1]))
     order = np.argsort(np.concatenate(speeds), kind="stable")
@@ -210,7 +210,7 @@ def compute_noise_at_speed(measurements: Sequence[RunMeasurements], noise: Senso
     if not classes[-1].size:
         return noise.velocity
     least = noise.resolution[1]
-    sizes = [ROBUST * float(np.median(np.abs(one))) / math.sqrt(THIRD) for one in classes]
+    sizes = [compute_noise_deviation([one]) for one in classes]
     grown = np.maximum.accumulate(np.maximum(sizes, least))
     grows = grown[-1] >= UNEVEN * grown[0]
     return float(np.sqrt(np.mean(np.square(grown)))) if grows else noise.velocity
@@ -226,6 +226,12 @@ def find_sensor_step(values: Sequence[Array]) -> float:
     steps = np.diff(np.sort(np.concatenate(values)))
     steps = steps[steps > SINGLE * float(np.sum(steps))]
     return float(steps.min()) if steps.size else 0.0
+
+
+def compute_noise_deviation(thirds: Sequence[Array]) -> float:
+    """[unit] Standard deviation of noise, from third differences of some runs; 0 without any."""
+    every = np.concatenate([np.zeros(0), *thirds])
+    return ROBUST * float(np.median(np.abs(every))) / math.sqrt(THIRD) if every.size else 0.0
 
 
 def compute_third_differences(time: Array, values: Array) -> Array:
@@ -282,11 +288,11 @@ def _measure_run(
         friction: as in ``measure_runs``.
         noise: noise of the samples, if the position decides what is at rest; else None.
     """
-    moving = np.abs(run.velocity) > MOVING * top
-    least = MOVING * top
+    moving = np.abs(run.velocity) > LEAST_SPEED * top
+    least = LEAST_SPEED * top
     if noise is not None:
         least += OUTLIER * noise.velocity
-        progress = _find_progress(run, speed=MOVING * top, noise=noise)
+        progress = _find_progress(run, speed=LEAST_SPEED * top, noise=noise)
         moving = (np.abs(run.velocity) > least) | progress
     first = 0
     if friction is not None and moving.any() and not moving[0]:
@@ -315,8 +321,7 @@ def _rest_noise(runs: Sequence[Run], *, speed: float, noise: SensorNoise) -> flo
         rest = ~_find_progress(run, speed=speed, noise=noise)
         four = rest[:-3] & rest[1:-2] & rest[2:-1] & rest[3:]
         thirds.append(compute_third_differences(run.time, run.velocity)[four])
-    every = np.concatenate(thirds)
-    return ROBUST * float(np.median(np.abs(every))) / math.sqrt(THIRD) if every.size else 0.0
+    return compute_noise_deviation(thirds)
 
 
 def _find_progress(run: Run, *, speed: float, noise: SensorNoise) -> NDArray[np.bool_]:

@@ -17,7 +17,7 @@ from sim.core.log import Array
 from sim.estimation.run_nuisance import RunNuisance
 
 VARIES = 0.04  # [of kS] τ; measured on logs of one day, it is 0.02 to 0.06
-LEAST_KS = 0.05  # [V] a smaller kS has the τ of this one
+LEAST_KS = 0.05  # [V] a smaller kS has the priors of friction of this one
 
 
 def get_friction_sd(values: Mapping[str, float]) -> float:

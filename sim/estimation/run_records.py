@@ -8,10 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.core.log import Array, Log
-from sim.estimation.measurements import ROBUST, RunMeasurements, measure_runs
+from sim.estimation.measurements import MIN_SAMPLES, ROBUST, RunMeasurements, measure_runs
 from sim.physics.voltage_residual import list_run_start_times, shares_clock
 
-FEWEST = 4  # samples of a run that can be compared, as ``measure_runs`` takes them
 AT_REST = 0.05  # [share of the top speed] a run whose position is slower starts at rest
 SAME_PLACE = 0.01  # [share of a run's way] from its start within which a position is the start
 SANK = 5.0  # [noises of a position] a run that sank farther below its start did sink
@@ -93,7 +92,7 @@ def make_run_records(
         since: [s] start of the log, since the start of the first one.
         aside: intervals to exclude.
     """
-    places = [number for number, run in enumerate(log.runs) if len(run) >= FEWEST]
+    places = [number for number, run in enumerate(log.runs) if len(run) >= MIN_SAMPLES]
     runs = [log.runs[number] for number in places]
     began = list_run_start_times(log)
     together = shares_clock(log)
@@ -121,7 +120,7 @@ def make_separate_records(log: Log, measured: Iterable[RunMeasurements]) -> tupl
         log: any runs.
         measured: the measurements of each run that has enough samples.
     """
-    runs = [run for run in log.runs if len(run) >= FEWEST]
+    runs = [run for run in log.runs if len(run) >= MIN_SAMPLES]
     return tuple(
         RunRecord(measurements, run.test, -np.inf, np.inf, 0.0, 0, number)
         for number, (run, measurements) in enumerate(zip(runs, measured, strict=True))

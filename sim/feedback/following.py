@@ -10,8 +10,9 @@ import math
 import re
 from dataclasses import dataclass
 
+from sim.core.units import BATTERY
 from sim.feedback.profile import STEP, Profile
-from sim.feedback.response import BATTERY, MovingPlant, Plant
+from sim.feedback.response import MovingPlant, Plant
 
 NOTABLE = 0.02  # [share of a distance or speed] smaller errors are not described
 CLEAR = 0.25  # [share of the target speed] for larger errors, the speed is described

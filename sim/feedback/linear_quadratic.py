@@ -39,7 +39,8 @@ def design_two_state_regulator(
         The gains on position [V/unit] and velocity [V·s/unit].
     """
     a, b = _discretize(rate, push, period)
-    s = _solve_riccati(a, b, q=q, r=r)
+    g = (b[0] * b[0] / r, b[0] * b[1] / r, b[0] * b[1] / r, b[1] * b[1] / r)
+    s = solve_riccati(a, g, (q[0], 0.0, 0.0, q[1]))
     weight = r + b[0] * (s[0] * b[0] + s[1] * b[1]) + b[1] * (s[2] * b[0] + s[3] * b[1])
     sb = (s[0] * b[0] + s[2] * b[1], s[1] * b[0] + s[3] * b[1])
     k = (
@@ -65,16 +66,24 @@ def _discretize(rate: float, push: float, period: float) -> tuple[Matrix, Pair]:
     return a, (push * period * period * second, push * period * first)
 
 
-def _solve_riccati(a: Matrix, b: Pair, *, q: Pair, r: float) -> Matrix:
-    """The stabilizing solution of S = AᵀSA - AᵀSB(R + BᵀSB)⁻¹BᵀSA + Q, by doubling."""
-    g: Matrix = (b[0] * b[0] / r, b[0] * b[1] / r, b[0] * b[1] / r, b[1] * b[1] / r)
-    h: Matrix = (q[0], 0.0, 0.0, q[1])
+def solve_riccati(a: Matrix, g: Matrix, h: Matrix) -> Matrix:
+    """The stabilizing solution S of a discrete-time Riccati equation of two states, by doubling.
+
+    S = AᵀS(I + GS)⁻¹A + H        each iteration looks twice as far ahead
+
+    Args:
+        a: A, the state-transition matrix; transposed for a Kalman filter.
+        g: G = BR⁻¹Bᵀ of a regulator; the inverse of the noise's covariance for a Kalman filter.
+        h: H, the weights of the states; the process noise's covariance for a Kalman filter.
+    """
     for _ in range(DOUBLINGS):
-        inverse = _invert(_sum((1.0, 0.0, 0.0, 1.0), _times(g, h)))
-        step = _times(a, inverse)
-        more = _times(_times(_transpose(a), h), _times(inverse, a))
-        g = _sum(g, _times(_times(step, g), _transpose(a)))
-        a = _times(step, a)
+        p, q, r, s = _times(g, h)
+        size = (1.0 + p) * (1.0 + s) - q * r
+        inverse = ((1.0 + s) / size, -q / size, -r / size, (1.0 + p) / size)  # of I + GH
+        onward = _times(inverse, a)
+        more = _times(_transpose(a), _times(h, onward))
+        g = _sum(g, _times(a, _times(_times(inverse, g), _transpose(a))))
+        a = _times(a, onward)
         h = _sum(h, more)
         if max(map(abs, more)) <= SETTLED * max(map(abs, h)):
             break
@@ -118,8 +127,3 @@ def _sum(a: Matrix, b: Matrix) -> Matrix:
 
 def _transpose(a: Matrix) -> Matrix:
     return (a[0], a[2], a[1], a[3])
-
-
-def _invert(a: Matrix) -> Matrix:
-    size = a[0] * a[3] - a[1] * a[2]
-    return (a[3] / size, -a[1] / size, -a[2] / size, a[0] / size)

@@ -17,9 +17,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from sim.core.errors import BadRequest
+from sim.core.units import BATTERY
 from sim.feedback.regulator import PRESETS, Feedback, Preset
 
-BATTERY = 12.0  # [V] limit of the controller's voltage
 FINE = 1e-3  # [s] largest time step of the simulation
 SIZES = {"velocity": 0.5, "position": 0.1}  # step as share of the free speed, or as time at it [s]
 SHORTEST, LONGEST = 1.0, 5.0  # [s] limits of the simulated time

@@ -20,18 +20,18 @@ from sim.estimation.optimize import (
     invert_symmetric,
     levenberg_marquardt,
 )
+from sim.estimation.random_friction import LEAST_KS
 from sim.fit.search import ROUGHLY, STEPS, TRACKING, fit_open_loop
 from sim.physics.effects import EFFECTS
 from sim.physics.model import Part
 
-LEAST_KS = 0.05  # [V] a smaller kS has the friction priors of this one
 LEAN = 0.05  # [of kS] difference of friction between a direction and their mean
 BREAKAWAY = 0.15  # [of kS] friction at rest beyond that in motion
 FADES = 0.3  # [of the top speed] over which breakaway friction fades
 DRAG = 0.05  # [V] drag at the top speed of the log; about half a volt at the free speed
 SLOPE = 0.02  # [V] constant load of a floor, a cable, a spring
 FIRST = 0.3  # [of a standard deviation] start value of a parameter that cannot be negative
-WORTH = 8.0  # [of -2 log L] improvement from which on they are included
+WORTH = 8.0  # [of -2 log L] improvement that parameters must bring: odds of fifty to one
 NAMES = ("asymmetric-friction", "stribeck", "drag", "constant-load")
 _ABSENT: WeakKeyDictionary[
     Estimate, tuple[PredictionErrorProblem, PredictionErrorProblem, Estimate]

@@ -10,11 +10,11 @@ from dataclasses import dataclass, replace
 
 from sim.core.log import Array, Log
 from sim.core.units import find_unit
-from sim.estimation.measurements import measure_runs
+from sim.estimation.measurements import MIN_SAMPLES, measure_runs
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import tune_process_noise
 from sim.fit import Fit
-from sim.fit.replay import FEWEST, make_fit_model
+from sim.fit.replay import make_fit_model
 from sim.fit.search import TRACKING, make_fit_problem
 
 
@@ -50,8 +50,8 @@ def compute_innovations(found: Fit, log: Log) -> tuple[RunInnovations, ...]:
     """
     fitted = found.in_units("radians" if find_unit(log.units).angular else "meters")
     sign, model = make_fit_model(fitted)
-    runs = tuple(replace(run, voltage=sign * run.voltage) for run in log.runs if len(run) >= FEWEST)
-    log = replace(log, runs=runs)
+    long = (run for run in log.runs if len(run) >= MIN_SAMPLES)
+    log = replace(log, runs=tuple(replace(run, voltage=sign * run.voltage) for run in long))
     friction = None if fitted.type == "simple" else model.gains["kS"]
     problem = make_fit_problem(log, measure_runs(log, friction=friction))
     values = dict(model.gains)

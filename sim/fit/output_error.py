@@ -18,11 +18,12 @@ from sim.core.log import Array, Log, Run
 from sim.core.units import find_unit
 from sim.estimation.initial_guess import clamp_to_physical, orient_forward
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
-from sim.estimation.measurements import measure_runs
+from sim.estimation.measurements import LEAST_SPEED, MIN_SAMPLES, measure_runs
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import compute_parameter_covariance, make_joint_jacobian
 from sim.estimation.run_variation import compute_run_variation_covariance
 from sim.fit.everyday_effects import (
+    WORTH,
     add_absent_effects,
     fit_everyday_effects,
     list_everyday_effects,
@@ -56,7 +57,6 @@ from sim.fit.search import (
 )
 from sim.fit.sysid_doubts import warn_of_uncertain_gains
 
-WORTH = 8.0  # [of -2 log L] improvement from which on a lag is included: odds of fifty to one
 PENALTY = 4.0  # [of -2 log L] more for a window below a sample period, which noise can imitate
 HINT = 2.0  # [of -2 log L] predicted improvement by short lags from which on longer ones are tried
 FIRST_LAGS = {"velocity-filter.window": (0.5, 2.0, 6.0), "delay.lag": (0.3, 1.0, 2.0, 4.0)}
@@ -70,7 +70,6 @@ PAIRS = {"velocity-filter.window": (0.0, 1.0, 2.5, 5.0), "delay.lag": (0.3, 1.0,
 """[sample periods] start values of both lags together."""
 FIRST_STEPS, BEST = 2, 3  # steps of a search from each pair, and how many pairs are then continued
 FASTEST, SLOWEST = 1e-4, 0.5  # [s] sample periods; outside of them the times are not in seconds
-STILL = 0.01  # [share of the log's top speed] a run that is slower stands still
 HOLE = 10.0  # [s] longest gap in a run
 
 
@@ -111,7 +110,7 @@ def _leave_out_still_runs(log: Log, *, type: str) -> tuple[Log, tuple[Doubt, ...
 
     How hard a stop pushes back is unknown, so such a run says nothing about the gains.
     """
-    still = [run for run in log.runs if run.top_speed <= STILL * log.top_speed]
+    still = [run for run in log.runs if run.top_speed <= LEAST_SPEED * log.top_speed]
     if type == "simple" or not still or len(still) == len(log.runs):
         return log, ()
     tests = " and ".join(run.test for run in still)
@@ -119,7 +118,7 @@ def _leave_out_still_runs(log: Log, *, type: str) -> tuple[Log, tuple[Doubt, ...
         "still-run",
         f"In {tests} the mechanism does not move, so that was left out. Repeat it with more volts.",
     )
-    moving = tuple(run for run in log.runs if run.top_speed > STILL * log.top_speed)
+    moving = tuple(run for run in log.runs if run.top_speed > LEAST_SPEED * log.top_speed)
     return replace(log, runs=moving), (doubt,)
 
 
@@ -415,7 +414,7 @@ def _make_result(
 def _count_samples(log: Log, problem: PredictionErrorProblem) -> dict[str, int]:
     """Test -> number of samples in motion that were compared."""
     counts: dict[str, int] = {}
-    long = [run for run in log.runs if len(run) > 3]  # noqa: PLR2004 - as in ``measure_runs``
+    long = [run for run in log.runs if len(run) >= MIN_SAMPLES]
     for run, record in zip(long, problem.records, strict=True):
         counts[run.test] = counts.get(run.test, 0) + int(record.measurements.moving.sum())
     return counts

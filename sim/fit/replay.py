@@ -4,7 +4,6 @@ The simulation is open loop and starts with each run. It includes the lag and th
 velocity that the fit found, so the residual is noise and what the gains do not explain.
 """
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -14,12 +13,17 @@ from numpy.typing import NDArray
 from sim.core.errors import BadRequest
 from sim.core.log import Array, Log, Run
 from sim.core.units import find_unit
-from sim.estimation.measurements import ROBUST, THIRD, RunMeasurements, estimate_noise, measure_runs
+from sim.estimation.measurements import (
+    MIN_SAMPLES,
+    RunMeasurements,
+    compute_noise_deviation,
+    estimate_noise,
+    measure_runs,
+)
 from sim.fit import Fit
 from sim.physics.engine import State, Track, simulate_run
 from sim.physics.model import Model, Part
 
-FEWEST = 4  # samples of a run that is simulated
 LEAST_LAG = 1e-5  # [s] a shorter lag is left out
 
 
@@ -66,7 +70,7 @@ def replay_fit(found: Fit, log: Log) -> tuple[RunReplay, ...]:
     """
     fitted = found.in_units("radians" if find_unit(log.units).angular else "meters")
     sign, model = make_fit_model(fitted)
-    runs = [run for run in log.runs if len(run) >= FEWEST]
+    runs = [run for run in log.runs if len(run) >= MIN_SAMPLES]
     friction = None if fitted.type == "simple" else model.gains["kS"]
     measured = measure_runs(replace(log, runs=tuple(runs)), friction=friction)
     if not measured:
@@ -137,9 +141,7 @@ def _position_noise(measured: Sequence[RunMeasurements], tracks: Sequence[Track]
         np.diff((run.measured[:, 0] - track.position)[run.moving], 3)
         for run, track in zip(measured, tracks, strict=True)
     ]
-    every = np.abs(np.concatenate(thirds))
-    every = every[~np.isnan(every)]
-    return ROBUST * float(np.median(every)) / math.sqrt(THIRD) if every.size else 0.0
+    return compute_noise_deviation([third[~np.isnan(third)] for third in thirds])
 
 
 def _last_samples(run: Run, count: int) -> Run:

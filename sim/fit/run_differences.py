@@ -39,10 +39,9 @@ from sim.estimation.optimize import (
     make_joint_jacobian,
 )
 from sim.estimation.random_friction import get_friction_sd
-from sim.fit.everyday_effects import FIRST, add_everyday_effects
+from sim.fit.everyday_effects import FIRST, WORTH, add_everyday_effects
 from sim.fit.search import ROUGHLY, STEPS, drop_outliers, fit_open_loop, fit_tracking, refine
 
-WORTH = 8.0  # [of -2 log L] improvement from which on they are included
 EARLY = 0.2  # [sample periods] by which the estimate of a lag may be negative
 UNIFORM = math.sqrt(12.0)  # standard deviations in the width of a uniform distribution
 JUMP = 0.5  # [V] a larger change is a step, after which a velocity is not compared

@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.core.log import Array
+from sim.core.log import DIRECTIONS, STANDSTILL, Array
 from sim.estimation.measurements import SensorNoise
 from sim.gap.binned_residuals import FEWEST, BinnedResiduals, SampleTable
 from sim.gap.place import POSITION, REST, RUN, SPEED, STEPS
@@ -14,8 +14,6 @@ from sim.gap.residuals import Residuals
 
 LEAST_TIMES, TIMES, SPEEDS, POSITIONS, VOLTS = 6, 12, 8, 12, 4  # numbers of columns
 AFTER = (0.0, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6)  # [s] edges since a step: narrow just after it
-STILL = 0.02  # [share of the top speed] a slower sample is at rest
-DIRECTIONS = ("forward", "reverse")
 JUMPS = ("the voltage jumps up", "the voltage jumps down")
 RESTS = ("at rest under forward voltage", "at rest under reverse voltage")
 
@@ -40,7 +38,7 @@ class ResidualBins:
         )
         self.speed = np.abs(self.predicted[:, 1])
         self.top = float(self.speed[self.compared].max())
-        self.rests = self.speed <= STILL * self.top
+        self.rests = self.speed <= STANDSTILL * self.top
 
     @cached_property
     def direction(self) -> Array:
@@ -102,7 +100,7 @@ class ResidualBins:
     def bin_after_steps(self) -> BinnedResiduals:
         """The residuals after a voltage step, binned by its direction and the time since."""
         largest = float(np.abs(self.voltage).max())
-        found = [run.find_steps(largest=largest, still=STILL * self.top) for run in self.runs]
+        found = [run.find_steps(largest=largest, still=STANDSTILL * self.top) for run in self.runs]
         since, jump = (np.concatenate([one[part] for one in found]) for part in (0, 1))
         row = np.where(jump > 0.0, 0, 1)
         return self.samples.bin_samples(

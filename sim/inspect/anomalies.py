@@ -21,6 +21,7 @@ LATE = 0.03  # [s] age that a reading may have
 STARTING = 1.5, 0.06  # [timescales, s] after its first motion, in which a run is still starting
 SIGMAS = 3.0  # [standard deviations of the averaged noise]
 AVERAGE = 0.04  # [s] over which noise is averaged, at least two samples
+SLACK = 0.06  # [s] uncertainty of an anomaly's begin and end
 SHORTEST = 0.03  # [s] a shorter anomaly is noise, at least two samples
 LONGEST = 0.6  # [share of the motion] a longer deviation is not an anomaly
 AROUND = 0.15  # [s] before and after an anomaly that a hypothesis has to explain as well

@@ -15,9 +15,8 @@ from sim.core.log import Log, Run
 from sim.core.vocabulary import TESTS
 from sim.inspect.fault import MOST, DamagedLog, Fault, FaultStrike, LogInterval
 from sim.inspect.faults import find_fault
+from sim.inspect.log_features import MIN_SAMPLES
 
-FEWEST = 10  # [samples] of a run that can be damaged
-MOVING = 0.1  # [share of a run's top speed] above it a sample is in motion
 SPEC = re.compile(
     r"(?P<name>[^:@]+)(?::(?P<severity>[^@]*))?(?:@(?P<test>[^+]*)(?:\+(?P<at>.*))?)?"
 )
@@ -174,7 +173,7 @@ def _choose_run(log: Log, fault: Fault, *, test: str | None, rng: np.random.Gene
         there = there[:1]
     else:
         there = [index for index, run in enumerate(log.runs) if run.kind in fault.kinds]
-        there = [index for index in there if len(log.runs[index]) >= FEWEST] or there
+        there = [index for index in there if len(log.runs[index]) >= MIN_SAMPLES] or there
     if not there:
         raise BadRequest(
             f"no test in this log that {fault.name} could happen in",
@@ -182,11 +181,11 @@ def _choose_run(log: Log, fault: Fault, *, test: str | None, rng: np.random.Gene
             advice=f"It takes a {kinds} test.",
         )
     index = there[int(rng.integers(len(there)))]
-    if len(log.runs[index]) < FEWEST:
+    if len(log.runs[index]) < MIN_SAMPLES:
         raise BadRequest(
             f"the run has {len(log.runs[index])} samples, too few to damage",
             where=_describe_place(log, log.runs[index].test),
-            advice=f"Choose a run of at least {FEWEST}.",
+            advice=f"Choose a run of at least {MIN_SAMPLES}.",
         )
     return index
 
@@ -203,11 +202,10 @@ def _choose_start(run: Run, fault: Fault, *, at: float | None, rng: np.random.Ge
         if abs(run.voltage[np.searchsorted(run.time, run.time[0] + at)]) < fault.least_voltage:
             raise _refuse_low_voltage(run, fault)
         return at
-    speed = np.abs(run.velocity)
     possible = np.abs(run.voltage) >= fault.least_voltage
     if not possible.any():
         raise _refuse_low_voltage(run, fault)
-    moving = np.flatnonzero((speed > MOVING * run.top_speed) & possible)
+    moving = np.flatnonzero(run.moving & possible)
     first, last = (moving[0], moving[-1]) if moving.size else (0, -1)
     begin, end = (float(run.time[i] - run.time[0]) for i in (first, last))
     return begin + float(rng.uniform(*fault.when)) * (end - begin)

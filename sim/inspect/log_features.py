@@ -11,19 +11,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.core.log import Array, Log, Run
+from sim.estimation.measurements import compute_noise_deviation
 from sim.inspect.anomalies import Anomaly, find_anomalies, predict_velocity
 from sim.inspect.baseline_model import BaselineModel, fit_baseline
 from sim.physics.velocity_lag import VelocityLag, estimate_velocity_lag
 
 STANDING = 0.03  # [share of the log's top speed] slower samples are at rest
-WHITE, NORMAL = 20.0**0.5, 0.6745  # deviation of white noise's third differences; median of |x|
+MIN_SAMPLES = 10  # of a run that is evaluated, or damaged
 FEWEST = 6  # [samples] of voltage that tell a ramp from a step
 RAMP, STEP = 0.55, 0.7  # median voltage of the first half over that of the second: 1/3 in a ramp
 STRAIGHT = 0.05  # [share of the largest voltage] median deviation of a ramp from its line
 DRIVEN = 0.05  # [share of a run's largest voltage] less is before or after the test
 AGREED = 0.6  # [1] mean of the signs if 4 of 5 samples agree
 RISEN = 0.632  # [share of the top speed] after one time constant
-MOVING = 0.1  # [share of a run's top speed] slower samples are not in motion
 STEPS, CREEP = 1.5, 2e-5  # [smallest steps of the position, share of its way] a position at rest
 PARTS = 10  # of a run's motion, evaluated one by one: a slip or a stop changes one or two of them
 COPIED = 0.01  # [share of the variance] largest residual of a velocity that copies the position
@@ -60,11 +60,6 @@ class LogFeatures:
         )
 
     @cached_property
-    def moving(self) -> tuple[Flags, ...]:
-        """Per run, (n,): whether the mechanism moves, by its velocity."""
-        return tuple(np.abs(run.velocity) > MOVING * run.top_speed for run in self.log.runs)
-
-    @cached_property
     def position_step(self) -> float:
         """[m or rad] the smallest change of a position in the log; inf if none ever changes."""
         return _smallest_step([run.position for run in self.log.runs])
@@ -94,8 +89,7 @@ class LogFeatures:
 
         1 if a run moves too little.
         """
-        both = zip(self.log.runs, self.moving, strict=True)
-        return tuple(_distance_ratio(run, moving) for run, moving in both)
+        return tuple(_distance_ratio(run) for run in self.log.runs)
 
     @cached_property
     def usual_distance_ratio(self) -> float:
@@ -121,10 +115,9 @@ class LogFeatures:
         thirds = []
         for run in self.log.runs:
             new = run.velocity[find_held_samples(run.velocity)[0]] if len(run) else run.velocity
-            third = np.abs(np.diff(new, n=3))
+            third = np.diff(new, n=3)
             thirds.append(third[np.abs(new[3:]) > STANDING * run.top_speed])
-        third = np.concatenate([*thirds, np.zeros(0)])
-        return float(np.median(third) / NORMAL / WHITE) if third.size else 0.0
+        return compute_noise_deviation(thirds)
 
     @cached_property
     def still_speed(self) -> float:
@@ -209,7 +202,7 @@ def _recognize_test(run: Run) -> str:
         kind = "quasistatic"
     elif rise > STEP:
         kind = "dynamic"
-    moving = last[np.abs(run.velocity[last]) > MOVING * run.top_speed]
+    moving = last[run.moving[last]]
     pushed, moved = find_majority_sign(run.voltage[last]), find_majority_sign(run.velocity[moving])
     if pushed * moved <= 0:
         return f"{kind}-{run.direction}"
@@ -231,9 +224,9 @@ def _rest_length(run: Run, *, step: float) -> int:
     return int(np.argmax(away)) if away.any() else 0
 
 
-def _distance_ratio(run: Run, moving: Flags) -> float:
+def _distance_ratio(run: Run) -> float:
     """[1] integral of velocity over change of position, the median of parts of the motion."""
-    motion = np.flatnonzero(moving)
+    motion = np.flatnonzero(run.moving)
     parts = min(PARTS, motion.size // LEAST)
     if parts < LEAST:
         return 1.0
@@ -267,7 +260,7 @@ def _rise_time(run: Run) -> float:
     """[s] from rest to 63 % of the top speed; 0 if the run does not start at rest."""
     speed = np.abs(run.velocity)
     up = int(np.argmax(speed > RISEN * run.top_speed))
-    still = np.flatnonzero(speed[:up] < MOVING * run.top_speed)
+    still = np.flatnonzero(~run.moving[:up])
     return float(run.time[up] - run.time[still[-1]]) if still.size else 0.0
 
 

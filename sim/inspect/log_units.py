@@ -1,6 +1,5 @@
 """Units of a log that cannot be right: what ``inspect`` reports and every fit warns of."""
 
-import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
@@ -9,7 +8,7 @@ import numpy as np
 from sim.core.advice import Action
 from sim.core.doubt import Doubt
 from sim.core.log import FOUR_TESTS, Log
-from sim.core.units import find_unit
+from sim.core.units import BATTERY, TURN, find_unit
 from sim.inspect.log_features import LogFeatures
 
 CODE = "unit-error"
@@ -18,10 +17,8 @@ DUTY = 1.0  # [V] largest duty cycle; real tests use more
 MOST = 50.0  # [V] far more than any robot has
 FEWEST = 20  # [samples] the voltage of shorter logs is not checked
 SLOWEST_LOOP = 1.0  # [s] between samples; larger times are probably not in seconds
-TURN = 2.0 * math.pi
 NEAR = 0.05  # [share] largest difference from a known factor; slip and filters change it less
 DRIVES = ("drive", "swerve")  # in the name of a mechanism; SysId's own tool writes Drivetrain
-FULL = 12.0  # [V]
 FASTEST, SLOWEST = 9.0, 1.2  # [m/s] of a drive at 12 V: two-speed gearboxes have about 2 to 7
 FAR = 2.5  # [1] least factor of a wrong unit
 SCALE = 0.05  # [share] of kV with which it can still be used
@@ -160,7 +157,7 @@ def _check_drive_speed(features: LogFeatures) -> Iterator[UnitError]:
     if per.angular or not any(word in name.lower() for word in DRIVES):
         return
     speeds = [
-        FULL * run.top_speed / float(np.abs(run.voltage).max())
+        BATTERY * run.top_speed / float(np.abs(run.voltage).max())
         for run in features.log.runs
         if run.test in FOUR_TESTS and run.top_speed and run.voltage.any()
     ]
@@ -169,8 +166,8 @@ def _check_drive_speed(features: LogFeatures) -> Iterator[UnitError]:
         return
     bound = f"faster than {FASTEST:g}" if speed > FASTEST else f"slower than {SLOWEST:g}"
     yield UnitError(
-        f"With {FULL:g} V this drivetrain would move at about {speed:.3g} m/s, and no FRC robot is "
-        f"{bound} m/s: position and velocity are not in meters, or their factor is wrong.",
+        f"With {BATTERY:g} V this drivetrain would move at about {speed:.3g} m/s, and no FRC robot "
+        f"is {bound} m/s: position and velocity are not in meters, or their factor is wrong.",
         "Push the robot forward by exactly 1 m and see by how much the logged position changes. "
         "Then set gear ratio and wheel circumference so that it is 1.",
         confidence=0.9,

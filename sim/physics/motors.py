@@ -13,8 +13,7 @@ import math
 from dataclasses import dataclass
 
 from sim.core.errors import BadRequest
-
-NOMINAL = 12.0  # [V] the voltage the data sheets are for
+from sim.core.units import BATTERY
 
 
 @dataclass(frozen=True)
@@ -38,7 +37,7 @@ class Motor:
     @property
     def resistance(self) -> float:
         """[Ω] resistance of the winding."""
-        return NOMINAL / self.stall_current
+        return BATTERY / self.stall_current
 
     @property
     def torque_constant(self) -> float:
@@ -48,7 +47,7 @@ class Motor:
     @property
     def back_emf(self) -> float:
         """[V·s/rad] back-EMF constant: without the voltage drop of the free current."""
-        return (NOMINAL - self.resistance * self.free_current) / self.free_speed
+        return (BATTERY - self.resistance * self.free_current) / self.free_speed
 
 
 def _motor(name: str, torque: float, stall: float, free: float, rpm: float) -> Motor:
@@ -104,4 +103,4 @@ def compute_theoretical_kv(of: Motor, *, ratio: float, radius: float | None = No
         >>> round(compute_theoretical_kv(kraken, ratio=6.75, radius=0.0508), 2)  # [V·s/m]
         2.54
     """
-    return NOMINAL / of.free_speed * ratio / (radius or 1.0)
+    return BATTERY / of.free_speed * ratio / (radius or 1.0)

@@ -28,7 +28,6 @@ STEP = 0.005  # [s] grid of the delays, which the parabola refines
 WINDOW, FEWEST_STEPS = 0.3, 8  # [s, samples] of an integral: many frames, and a part of a run
 SAMPLES = 1000  # times of a run that are compared; more do not add information
 FEWEST = 20  # [samples] of a run; fewer do not determine scale, delay and start
-STANDING = 0.1  # [share of the top speed] a run that begins slower than this begins at rest
 EXACT = 1e-9  # [share of the variance] a smaller residual is rounding
 NORMAL = 0.6745  # [standard deviations] median distance of a normal variable from its mean
 MATCHED = 0.02  # [share of the variance] larger residuals are of two different motions
@@ -90,10 +89,8 @@ def _fit_run(run: Run, lags: Array) -> tuple[Array, Array, int] | None:
         return None
     steps = 0.5 * np.diff(run.time) * (run.velocity[1:] + run.velocity[:-1])
     integral = np.concatenate(([0.0], np.cumsum(steps)))
-    rests = abs(float(run.velocity[0])) < STANDING * run.top_speed
-    first = (
-        run.time[0] if rests else run.time[0] + LATEST
-    )  # before a start at rest the position is known
+    # before a start at rest the position is known
+    first = run.time[0] + LATEST if run.moving[0] else run.time[0]
     inside = np.flatnonzero((run.time >= first) & (run.time <= run.time[-1] + EARLIEST))
     if inside.size < FEWEST:
         return None

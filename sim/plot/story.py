@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from sim.core.units import find_unit
-from sim.estimation.run_records import FEWEST
+from sim.estimation.measurements import MIN_SAMPLES
 from sim.plot.picture import Picture
 from sim.plot.table import Table
 from sim.plot.voltage_residual import plot_voltage_residual
@@ -19,7 +19,8 @@ def plot_remaining_gap(story: Story) -> list[Picture]:
     Raises:
         BadRequest: there is nothing to compare, or a simulation diverged.
     """
-    log = replace(story.shown, runs=tuple(run for run in story.shown.runs if len(run) >= FEWEST))
+    runs = tuple(run for run in story.shown.runs if len(run) >= MIN_SAMPLES)
+    log = replace(story.shown, runs=runs)
     base, *more = story.chapters
     titles = {"base model": base}
     if more:

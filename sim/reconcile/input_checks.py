@@ -7,13 +7,13 @@ import numpy as np
 
 from sim.core.advice import Action
 from sim.core.errors import BadRequest, NotIdentifiable
-from sim.core.log import Log
+from sim.core.log import STANDSTILL, Log
 from sim.core.units import Unit, find_unit
+from sim.estimation.measurements import MIN_SAMPLES
 from sim.estimation.model_structure import ModelStructure
-from sim.estimation.run_records import FEWEST
 from sim.physics.voltage_residual import VoltageResidual, compute_voltage_residual
 from sim.reconcile.recordings import Recordings
-from sim.reconcile.thresholds import FEWEST_SAMPLES, LOST, OTHER_UNITS, STANDSTILL
+from sim.reconcile.thresholds import FEWEST_SAMPLES, LOST, OTHER_UNITS
 
 FEWEST_RUNS = 2
 
@@ -65,7 +65,7 @@ def _check_samples(log: Log) -> None:
 
 
 def _check_size(log: Log) -> None:
-    long = [run for run in log.runs if len(run) >= FEWEST]
+    long = [run for run in log.runs if len(run) >= MIN_SAMPLES]
     count = sum(map(len, long))
     if len(long) >= FEWEST_RUNS and count >= FEWEST_RUNS * FEWEST_SAMPLES:
         return
@@ -121,7 +121,7 @@ def _check_moves(log: Log, *, than: float) -> None:
 
 def _top_speed(log: Log) -> float:
     """[m/s or rad/s] top speed of the fastest run that is long enough."""
-    return max((run.top_speed for run in log.runs if len(run) >= FEWEST), default=0.0)
+    return max((run.top_speed for run in log.runs if len(run) >= MIN_SAMPLES), default=0.0)
 
 
 def _check_same(log: Log, other: Log, guess: Mapping[str, float], *, type: str) -> None:  # noqa: A002 - field's word

@@ -7,8 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.core.log import Array, Log, Run
-from sim.estimation.measurements import RunMeasurements, estimate_noise, measure_runs
-from sim.estimation.run_records import FEWEST
+from sim.estimation.measurements import MIN_SAMPLES, RunMeasurements, estimate_noise, measure_runs
 from sim.gap import GapMap, Residuals, map_gap
 
 
@@ -19,12 +18,12 @@ def map_residuals(
 
     Args:
         log: the measured runs.
-        tracks: for each run with at least ``FEWEST`` samples, (n, 2) simulated position and
+        tracks: for each run with at least ``MIN_SAMPLES`` samples, (n, 2) simulated position and
             velocity [SI].
         compared: for each of these runs, (n,) which samples count; empty: all of them.
         floor: [unit/s] noise of the velocity.
     """
-    runs = tuple(run for run in log.runs if len(run) >= FEWEST)
+    runs = tuple(run for run in log.runs if len(run) >= MIN_SAMPLES)
     measurements = measure_runs(replace(log, runs=runs), friction=None, rest_by_position=False)
     counts = compared or [np.ones(len(run), dtype=bool) for run in runs]
     rows = zip(runs, measurements, tracks, counts, strict=True)

@@ -136,10 +136,6 @@ FEWEST_SAMPLES = 20
 """Fewest samples of a run from which a spread or a period is estimated. A log needs two runs of as
 many: with fewer, every effect of the catalogue fits."""
 
-STANDSTILL = 0.02
-"""Share of the top speed below which a mechanism counts as standing: static friction then decides
-its speed, which says nothing about a model."""
-
 CELLS = 24
 """Bins into which the time of a run, the positions, or the speeds are divided. With more, a bin
 holds too few samples to stand out of the noise; with fewer, a bump of some centimeters is averaged

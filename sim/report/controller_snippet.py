@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 
 from sim.core.advice import Action
 from sim.core.errors import BadRequest
-from sim.core.units import find_unit
+from sim.core.units import TURN, find_unit
 from sim.feedback import PRESETS, Feedback, Preset
 from sim.fit import Fit
 from sim.fit.feedback_trial import try_feedback_gains
@@ -29,7 +29,6 @@ from sim.report.robot_code_snippet import (
 )
 
 ROTATION, METER = find_unit("rotations"), find_unit("meters")
-TURN = 2.0 * math.pi  # [rad]
 
 
 @dataclass(frozen=True)

@@ -18,12 +18,12 @@ from sim.bench.mechanism import Mechanism
 from sim.bench.simulate import make_power_path_array
 from sim.core.errors import BadRequest
 from sim.core.log import Array
+from sim.core.units import BATTERY
 from sim.physics.engine import State as Body
 from sim.physics.engine import simulate_run
 
 LOOP = 0.02  # [s] loop period of the robot program
 ONBOARD = 0.001  # [s] loop period inside Phoenix 6's motor controllers
-BATTERY = 12.0  # [V] limit of the commanded voltage
 SETTLING = 0.5  # [s] simulated after the end of the profile
 MASSLESS = 1e-9  # [V·s²/unit] with a smaller kA, WPILib uses the next velocity alone
 

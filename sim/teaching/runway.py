@@ -18,11 +18,11 @@ from sim.bench.routine import Routine
 from sim.bench.simulate import make_power_path_array
 from sim.core.errors import BadRequest
 from sim.core.log import Array
+from sim.core.units import GRAVITY
 from sim.physics.engine import State, simulate_run
 
 PERIOD = 0.02  # [s] loop period of the robot program
 STANDSTILL = 0.01  # [m/s] slower counts as standing
-GRAVITY = 9.81  # [m/s²]
 GRIP = 1.1  # [1] coefficient of friction of wheels on carpet, roughly
 FINE = 20  # integration steps per loop while it brakes
 THUMB = 0.3  # [s] reaction time of a driver who waits for the mark

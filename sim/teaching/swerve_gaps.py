@@ -7,9 +7,9 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from sim.core.units import GRAVITY
 from sim.teaching.fit_gaps import RIGHT, judge_gap
 
-GRAVITY = 9.81  # [m/s²]
 WHEELS = 4
 SPIN = (31.4, 0.41, 40.0)  # rotation of the robot [rad], lever arm [m], turns of the wheel
 TURNS = (58.0, 0.41, 0.05, 0.24)  # mass [kg], lever arm [m], kA [V·s²/rad], kA [V·s²/m]

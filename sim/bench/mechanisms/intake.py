@@ -4,12 +4,9 @@ Frictionless theory: kV 0.313 V·s/rot, kA 0.0090 V·s²/rot, a timescale of 29 
 longer than one loop of the robot program, so kA is hard to identify.
 """
 
-import math
-
 from sim.bench.mechanism import Mechanism, Sensor
+from sim.core.units import TURN
 from sim.physics.motors import find_motor
-
-TURN = 2.0 * math.pi  # [rad]
 
 MECHANISM = Mechanism(
     name="intake",

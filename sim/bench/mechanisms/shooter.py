@@ -3,12 +3,9 @@
 Frictionless theory: kV 0.1193 V·s/rot, kA 0.0319 V·s²/rot, a timescale of 267 ms.
 """
 
-import math
-
 from sim.bench.mechanism import Mechanism, Sensor
+from sim.core.units import TURN
 from sim.physics.motors import find_motor
-
-TURN = 2.0 * math.pi  # [rad]
 
 MECHANISM = Mechanism(
     name="shooter",

@@ -8,8 +8,9 @@ import numpy as np
 
 from sim.cli.fit.layout import write_layout
 from sim.core.units import Unit, find_unit
+from sim.estimation.measurements import MIN_SAMPLES
 from sim.fit.innovations import RunInnovations, compute_innovations
-from sim.fit.replay import FEWEST, RunReplay, replay_fit
+from sim.fit.replay import RunReplay, replay_fit
 from sim.inspect.detect_faults import inspect
 from sim.io.formats.wpilog.signals import SignalGroup, write_signals
 
@@ -55,7 +56,7 @@ def write_replay(found: "Fit", parts: "Mapping[str, Log]", path: Path) -> None:
 def _list_groups(found: "Fit", log: "Log", top: str, unit: Unit) -> Iterator[SignalGroup]:
     """The entries of each run that is long enough to be simulated."""
     faults = inspect(log).faults
-    runs = [(k, run) for k, run in enumerate(log.runs) if len(run) >= FEWEST]
+    runs = [(k, run) for k, run in enumerate(log.runs) if len(run) >= MIN_SAMPLES]
     for (k, run), replay in zip(runs, replay_fit(found, log), strict=False):
         yield _make_group(replay, run, [one for one in faults if one.where.run == k], top, unit)
     for innovations in compute_innovations(found, log):

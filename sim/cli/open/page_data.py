@@ -15,6 +15,7 @@ from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, Refusal
 from sim.core.leave_out import LeftOutPart, leave_out
 from sim.core.units import find_unit
+from sim.estimation.measurements import MIN_SAMPLES
 from sim.io.entries.entry import NUMBERS, STRING
 
 if TYPE_CHECKING:
@@ -37,7 +38,6 @@ MEANS = {
     "offset_rad": "what to add to the sensor's angle, to count from horizontal",
 }
 LAGS = 1e-5  # [s] a shorter lag is shown as 0
-FEWEST = 4  # [samples] shorter runs are not simulated
 
 
 def describe_log(one: "OpenLog", reading: "Reading", *, doubts: bool = True) -> dict[str, Any]:
@@ -198,7 +198,7 @@ def _describe_starts(found: "Fit", log: "Log") -> dict[str, Any]:
     starts: list[dict[str, float] | None] = []
     noise = None
     for run in log.runs:
-        replay = next(replays, None) if len(run) >= FEWEST else None
+        replay = next(replays, None) if len(run) >= MIN_SAMPLES else None
         noise = replay.velocity_noise if replay is not None else noise
         starts.append(
             None

@@ -3,12 +3,10 @@
 import math
 
 from sim.core.doubt import Doubt
-from sim.core.units import find_unit
+from sim.core.units import BATTERY, GRAVITY, find_unit
 from sim.fit.physics.parts import BELOW, HEAVY, SURELY
 from sim.fit.result import Fit
-from sim.physics.motors import NOMINAL
 
-GRAVITY = 9.81  # [m/s²]
 CASCADE = 2.0  # [g] largest kG/kA of a cascade elevator
 WATCH = {"simple": 0.5, "elevator": 0.8, "arm": 0.8}  # [V] kS; arms of real robots have up to 0.74
 CRUISE = 0.4  # [of free speed] a typical velocity: 2 m/s of a drivetrain's 4.7
@@ -21,9 +19,9 @@ def check_friction(found: Fit) -> list[Doubt]:
     """Doubts about a kS that is too large, or that should be watched."""
     ks, kv = found.gains["kS"], found.gains["kV"]
     surely = ks - SURELY * found.errors["kS"]
-    share = f"kS = {ks:.2f} V, {ks / NOMINAL:.0%} of 12 V,"
-    if surely > CRUISE * NOMINAL:
-        at = f" ({_format_speed(found, CRUISE * NOMINAL / kv)})" if kv > 0.0 else ""
+    share = f"kS = {ks:.2f} V, {ks / BATTERY:.0%} of 12 V,"
+    if surely > CRUISE * BATTERY:
+        at = f" ({_format_speed(found, CRUISE * BATTERY / kv)})" if kv > 0.0 else ""
         return [
             Doubt(
                 "friction-stop",

@@ -8,9 +8,8 @@ from sim.core.advice import Action
 from sim.core.doubt import Doubt
 from sim.core.log import DIRECTIONS, Array, Run
 from sim.core.units import find_unit
-from sim.inspect.log_features import MOVING, LogFeatures
+from sim.inspect.log_features import MIN_SAMPLES, LogFeatures
 
-FEWEST = 10  # [samples in motion] of a run that is evaluated
 APART_KS = 0.12, 0.35  # [V, share of their mean] largest normal difference of kS
 APART_KV = 0.05  # [share] largest normal difference of kV
 SETTLED, SMOOTH = 3.0, 0.1  # [time constants] of a ramp left out; [s] half width of a slope
@@ -68,13 +67,13 @@ def _line(features: LogFeatures, way: str) -> _Line | None:
     if not runs or features.baseline is None:
         return None
     run, baseline = features.log.runs[runs[0]], features.baseline
-    if len(run) < FEWEST:
+    if len(run) < MIN_SAMPLES:
         return None
     sign = 1.0 if way == "forward" else -1.0
-    fast = sign * run.velocity > max(MOVING * run.top_speed, features.still_speed)
+    fast = run.moving & (sign * run.velocity > features.still_speed)
     begins = run.time[int(np.argmax(fast))] + SETTLED * baseline.timescale
     fast &= (run.time > begins) & (run.time < run.time[-1] - SMOOTH)
-    if fast.sum() < 3 * FEWEST:
+    if fast.sum() < 3 * MIN_SAMPLES:
         return None
     load = np.zeros(len(run))
     if features.log.type in ("elevator", "arm"):

@@ -7,13 +7,12 @@ from sim.core.errors import Refusal
 from sim.core.log import Array, Run
 from sim.fit import Fit, fit
 from sim.inspect.baseline_model import BaselineModel
-from sim.inspect.log_features import MOVING, LogFeatures
+from sim.inspect.log_features import MIN_SAMPLES, LogFeatures
 
 GOOD_R2 = 0.9  # simulated velocity R² that WPILib's documentation calls good
 MISFIT = 0.12  # [share of the top speed] error of a simulation over ``MISFIT_TIME``
 MISFIT_TIME = 0.1  # [s]
 REPEATABLE = 0.06  # [share of the top speed] largest normal difference of two runs of a test
-FEWEST = 10  # [samples in motion] of a run with enough motion
 RISE = 2  # [samples] between 10 % and 90 % of the top speed, at least
 INTERCEPT = 0.35  # [V] by which a fast ramp may shift a line that is drawn by hand
 
@@ -61,7 +60,7 @@ def _replay_errors(run: Run, model: BaselineModel, period: float) -> Array:
     wide = 2 * round(0.5 * MISFIT_TIME / period) + 1
     if not top or len(run) <= wide or not run.kind.startswith(("quasi", "dynamic")):
         return np.zeros(0)
-    moving = np.flatnonzero(np.abs(run.velocity) > MOVING * top)
+    moving = np.flatnonzero(run.moving)
     first, last = int(moving[0]), int(moving[-1]) + 1
     velocity = float(run.velocity[first])
     replay = model.replay(run, voltage=run.voltage, first=first, last=last, velocity=velocity)
@@ -94,13 +93,13 @@ def check_repeated_tests(features: LogFeatures) -> list[Doubt]:
 
 def _speed_excess(features: LogFeatures, index: int) -> float:
     """[share of its top speed] median of a run's velocity minus the predicted one."""
-    run, moving = features.log.runs[index], features.moving[index]
-    if not moving.any():
+    run = features.log.runs[index]
+    if not run.moving.any():
         return 0.0
     ahead = (run.velocity - features.predicted_velocities[index]) * np.sign(
         features.predicted_velocities[index]
     )
-    return float(np.median(ahead[moving])) / run.top_speed
+    return float(np.median(ahead[run.moving])) / run.top_speed
 
 
 def check_too_little_motion(features: LogFeatures) -> list[Doubt]:
@@ -109,9 +108,9 @@ def check_too_little_motion(features: LogFeatures) -> list[Doubt]:
     runs = [run for run in features.log.runs if len(run)]
     if runs and all(not np.ptp(run.position) and not run.velocity.any() for run in runs):
         return [_nothing_moves(runs)]
-    for index, run in enumerate(features.log.runs):
-        moving = int((features.moving[index] & (np.abs(run.velocity) > features.still_speed)).sum())
-        if moving < FEWEST and run.kind in ("quasistatic", "dynamic"):
+    for run in features.log.runs:
+        moving = int((run.moving & (np.abs(run.velocity) > features.still_speed)).sum())
+        if moving < MIN_SAMPLES and run.kind in ("quasistatic", "dynamic"):
             doubts.append(
                 Doubt(
                     "little-motion",
@@ -158,14 +157,14 @@ def _nothing_moves(runs: list[Run]) -> Doubt:
 
 def _rise_samples(run: Run) -> int:
     """[samples] between 10 % and 90 % of the top speed; all if it starts in motion."""
-    speed, top = np.abs(run.velocity), run.top_speed
-    up, done = int(np.argmax(speed > MOVING * top)), int(np.argmax(speed > 0.9 * top))
-    return done - up if speed[0] <= MOVING * top else len(run)
+    done = int(np.argmax(np.abs(run.velocity) > 0.9 * run.top_speed))
+    return len(run) if run.moving[0] else done - int(np.argmax(run.moving))
 
 
 def check_ramp_rate(features: LogFeatures) -> list[Doubt]:
     """Doubts about ramps so fast that a line through their voltages misses kS."""
-    ramps = [run for run in features.log.runs if run.kind == "quasistatic" and len(run) > FEWEST]
+    long = [run for run in features.log.runs if len(run) > MIN_SAMPLES]
+    ramps = [run for run in long if run.kind == "quasistatic"]
     if features.baseline is None or not ramps:
         return []
     rate = float(np.median([_ramp_rate(run) for run in ramps]))

@@ -4,9 +4,9 @@ import numpy as np
 
 from sim.core.advice import Action
 from sim.core.doubt import Doubt
-from sim.core.units import find_unit
+from sim.core.units import BATTERY, find_unit
 from sim.fit.sysid_rows import estimate_noise_floor
-from sim.inspect.log_features import LogFeatures
+from sim.inspect.log_features import MIN_SAMPLES, LogFeatures
 from sim.inspect.log_units import FAR
 
 LAG = 0.02, 1.5  # [s, periods] largest delay without a filter
@@ -17,10 +17,8 @@ FILTERS = {  # [s] WPILib's figures for the delay of a velocity
     "CTRE Phoenix 5, or REV's data port": 0.0815,
 }
 ALIKE = 0.15  # [share] largest difference of a delay from one of them
-FEWEST = 10  # [samples] of a ramp that is evaluated
 PASSES = 0.1  # [share of a ramp's rows] that may be at rest and count as motion
 FASTEST = 60.0  # [m/s] nothing on a robot is faster
-FULL = 12.0  # [V]
 
 
 def check_velocity_lag(features: LogFeatures) -> list[Doubt]:
@@ -52,13 +50,14 @@ def check_velocity_lag(features: LogFeatures) -> list[Doubt]:
 def check_plausible_speed(features: LogFeatures) -> list[Doubt]:
     """Warnings about speeds that no robot reaches."""
     per = find_unit(features.log.units)
-    if features.baseline is None or per.angular or FULL / features.baseline.kv <= FASTEST:
+    if features.baseline is None or per.angular or BATTERY / features.baseline.kv <= FASTEST:
         return []
     return [
         Doubt(
             "too-fast",
-            f"At {FULL:g} V the mechanism would move at {FULL / features.baseline.kv:.3g} m/s, so "
-            f"its position is probably not in {per.name}.",
+            f"At {BATTERY:g} V the mechanism would move at "
+            f"{BATTERY / features.baseline.kv:.3g} m/s, so its "
+            f"position is probably not in {per.name}.",
             action=Action("angle-units"),
         )
     ]
@@ -67,7 +66,7 @@ def check_plausible_speed(features: LogFeatures) -> list[Doubt]:
 def check_rest_noise(features: LogFeatures) -> list[Doubt]:
     """Doubts about small noise at rest that still exceeds SysId's threshold."""
     both = zip(features.log.runs, features.rest_lengths, strict=True)
-    ramps = {run: n for run, n in both if run.kind == "quasistatic" and len(run) > FEWEST}
+    ramps = {run: n for run, n in both if run.kind == "quasistatic" and len(run) > MIN_SAMPLES}
     if not ramps:
         return []
     threshold = min(estimate_noise_floor(run.velocity) for run in ramps)

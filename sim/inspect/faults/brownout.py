@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.core.log import Array, Log, Run
-from sim.inspect.anomalies import Anomaly
+from sim.inspect.anomalies import SLACK, Anomaly
 from sim.inspect.fault import (
     Damage,
     DamagedLog,
@@ -43,7 +43,6 @@ AT_ONCE = 2  # [samples] between the drop of the bus voltage and the cut, at mos
 TOGETHER = 2.0  # [s] cuts closer than this are one brownout
 BUS_CONFIDENCE = 0.98  # if the bus voltage shows it
 CUT_CONFIDENCE = 0.9  # if only the applied voltage shows it
-SLACK = 0.06  # [s] uncertainty of an anomaly's begin and end
 LOWEST = 2.3  # [V] a lower command does not load a battery so much; a deadband looks the same
 MOVED = 5  # [samples] before a cut in which the mechanism moves
 ENDS = 12  # ends of the cut that are tried at first

@@ -17,7 +17,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from sim.core.log import Array, Log
-from sim.inspect.anomalies import Anomaly
+from sim.inspect.anomalies import SLACK, Anomaly
 from sim.inspect.fault import (
     Damage,
     DamagedLog,
@@ -34,7 +34,6 @@ HOP = 0.08  # [s] length of a skipped tooth, at least four samples
 SKIPS = 0.25  # [share] of slips that are skipped teeth
 LOSS = 0.7  # [1] the sensor reads exp(-LOSS·severity) of the speed: one half at severity 1
 SKIP = 1.3  # [times the speed] that a skipped tooth at severity 1 subtracts or adds
-SLACK = 0.06  # [s] uncertainty of an anomaly's begin and end
 BRIEF = 0.15  # [s] longest anomaly that grows and fades and is still a slip
 LEAST = 0.15  # [share of the speed] least loss: a smaller one may be an effect
 BELIEVED = 0.92  # [share explained] least of a slip

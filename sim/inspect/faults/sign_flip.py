@@ -45,7 +45,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
     for index, run in enumerate(features.log.runs):
         if features.position_copy_factors[index]:  # such a velocity has no sign
             continue
-        slope, moving = features.position_slopes[index], features.moving[index]
+        slope, moving = features.position_slopes[index], run.moving
         against_slope = _have_opposite_signs(run.velocity, slope, moving & _find_large(slope))
         against_voltage = _moves_against_voltage(run, run.velocity, moving)
         if against_voltage and not against_slope and _falls_by_gravity(run, features.log):

@@ -46,10 +46,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
     """Find runs in which most readings are repeated for several samples during motion."""
     steps = {"velocity": features.velocity_step, "position": features.position_step}
     held = {
-        name: [
-            _held(getattr(run, name), moving, step=step)
-            for run, moving in zip(features.log.runs, features.moving, strict=True)
-        ]
+        name: [_held(getattr(run, name), run.moving, step=step) for run in features.log.runs]
         for name, step in steps.items()
     }
     for index, run in enumerate(features.log.runs):

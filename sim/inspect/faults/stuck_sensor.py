@@ -16,9 +16,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from sim.core.log import Log, Run
+from sim.core.log import MOVING, Log, Run
 from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterval
-from sim.inspect.log_features import MOVING, Counts, LogFeatures, find_held_samples
+from sim.inspect.log_features import Counts, LogFeatures, find_held_samples
 
 ORDINARY = 0.15  # [share of the run] that is frozen at severity 1
 ROOM = 0.9  # [share of the rest of the run] longest freeze, so that the readings return
@@ -68,9 +68,9 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
 
 def _usual(features: LogFeatures, index: int) -> float:
     """[samples] usual length of a repeated reading in motion, of the slower signal."""
-    run, moving = features.log.runs[index], features.moving[index]
+    run = features.log.runs[index]
     return max(
-        _median_hold(*find_held_samples(v), moving.nonzero()[0])
+        _median_hold(*find_held_samples(v), run.moving.nonzero()[0])
         for v in (run.position, run.velocity)
     )
 

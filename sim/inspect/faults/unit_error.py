@@ -15,18 +15,17 @@ the motion is consistent in any unit; compare kV with theory instead. So this fa
 velocity only.
 """
 
-import math
 from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
 
 from sim.core.log import Log
+from sim.core.units import TURN
 from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterval
 from sim.inspect.log_features import LogFeatures
 from sim.inspect.log_units import find_unit_errors
 
-TURN = 2.0 * math.pi
 MILD, ORDINARY, GROSS = (TURN,), (60.0, 360.0 / TURN), (360.0, TURN * 60.0)  # by severity
 
 

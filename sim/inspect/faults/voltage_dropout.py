@@ -81,7 +81,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
             drops = [
                 drop
                 for drop, answer in zip(drops, answers, strict=True)
-                if features.moving[index][max(drop.first - 1, 0)]  # only motion can contradict it
+                if run.moving[max(drop.first - 1, 0)]  # only motion can contradict it
                 and answer < _least_answer(run, drop, features.timescale)
                 and not _launches(run, drop)
             ]

@@ -13,9 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.core.log import Array
+from sim.core.log import STANDSTILL, Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
-from sim.reconcile.thresholds import CELLS, FEWEST_SAMPLES, STANDSTILL
+from sim.reconcile.thresholds import CELLS, FEWEST_SAMPLES
 
 POSITION, SPEED = "position", "speed"
 FEWEST_IN_BIN = 2  # samples of a run: a single one may be in this bin only because of noise

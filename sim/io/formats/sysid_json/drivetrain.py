@@ -17,9 +17,9 @@ import numpy as np
 
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
+from sim.core.log import STANDSTILL
 from sim.io.formats.sysid_json.side import Side, align_signs, find_test_sign, make_doubt
 
-STILL = 0.02  # [share of the other side's largest velocity] below it, an encoder stands still
 # [share of the RMS of the mean velocity] a larger RMS difference of the sides is doubted
 APART = 0.2
 SIDES = ("left", "right")
@@ -97,7 +97,7 @@ def _doubt_sides_differ(halves: list[dict[str, Side]], *, where: str) -> list[Do
 def _find_dead_side(halves: Sequence[Mapping[str, Side]]) -> int | None:
     """Index of a side that stands still while the other one moves; None if there is none."""
     fastest = [max(np.abs(side.velocity).max() for side in half.values()) for half in halves]
-    return next((i for i in (0, 1) if fastest[i] < STILL * fastest[1 - i]), None)
+    return next((i for i in (0, 1) if fastest[i] < STANDSTILL * fastest[1 - i]), None)
 
 
 def _doubt_dead_side(dead: str, living: str, where: str) -> Doubt:
