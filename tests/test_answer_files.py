@@ -247,6 +247,37 @@ def test_a_file_exchanged_for_a_link_after_the_look_is_not_followed(tmp_path):
         found.content(100)
 
 
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="links need a right, and pipes a system")
+def test_a_zip_file_that_is_a_link_or_a_pipe_is_not_read(course, tmp_path):
+    zip_all(tmp_path / "secret.zip", {"exercise1/answers.toml": RIGHT})
+    (tmp_path / "ann.zip").symlink_to(tmp_path / "secret.zip")
+    os.mkfifo(tmp_path / "ben.zip")
+
+    for name in ("ann", "ben"):
+        one = read_submission(tmp_path / f"{name}.zip", list_exercises(course), student=name)
+        assert "cannot be read" in one.problem
+        assert one.files == {}
+
+
+@pytest.mark.skipif(os.name == "nt", reason="links need a right")
+@pytest.mark.parametrize("name", ["real", "real.zip"])
+def test_a_link_that_the_instructor_names_is_followed(course, tmp_path, monkeypatch, name):
+    monkeypatch.chdir(course)
+    put(tmp_path / "real", {"exercise1/answers.toml": RIGHT})
+    zip_all(tmp_path / "real.zip", {"exercise1/answers.toml": RIGHT})
+    (tmp_path / "link").symlink_to(tmp_path / name)
+
+    asked = ["--student", "ann", "--self-study", "-o", str(tmp_path / "out"), "--exercise", "1"]
+    assert run_command(["class", str(tmp_path / "link"), *asked]) == 0
+    assert "\nann,3,3,3" in (tmp_path / "out" / "gradebook.csv").read_text(encoding="utf-8-sig")
+
+
+def zip_all(path, files):
+    with zipfile.ZipFile(path, "w") as archive:
+        for name, text in files.items():
+            archive.writestr(name, text)
+
+
 def _exchange(place, top):
     (place / "exercise1" / "answers.toml").unlink(missing_ok=True)
     (place / "exercise1" / "answers.toml").symlink_to(top / "secret.toml")

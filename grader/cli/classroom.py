@@ -166,7 +166,8 @@ def _find_submissions(
 
     everything = list_exercises(course)
     if student:
-        return (read_submission(folder, everything, asked=asked, student=student),)
+        named = folder.resolve()  # whoever names a link means what it leads to
+        return (read_submission(named, everything, asked=asked, student=student),)
     roster = known.identities if known else None
     advice = "Give yourself the right to open it, then run the same command again."
     with refuse_os_errors("what the class handed in cannot be opened", folder, advice=advice):
