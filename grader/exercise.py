@@ -42,6 +42,7 @@ from grader.answers.submission import find_files, find_whole_answer, read_answer
 from grader.check import Check, NotReachedError, NotRunError, Result, Status, run_checks, skip_check
 from grader.consequence import Consequence
 from sim.core.errors import BadRequest, Refusal
+from sim.support.os_errors import refuse_os_errors
 
 HINTS = ("concept", "pointer", "step")  # from far to near
 
@@ -189,13 +190,26 @@ class Exercise:
                 the grader itself and graded in any case.
         """
         try:
-            whole = find_whole_answer(given, names=self.files, companion_files=self.companion_files)
-            files = find_files(whole, folder=self.folder, names=self.files)
+            files = self.find_answer_files(given)
         except Refusal as refusal:
             return self.skip(str(refusal), student=student)
         return choose_best_grade(
             [self._grade_file(file, student=student, run=run) for file in files]
         )
+
+    def find_answer_files(self, given: Path | None) -> tuple[Path, ...]:
+        """The files of an answer.
+
+        Args:
+            given: a file or a folder; None takes the exercise's own files.
+
+        Raises:
+            Refusal: there are none, too many, or they cannot be opened.
+        """
+        advice = "Give yourself the right to read it, then run the same command again."
+        with refuse_os_errors("it cannot be opened", given or self.folder, advice=advice):
+            whole = find_whole_answer(given, names=self.files, companion_files=self.companion_files)
+            return find_files(whole, folder=self.folder, names=self.files)
 
     def find_consequence(self, grade: Grade) -> Consequence | None:
         """What an answer would do on the robot; None where it is right, or has no visible effect.

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 
-from grader.answers.submission import find_files, read_answers, read_text
+from grader.answers.submission import read_answers, read_text
 from grader.check import Result, Status
 from grader.course import Progress, Standing
 from grader.exercise import HINTS, Exercise, Grade
@@ -133,10 +133,10 @@ def format_receipt(exercise: Exercise, file: Path | None) -> list[Line]:
     """What can be read of an answer that somebody else will grade.
 
     Raises:
-        UnreadableFile: nothing can.
+        Refusal: nothing can.
     """
     lines = []
-    for path in find_files(file, folder=exercise.folder, names=exercise.files):
+    for path in exercise.find_answer_files(file):
         if path.suffix.lower() != ".toml":
             count = len(read_text(path).splitlines())
             lines.append(style_line(f"{path.name}: {count} line{'s' if count != 1 else ''}"))

@@ -20,7 +20,7 @@ from small_course import HALF, RIGHT, lay_out
 from grader.classroom.grading import GradedStudent, GradingJob, grade_student
 from grader.classroom.submissions import find_submissions, read_submission
 from grader.cli import run_command
-from grader.exercise import list_exercises
+from grader.exercise import find_exercise, list_exercises
 from grader.package_files import read_listed_files
 
 STARTER = "size = 0\nmore = 1\n"
@@ -183,7 +183,12 @@ def test_an_archive_that_cannot_be_read_is_listed_by_its_student(course, tmp_pat
     assert "it is an archive, but no zip file" in one.problem
 
 
-@pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() == 0, reason="root reads everything")
+needs_rights = pytest.mark.skipif(
+    not hasattr(os, "geteuid") or os.geteuid() == 0, reason="root reads everything"
+)
+
+
+@needs_rights
 def test_a_folder_that_cannot_be_opened_is_no_empty_one(course, tmp_path):
     put(tmp_path / "ann", {"exercise1/answers.toml": RIGHT})
     (tmp_path / "ann" / "exercise1").chmod(0)
@@ -193,6 +198,40 @@ def test_a_folder_that_cannot_be_opened_is_no_empty_one(course, tmp_path):
         (tmp_path / "ann" / "exercise1").chmod(0o700)
 
     assert "cannot be read: Permission denied" in one.problem
+
+
+@needs_rights
+@pytest.mark.parametrize(("closed", "given"), [
+    ("mine/answers.toml", "mine/answers.toml"), ("mine", "mine/answers.toml"), ("mine", "mine"),
+    ("mine/answers.toml", "mine"),
+])  # fmt: skip
+def test_an_answer_of_ones_own_that_cannot_be_opened_is_not_graded(course, tmp_path, closed, given):
+    put(tmp_path, {"mine/answers.toml": RIGHT})
+    (tmp_path / closed).chmod(0)
+    try:
+        grade = find_exercise("exercise1", course).grade(tmp_path / given, student="ann")
+    finally:
+        (tmp_path / closed).chmod(0o700)
+
+    assert (grade.status, grade.score) == ("ungradable", 0)
+    assert "cannot be opened" in grade.reason
+    assert "right to read it" in grade.reason
+
+
+@needs_rights
+@pytest.mark.parametrize("mode", [0, 0o400])
+def test_a_class_that_cannot_be_opened_is_one_line(course, tmp_path, monkeypatch, capsys, mode):
+    monkeypatch.chdir(course)
+    put(tmp_path / "in", {"ann/exercise1/answers.toml": RIGHT})
+    (tmp_path / "in").chmod(mode)
+    try:
+        assert run_command(["class", str(tmp_path / "in"), "--self-study"]) == 2
+    finally:
+        (tmp_path / "in").chmod(0o700)
+
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert "our mistake" not in said
 
 
 @pytest.mark.skipif(not hasattr(os, "symlink") or os.name == "nt", reason="links need a right")
@@ -206,6 +245,37 @@ def test_a_file_exchanged_for_a_link_after_the_look_is_not_followed(tmp_path):
 
     with pytest.raises(OSError, match="symbolic link|Bad file descriptor"):
         found.content(100)
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="links need a right, and pipes a system")
+def test_a_zip_file_that_is_a_link_or_a_pipe_is_not_read(course, tmp_path):
+    zip_all(tmp_path / "secret.zip", {"exercise1/answers.toml": RIGHT})
+    (tmp_path / "ann.zip").symlink_to(tmp_path / "secret.zip")
+    os.mkfifo(tmp_path / "ben.zip")
+
+    for name in ("ann", "ben"):
+        one = read_submission(tmp_path / f"{name}.zip", list_exercises(course), student=name)
+        assert "cannot be read" in one.problem
+        assert one.files == {}
+
+
+@pytest.mark.skipif(os.name == "nt", reason="links need a right")
+@pytest.mark.parametrize("name", ["real", "real.zip"])
+def test_a_link_that_the_instructor_names_is_followed(course, tmp_path, monkeypatch, name):
+    monkeypatch.chdir(course)
+    put(tmp_path / "real", {"exercise1/answers.toml": RIGHT})
+    zip_all(tmp_path / "real.zip", {"exercise1/answers.toml": RIGHT})
+    (tmp_path / "link").symlink_to(tmp_path / name)
+
+    asked = ["--student", "ann", "--self-study", "-o", str(tmp_path / "out"), "--exercise", "1"]
+    assert run_command(["class", str(tmp_path / "link"), *asked]) == 0
+    assert "\nann,3,3,3" in (tmp_path / "out" / "gradebook.csv").read_text(encoding="utf-8-sig")
+
+
+def zip_all(path, files):
+    with zipfile.ZipFile(path, "w") as archive:
+        for name, text in files.items():
+            archive.writestr(name, text)
 
 
 def _exchange(place, top):

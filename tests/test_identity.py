@@ -1,12 +1,13 @@
 """Whose numbers somebody worked on: the package says it, at home and where a class is graded."""
 
+from html import unescape
 from pathlib import Path
 
 import pytest
 from small_course import RIGHT, lay_out
 
 from grader.classroom.identity import check_identities
-from grader.classroom.secret import seal_identity
+from grader.classroom.secret import identify_secret, seal_identity
 from grader.classroom.submissions import find_submissions
 from grader.cli import run_command
 from grader.course import load_progress
@@ -160,6 +161,18 @@ def test_single_answers_without_a_secret_are_refused_until_somebody_says_whose_n
     assert not (tmp_path / "in-graded").exists()
     assert run_command(["class", str(place), "--self-study"]) == 0
     assert capsys.readouterr().out.startswith("Graded without a secret, on the numbers of self-")
+
+
+def test_the_secret_that_graded_stands_on_the_first_line(course, tmp_path, capsys):
+    issue(course, "ann")
+    hand_in(course, tmp_path / "in", "ann")
+    (tmp_path / "secret").write_bytes(SECRET)
+
+    assert run_command(["class", str(tmp_path / "in"), "--secret", str(tmp_path / "secret")]) == 0
+    first = f"Graded with the secret {identify_secret(SECRET)}, on each student's numbers from it."
+    assert capsys.readouterr().out.startswith(first)
+    page = (tmp_path / "in-graded" / "index.html").read_text(encoding="utf-8")
+    assert f"<p>{first}</p>" in unescape(page)
 
 
 def test_partners_may_hand_in_the_package_of_one_of_them(course, tmp_path):

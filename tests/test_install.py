@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import shutil
 import subprocess
 import venv
@@ -142,6 +143,21 @@ def test_an_exercise_is_solved_in_a_folder_that_grade_start_made(whole, tmp_path
 
     assert before.returncode in {1, 2}
     assert json.loads(after.stdout)["status"] == "passed", after.stderr
+
+
+def test_a_folder_that_grade_start_made_does_not_replace_the_installed_course(whole, tmp_path):
+    run(["grade", "start", "mine", "--no-lab", "--student", "ann"], whole, cwd=tmp_path)
+    mine = tmp_path / "mine"
+    advice = run(["grade", "doctor"], whole, cwd=mine).stdout + (mine / "README.md").read_text(
+        "utf-8"
+    )
+
+    assert "python -m pip install" in advice
+    assert not re.search(r"""pip install\s+(-e\s+)?["']?\.""", advice)
+    for options in ([], ["-e"]):
+        done = run(["python", "-m", "pip", "install", "--no-deps", *options, "."], whole, cwd=mine)
+        assert done.returncode, done.stdout
+    assert run(["grade", "--version"], whole, cwd=tmp_path).returncode == 0
 
 
 def test_a_folder_is_unpacked_once_and_nothing_else_is_written_over(whole, tmp_path):

@@ -128,7 +128,9 @@ def read_text(path: Path) -> str:
     except OSError as error:
         reason = (error.strerror or type(error).__name__).lower()
         raise UnreadableFile(
-            f"cannot be opened: {reason}", where=str(path), advice="Look at the name once more."
+            f"cannot be opened: {reason}",
+            where=str(path),
+            advice="Check its name, and whether you have the right to read it.",
         ) from None
     if not raw.strip():
         restore = _explain_restore(path.resolve().parent, path.name)

@@ -14,6 +14,7 @@ import zlib
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
+from typing import BinaryIO
 
 MAX_FILES = 20_000  # of one student's: a whole robot project with its build has fewer
 MAX_ZIP_ENTRIES = 200_000  # in one zip file, also of folders that nobody reads
@@ -98,7 +99,7 @@ def _list_outer_files(place: Path, name: PurePosixPath) -> Iterator[SubmittedFil
     if place.is_dir():
         yield from _read_folder(place)
     elif name.suffix.lower() == ".zip":
-        with zipfile.ZipFile(place) as archive:
+        with _open_file(os.open(place, _OPEN)) as stream, zipfile.ZipFile(stream) as archive:
             yield from _read_zip(archive, PurePosixPath(name.stem))  # exercise4.zip: answers.toml
     elif is_archive(name.name):
         raise ValueError("it is an archive, but no zip file. Unpack it, or ask for a zip file")
@@ -129,10 +130,20 @@ _OPEN = (
 )
 
 
+def _open_file(descriptor: int) -> BinaryIO:
+    """An opened file to read.
+
+    Raises:
+        ValueError: it is a pipe or a device.
+    """
+    if not stat.S_ISREG(os.fstat(descriptor).st_mode):
+        os.close(descriptor)
+        raise ValueError("it holds something that is no file")
+    return os.fdopen(descriptor, "rb")
+
+
 def _read_file(descriptor: int, size: int) -> bytes:
-    with os.fdopen(descriptor, "rb") as stream:
-        if not stat.S_ISREG(os.fstat(stream.fileno()).st_mode):
-            raise ValueError("it holds something that is no file")
+    with _open_file(descriptor) as stream:
         return stream.read(size)
 
 

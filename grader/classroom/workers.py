@@ -20,7 +20,10 @@ from sim.support.work.executor import collect_results
 
 SECONDS = 50.0  # [s] for one exercise of one student; an honest one takes 0.1 to 4 s
 MEMORY = 4 * 1024**3  # [bytes] of address space; an honest worker uses a quarter of it
-TOO_LONG = f"grading it took more than {SECONDS:g} s and was stopped"
+TOO_LONG = (
+    f"grading it took more than {SECONDS:g} s and was stopped. It is not tried again by itself. If "
+    "this computer was very busy, add --again"
+)
 ENDED = "the process that graded it stopped, perhaps because the memory was full"
 
 

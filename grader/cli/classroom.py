@@ -9,6 +9,7 @@ import click
 from grader.cli.course_here import choose_exercises, find_course_here
 from grader.terminal import print_error, print_lines, style_line, wrap_text
 from sim.support.command_line import DONE, INTERRUPTED, NOT_RIGHT
+from sim.support.os_errors import refuse_os_errors
 from sim.support.printable import list_first
 
 if TYPE_CHECKING:
@@ -165,10 +166,14 @@ def _find_submissions(
 
     everything = list_exercises(course)
     if student:
-        return (read_submission(folder, everything, asked=asked, student=student),)
+        named = folder.resolve()  # whoever names a link means what it leads to
+        return (read_submission(named, everything, asked=asked, student=student),)
     roster = known.identities if known else None
-    there = find_submissions(folder, everything, asked=asked, roster=roster)
-    if stray := find_stray_files(folder, roster):
+    advice = "Give yourself the right to open it, then run the same command again."
+    with refuse_os_errors("what the class handed in cannot be opened", folder, advice=advice):
+        there = find_submissions(folder, everything, asked=asked, roster=roster)
+        stray = find_stray_files(folder, roster)
+    if stray:
         print_error(f"left out, because no student has such a name: {', '.join(stray)}")
     return there
 

@@ -135,9 +135,9 @@ def main() -> None:
         work = spent() - before
         there = sum(1 for _ in handed_in.glob("*/*"))
         results = folder / "class-graded" / "results"
-        written = {one: one.stat().st_mtime_ns for one in results.iterdir()}
+        written = {one: one.stat().st_mtime_ns for one in results.glob("*.json")}
         again, _ = grade_class(handed_in, secret, only=names)
-        anew = sum(one.stat().st_mtime_ns != written.get(one) for one in results.iterdir())
+        anew = sum(one.stat().st_mtime_ns != written.get(one) for one in results.glob("*.json"))
         aim = TARGET * students / 500
         print(f"{'everything':36}{total:8.1f} s   aim {aim:.0f} s, {loaded()}")
         became = outcomes(results)

@@ -1,6 +1,9 @@
 """How long a dataset takes, and how much memory: seconds, files a second, most memory at a time.
 
-    python tests/benchmarks/bench_dataset.py [LOGS] [PROCESSES]
+    python tests/benchmarks/bench_dataset.py [LOGS] [PROCESSES] [cluster]
+
+With ``cluster``, the workers of a Dask cluster on this machine make the logs, too: PROCESSES
+workers of one thread, which must make the same files. Memory is then that of the command alone.
 
 The whole command as a person runs it, from its start to the sealed key: logs of four tests (34 s of
 a robot's time) as WPILOG, each of another mechanism, once plain and once with effects hidden and
@@ -11,6 +14,8 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Sequence
+from hashlib import sha256
 from pathlib import Path
 
 import psutil
@@ -46,8 +51,13 @@ def memory(process: psutil.Process) -> int:
     return total
 
 
-def measured(text: str, *, processes: int) -> tuple[float, int, int]:
-    """Seconds, most bytes, and files of one dataset."""
+def measured(text: str, *, asked: Sequence[str]) -> tuple[float, int, dict[str, str]]:
+    """Seconds, most bytes, and the digest of each file of one dataset, by its name.
+
+    Args:
+        text: the logs of the specification.
+        asked: options of the command.
+    """
     with tempfile.TemporaryDirectory() as folder:
         spec = Path(folder) / "spec.toml"
         spec.write_text(f'name = "benchmark"\nseed = 1\n{ROUTINE}{text}', encoding="utf-8")
@@ -55,7 +65,7 @@ def measured(text: str, *, processes: int) -> tuple[float, int, int]:
         running = psutil.Popen(
             [
                 *(sys.executable, "-c", "from sim.cli import main; main()"),
-                *("dataset", str(spec), "-o", f"{folder}/data", "--processes", str(processes)),
+                *("dataset", str(spec), "-o", f"{folder}/data", *asked),
             ],
             stdout=subprocess.DEVNULL,
         )
@@ -66,22 +76,38 @@ def measured(text: str, *, processes: int) -> tuple[float, int, int]:
         taken = time.perf_counter() - start
         if running.returncode:
             sys.exit(f"the command ended with {running.returncode}")
-        return taken, most, len(list(Path(folder, "data").iterdir()))
+        there = Path(folder, "data").iterdir()
+        return taken, most, {path.name: sha256(path.read_bytes()).hexdigest() for path in there}
+
+
+def report(name: str, found: tuple[float, int, dict[str, str]], more: str) -> None:
+    """Print one line."""
+    taken, most, files = found
+    print(
+        f"{name:20} {len(files):6} files   {taken:7.2f} s   {len(files) / taken:7.0f} files/s   "
+        f"{most / 1e6:6.0f} MB{more}",
+        flush=True,
+    )
 
 
 def main() -> None:
-    """Print one line for each kind of dataset."""
-    logs, processes = ([int(text) for text in sys.argv[1:]] + [1000, 2][len(sys.argv) - 1 :])[:2]
+    """Print one line for each kind of dataset, and another for the cluster."""
+    words = [one for one in sys.argv[1:] if one != "cluster"]
+    logs, processes = ([int(text) for text in words] + [1000, 2][len(words) :])[:2]
+    goal = f"   target {TARGET:g} s, {MOST / 1e6:g} MB" if (logs, processes) == (1000, 2) else ""
     for name, text in KINDS.items():
-        taken, most, files = measured(text.format(count=logs // 2), processes=processes)
-        goal = (
-            f"   target {TARGET:g} s, {MOST / 1e6:g} MB" if (logs, processes) == (1000, 2) else ""
-        )
-        print(
-            f"{name:20} {files:6} files   {processes} processes   {taken:7.2f} s   "
-            f"{files / taken:7.0f} files/s   {most / 1e6:6.0f} MB{goal}",
-            flush=True,
-        )
+        made = text.format(count=logs // 2)
+        here = measured(made, asked=("--processes", str(processes)))
+        report(name, here, f"   {processes} processes{goal}")
+        if "cluster" in sys.argv:
+            from distributed import LocalCluster  # noqa: PLC0415 - an extra
+
+            with LocalCluster(
+                n_workers=processes, threads_per_worker=1, dashboard_address="127.0.0.1:0"
+            ) as found:
+                there = measured(made, asked=("--cluster", found.scheduler_address))
+            same = "the same files" if here[2] == there[2] else "OTHER files"
+            report(name, there, f"   {processes} workers of a cluster: {same}")
 
 
 if __name__ == "__main__":
