@@ -111,6 +111,15 @@ def test_the_feedforward_is_wpilibs(now, after):
         )
 
 
+def test_from_rest_the_first_loop_has_no_ks():
+    ff, bare = (ElevatorFeedforward(ks, 2.0, 4.5, 0.2) for ks in (0.25, 0.0))
+
+    assert ff.calculateWithVelocities(0.0, 0.1) == bare.calculateWithVelocities(0.0, 0.1)
+    assert ff.calculateWithVelocities(0.1, 0.2) == pytest.approx(
+        0.25 + bare.calculateWithVelocities(0.1, 0.2)
+    )
+
+
 def test_the_feedback_is_wpilibs():
     wpi = pytest.importorskip("wpimath.controller", reason="needs the extra robot")
     mine, theirs = PIDController(3.0, 0.7, 0.05), wpi.PIDController(3.0, 0.7, 0.05)
