@@ -652,3 +652,11 @@ def test_threads_still_work(apart_run):
     code = "import threading\nt = threading.Thread(target=print)\nt.start()\nt.join()"
 
     assert dict(apart_run(attempt(code)).answers[0].numbers) == {"worked": 1.0}
+
+
+def test_a_run_leaves_nothing_behind(apart_run, monkeypatch, tmp_path):
+    monkeypatch.setenv("TMPDIR", str(tmp_path))
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    apart_run("import os\ndef fit(number):\n    os.mkdir('a', 0)\n    open('b', 'w').write('c')\n")
+
+    assert [file.name for file in tmp_path.iterdir()] == ["fit.py"]

@@ -528,3 +528,119 @@ def test_reconcile_finds_what_is_hidden_in_it(name):
     story = reconcile(logs[0], validation=logs[1], type="simple")
 
     assert [one.effect for one in story.findings] == ["velocity-filter"]
+
+
+EDWIN = "StuyPulse+Edwin~sysid~data~drivetrain"
+
+
+@pytest.mark.parametrize("name", ["swerve", "swerve-rotation"])
+def test_the_catalogues_own_never_slip_at_the_step_of_wpilib(name):
+    drawn = [MECHANISMS[name].draw(rng(seed)) for seed in range(200)]
+
+    assert min(compute_slip_voltage(one) for one in drawn) > 7.0
+
+
+def test_the_robot_cannot_be_pushed_harder_than_the_floor_holds():
+    one = quiet(KRAKEN.translation)
+    wheels = simulate(one, Routine(step=8.0, timeout=2.0, kinds=("dynamic",)), rng=rng())
+    (run, _) = wheels.runs
+
+    behind = run.position[-1] - 0.5 * one.grip * (run.time[-1] - run.time[0]) ** 2
+    caught = float(run.time[np.argmax(np.abs(run.velocity))] - run.time[0])
+
+    assert run.velocity[1] > 4 * one.grip * 0.02  # the wheels spin up at once
+    assert caught > run.velocity[5] / one.grip  # and the robot takes its time
+    assert behind < run.position[-1]
+
+
+def test_the_rotation_step_of_ctres_generator_slips_too_and_two_radians_a_second_do_not():
+    """Phoenix 6 26.3.0 turns a rate into rate · lever / top speed · 12 V."""
+    top = KRAKEN.motor.free_speed / KRAKEN.ratio * KRAKEN.wheel_radius
+    theirs, gentle = (rate * KRAKEN.lever_arm / top * 12.0 for rate in (math.pi, 2.0))
+
+    assert theirs == pytest.approx(3.4, abs=0.05)
+    assert gentle < compute_slip_voltage(KRAKEN.rotation) < theirs
+    assert compute_slip_voltage(KRAKEN.rotation) == pytest.approx(2.4, abs=0.05)
+
+
+def test_slip_makes_ka_too_large_and_leaves_kv():
+    log = simulate(KRAKEN.translation, Routine(ramp=0.5, step=4.0), rng=rng())
+    gains, true = fit(log, method="sysid").gains, KRAKEN.translation.gains
+
+    assert gains["kV"] == pytest.approx(true["kV"], rel=0.02)
+    assert gains["kA"] > 1.2 * true["kA"]
+
+
+def test_without_a_lever_the_speeds_tell_it():
+    found = compute_moment_of_inertia(*both(KRAKEN), mass=60.0)
+
+    assert found.lever == found.lever_seen == pytest.approx(KRAKEN.lever_arm, rel=1e-3)
+    assert found.value == pytest.approx(own_share(KRAKEN), rel=0.01)
+
+
+def test_it_is_in_the_json_and_a_tanks_lever_is_grave(logs, capsys):
+    code, said, _ = run(
+        capsys, "fit", logs / "turning.wpilog", *TURNED, "--straight", logs / "straight.wpilog",
+        "--mass", 60, "--lever", 0.3, "--json",
+    )  # fmt: skip
+    found = json.loads(said)
+
+    assert code == 1
+    assert found["moment_of_inertia"]["value"] == pytest.approx(3.69, abs=0.05)
+    assert found["moment_of_inertia"]["lever_seen"] == pytest.approx(0.424, abs=0.001)
+    assert "lever" in {one["code"] for one in found["warnings"]}
+
+
+@pytest.mark.shared
+def test_a_real_pair_of_logs_in_different_units_is_told_by_the_lever(real, capsys):
+    """One file has the wheel's circumference in it, the other none: kV differs sixteenfold."""
+    turning, straight = f"{EDWIN}-angular.json", f"{EDWIN}.json"
+
+    code, said, _ = run(
+        capsys, "fit", real / turning, "--straight", real / straight,
+        "--mass", 55, "--lever", 0.3, "--json",
+    )  # fmt: skip
+
+    assert code == 1
+    assert "lever" in {one["code"] for one in json.loads(said)["warnings"]}
+
+
+@pytest.mark.shared
+def test_wheels_read_while_turning_need_a_lever(real, capsys):
+    code, _, why = run(
+        capsys, "fit", real / f"{EDWIN}-angular.json", "--straight", real / f"{EDWIN}.json",
+        "--mass", 55,
+    )  # fmt: skip
+
+    assert code == 2
+    assert "Give --lever as well: trackwidth/√2" in why
+
+
+def test_a_dataset_holds_swerve_logs_and_what_is_wrong_with_them(tmp_path, capsys):
+    spec = tmp_path / "swerve.toml"
+    spec.write_text(
+        """
+name = "swerve"
+seed = 1
+students = ["ann"]
+formats = ["wpilog"]
+
+[[logs]]
+mechanisms = ["swerve", "swerve-rotation"]
+count = 2
+drawn = true
+
+[[logs.faults]]
+name = ["wheel-slip", "encoder-slip"]
+severity = 1.0
+""",
+        encoding="utf-8",
+    )
+
+    code, said, why = run(capsys, "dataset", spec, "-o", tmp_path / "out")
+
+    assert code == 0, why
+    assert said
+    logs = sorted((tmp_path / "out").rglob("*.wpilog"))
+    assert len(logs) == 4
+    assert all(not inspect(sim.read(path)).is_clean for path in logs)
