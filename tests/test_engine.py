@@ -6,6 +6,7 @@ import math
 import os
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
 import numpy as np
@@ -30,6 +31,7 @@ from sim.physics.engine import (
 from sim.physics.engine.compose import MODULES, compose_engine, is_compiled
 from sim.physics.engine.kernel import NO_USE
 from sim.physics.engine.machine_code import ObjectCode, link_code
+from sim.physics.engine.power_path import CUT
 from sim.physics.engine.two_body_modes import TABLES_SIZE
 from sim.physics.model import Model, Part
 from sim.support.work.cache import CACHE, find_cache_folder
@@ -349,3 +351,60 @@ def test_a_home_that_cannot_be_written_to_is_no_obstacle(tmp_path):
     blocked.write_text("not a folder", encoding="utf-8")
 
     assert started({**os.environ, CACHE: str(blocked / "cache")}) == (0, ENDS, "")
+
+
+def test_drag_ends_at_the_speed_at_which_the_volts_are_spent():
+    # 4 = 0.2 + 2 v + 0.5 v² has v = (-2 + √(4 + 7.6))/1
+    track = simulate_run(
+        PLAIN + Part("drag", {"drag": 0.5}),
+        time=np.arange(0.0, 5.0, 0.02), voltage=np.full(250, 4.0), state=State(),
+    )  # fmt: skip
+
+    assert track.velocity[-1] == pytest.approx(-2.0 + math.sqrt(11.6), rel=1e-6)
+
+
+def test_a_hidden_delay_is_not_in_the_voltage_that_is_recorded():
+    late = simulate_run(
+        PLAIN + Part("delay", {"lag": 0.06}), time=TIME, voltage=3.0 * TIME, state=State()
+    )
+
+    assert (late.applied == 3.0 * TIME).all()
+
+
+def test_a_filter_reports_the_mean_velocity_of_its_window():
+    track = simulate_run(
+        PLAIN + Part("velocity-filter", {"window": 0.1}),
+        time=TIME, voltage=steady(3.0), state=State(),
+    )  # fmt: skip
+
+    assert track.seen[5:] == pytest.approx((track.position[5:] - track.position[:-5]) / 0.1)
+
+
+def test_a_brownout_takes_the_motors_off_for_a_loop():
+    built = replace(MECHANISMS["drivetrain"], stator=400.0, supply=400.0)
+    time = np.arange(0.0, 0.5, 0.005)
+
+    track = simulate_run(
+        built.model, time=time, voltage=np.full(time.size, 11.0), state=State(),
+        wires=make_power_path_array(built),
+    )  # fmt: skip
+
+    off = track.applied == 0.0
+    assert off.any()
+    assert not off[-1]  # at speed it draws less, and the battery recovers
+    starts = np.flatnonzero(np.diff(off.astype(int)) == 1)
+    ends = np.flatnonzero(np.diff(off.astype(int)) == -1)
+    lasted = (ends[-1] - starts[-1]) * 0.005 if starts.size else CUT
+    assert lasted == pytest.approx(CUT, abs=0.006)
+
+
+def test_threads_that_ask_at_once_get_one_engine():
+    with ThreadPoolExecutor(4) as pool:
+        tracks = list(
+            pool.map(
+                lambda _: simulate_run(PLAIN, time=TIME, voltage=steady(3.0), state=State()),
+                range(8),
+            )
+        )
+
+    assert all((track.velocity == tracks[0].velocity).all() for track in tracks)

@@ -1,15 +1,18 @@
 """Method output-error: right, with error bars that hold, or refused by name."""
 
+import math
 from dataclasses import replace
-from itertools import combinations
+from itertools import chain, combinations
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import move_gains_only, simulate
-from sim.core.errors import NotIdentifiable
+from sim.core.errors import BadRequest, NotIdentifiable
 from sim.core.log import FOUR_TESTS, Log, Run
 from sim.fit import fit
 from sim.physics.engine import State, simulate_run
@@ -339,3 +342,81 @@ def test_gains_are_right_where_a_limit_cut_the_first_samples_of_a_step(kind):
     for gain, truth in mechanism.gains.items():
         assert abs(exact.gains[gain] - truth) < 4.0 * exact.errors[gain]
         assert abs(cut.gains[gain] - truth) < 4.0 * cut.errors[gain]
+
+
+def test_repeated_runs_are_all_used_and_make_the_errors_smaller():
+    mechanism = MECHANISMS["arm"]
+    one = simulate(mechanism, GENTLE, rng=rng(1))
+    more = [simulate(mechanism, GENTLE, rng=rng(seed)) for seed in (2, 3, 4)]
+    together = replace(one, runs=tuple(chain(one.runs, *(log.runs for log in more))))
+
+    alone, four = fit(one), fit(together)
+
+    assert four.errors["kA"] < 0.7 * alone.errors["kA"]
+    assert four.gains["kA"] == pytest.approx(mechanism.gains["kA"], rel=0.01)
+
+
+def test_frames_logged_four_times_over_are_counted_once():
+    mechanism = replace(
+        MECHANISMS["drivetrain"], sensor=replace(MECHANISMS["drivetrain"].sensor, frame=0.02)
+    )
+    log = simulate(mechanism, GENTLE, rng=rng(3), period=0.005)
+
+    found = fit(log)
+
+    assert found.gains["kA"] == pytest.approx(mechanism.gains["kA"], rel=0.05)
+    assert fit(log, method="sysid").gains["kA"] < 0.7 * mechanism.gains["kA"]
+
+
+def test_samples_at_odd_times_are_taken_at_their_times():
+    # every fourth sample at random, of steps whose voltage is the same all along
+    log = simulate(MECHANISMS["drivetrain"], GENTLE, rng=rng(3), period=0.005)
+    runs = []
+    for run in log.runs:
+        chosen = rng(5).choice(np.arange(1, len(run)), size=len(run) // 4, replace=False)
+        some = np.concatenate(([0], np.sort(chosen)))
+        if run.kind == "dynamic":
+            columns = (run.time, run.voltage, run.position, run.velocity)
+            runs.append(Run(run.test, *(column[some] for column in columns)))
+        else:
+            runs.append(run)
+
+    found = fit(replace(log, runs=tuple(runs)))
+
+    assert found.gains["kA"] == pytest.approx(MECHANISMS["drivetrain"].gains["kA"], rel=0.02)
+
+
+def test_signs_opposed_are_told_and_fitted_as_they_are():
+    log = simulate(MECHANISMS["drivetrain"], GENTLE, rng=rng(1))
+    turned = replace(log, runs=tuple(replace(r, voltage=-r.voltage) for r in log.runs))
+
+    found = fit(turned)
+
+    assert found.gains["kV"] == pytest.approx(-MECHANISMS["drivetrain"].gains["kV"], rel=1e-3)
+    assert "sign-opposed" in [doubt.code for doubt in found.doubts if doubt.grave]
+
+
+@pytest.mark.parametrize("kind", MECHANISMS)
+def test_a_model_that_holds_is_not_doubted(kind):
+    for seed in range(4):
+        mechanism = drawn(kind, 40 + seed)
+        found = fit(simulate(mechanism, GENTLE, rng=rng(seed)), type=mechanism.type)
+        assert {doubt.code for doubt in found.doubts} <= {"type-from-name"}
+
+
+@settings(max_examples=40)
+@given(
+    st.lists(st.floats(-1e8, 1e8), min_size=5, max_size=40),
+    st.lists(st.floats(-1e8, 1e8), min_size=5, max_size=40),
+    st.sampled_from(["simple", "elevator", "arm"]),
+)
+def test_any_table_of_numbers_gives_finite_gains_or_a_refusal(volts, speeds, type_):
+    n = min(len(volts), len(speeds))
+    way = np.clip(np.cumsum(speeds[:n]) * 0.02, -9e8, 9e8)
+    runs = tuple(Run(test, np.arange(n) * 0.02, volts[:n], way, speeds[:n]) for test in FOUR_TESTS)
+    try:
+        found = fit(Log(runs, units="radians"), type=type_)
+    except (NotIdentifiable, BadRequest):
+        return
+    for numbers in (found.gains, found.errors):
+        assert all(math.isfinite(value) for value in numbers.values())
