@@ -23,7 +23,7 @@ def record_each(mechanism, vary, *, seed):
     return replace(logs[0], runs=runs)
 
 
-def drift(log, rng):
+def drift_clocks(log, rng):
     """The log by a clock that is up to a ten-thousandth too fast or slow in each run."""
     return Log(
         tuple(
@@ -47,7 +47,7 @@ def test_gains_hold_where_runs_differ(name, what):
     for seed in range(4):
         log = record_each(mechanism, VARIED.get(what, lambda one, _: one), seed=seed)
         if what == "clock":
-            log = drift(log, np.random.default_rng(seed))
+            log = drift_clocks(log, np.random.default_rng(seed))
         found = fit(log, type=mechanism.type)
         off += [
             abs(found.gains[gain] - true) / max(found.errors[gain], 1e-3 * true)

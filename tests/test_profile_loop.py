@@ -129,7 +129,9 @@ def test_the_feedback_is_wpilibs():
         assert mine.calculate(measured, wanted) == pytest.approx(theirs.calculate(measured, wanted))
 
 
-def loop_of(now="now.velocity", after="after.velocity", measured="position", wanted="now.position"):
+def make_loop(
+    now="now.velocity", after="after.velocity", measured="position", wanted="now.position"
+):
     """A learner's loop that hands these numbers of a moment to the feedforward and the feedback."""
     of = attrgetter(now, after, measured, wanted)
 
@@ -144,18 +146,18 @@ def loop_of(now="now.velocity", after="after.velocity", measured="position", wan
     ("mine", "says"),
     [
         (compute_loop_voltage, RIGHT),
-        (loop_of(), RIGHT),
+        (make_loop(), RIGHT),
         (lambda *_: ..., "still empty"),
         (lambda *_: nothing, "stops with an error"),  # noqa: F821 - meant
-        (lambda ff, _, one: loop_of()(ff, PIDController(0.0), one), "The feedback is missing"),
+        (lambda ff, _, one: make_loop()(ff, PIDController(0.0), one), "The feedback is missing"),
         (lambda _, pid, one: pid.calculate(one.position, one.now.position), "The feedforward is"),
-        (loop_of(measured="now.position", wanted="position"), "takes the measurement first"),
-        (loop_of(after="now.velocity"), "kA does nothing"),
-        (loop_of(now="after.velocity", after="now.velocity"), "velocities are swapped"),
-        (loop_of(wanted="after.position"), "not of the next loop"),
-        (loop_of(now="now.position", after="after.position"), "needs velocities"),
-        (loop_of(now="velocity"), "never at what is measured"),
-        (loop_of(measured="velocity", wanted="now.velocity"), "controls a position"),
+        (make_loop(measured="now.position", wanted="position"), "takes the measurement first"),
+        (make_loop(after="now.velocity"), "kA does nothing"),
+        (make_loop(now="after.velocity", after="now.velocity"), "velocities are swapped"),
+        (make_loop(wanted="after.position"), "not of the next loop"),
+        (make_loop(now="now.position", after="after.position"), "needs velocities"),
+        (make_loop(now="velocity"), "never at what is measured"),
+        (make_loop(measured="velocity", wanted="now.velocity"), "controls a position"),
         (lambda *_: 1.0, "Add two things"),
     ],
 )

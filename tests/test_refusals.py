@@ -30,7 +30,7 @@ def respond(loop="velocity", kp=1.0, **gains):
     return simulate_step_response(plant, loop=loop, feedback=Feedback(kp, 0.0), target=1.0)
 
 
-def map_nothing():
+def map_gap_of_nothing():
     (run,) = runs_of("dynamic-forward")
     return map_gap([replace(run, error=np.full_like(run.error, math.nan))], noise=NOISE)
 
@@ -51,7 +51,7 @@ REQUESTS = {
     "a test twice": lambda: Routine(kinds=("coast", "coast")),
     "slip and a joint": lambda: MECHANISMS["drivetrain"].hide("wheel-slip").hide("backlash"),
     "wheels of an elevator": spoil_an_elevator,
-    "a gap of nothing": map_nothing,
+    "a gap of nothing": map_gap_of_nothing,
     "a profile to nowhere": lambda: TrapezoidProfile(0.5, 0.5, 1.0, 1.0),
     "a profile without speed": lambda: TrapezoidProfile(0.0, 1.0, 0.0, 1.0),
     "an unknown loop": lambda: respond(loop="torque"),

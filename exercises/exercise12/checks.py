@@ -101,7 +101,7 @@ def _make_search(variant: Variant) -> "HandSearch":
 
 @lru_cache(maxsize=REMEMBERED)
 def _fit_gains(search: "HandSearch", effects: Effects) -> "Estimate":
-    """The gains with effects as an answer gives them."""
+    """The gains of the model with effects, as the answer states them."""
     from sim.physics.model import Part  # noqa: PLC0415 - numpy only where it is needed
 
     return search.fit_gains([Part(name, dict(values)) for name, values in effects])

@@ -9,7 +9,7 @@ from grader.mistake import Mistake, change_number, make_wrong_answer, scale_numb
 ANSWERS = "answers.toml"
 
 
-def measured(right: str) -> float:
+def read_ratio(right: str) -> float:
     """Measured over theory, as the right answers have it."""
     found = re.search(r"^difference = (\S+)", right, re.MULTILINE)
     return 1.0 + float(found[1] if found else "nan") / 100.0
@@ -54,9 +54,9 @@ MISTAKES = (
         change_number("kV_theory", lambda right: 1.0 / right["kV_theory"]), "kv-theory",
         "this is upside down"),
     Mistake("the measured kV", ANSWERS,
-        lambda text: change_number("kV_theory", lambda right: right["kV_theory"] * measured(text))(
-            text
-        ), "kv-theory", "this is the measured kV. Compute the"),
+        lambda text: change_number(
+            "kV_theory", lambda right: right["kV_theory"] * read_ratio(text)
+        )(text), "kv-theory", "this is the measured kV. Compute the"),
     Mistake("a unit that measures something else", ANSWERS,
         make_wrong_answer("kV_theory", '"2 m/s"'), "kv-theory", "is not a unit of", "M-UNITS"),
     Mistake("a number from nowhere", ANSWERS, scale_numbers(1.37, "kV_theory"), "kv-theory",
