@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 import sim
 from sim.bench.mechanisms import MECHANISMS
+from sim.bench.recorder import RECORDERS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.cli import sysid
@@ -162,6 +163,18 @@ def test_arm_that_falls_onto_its_stop_shows_its_spring(shared):
     assert "falls-first" in {doubt.code for doubt in log.doubts}
     assert [part.effect for part in story.model.parts] == ["spring"]
     assert story.gains["kG"].value == pytest.approx(1.509, abs=0.01)
+
+
+@pytest.mark.parametrize(("name", "step"), [("arm", 7.0), ("elevator", 7.0), ("turret", 3.0)])
+def test_frames_of_a_motor_controller_are_no_missing_effect(name, step):
+    recorder = RECORDERS["talonfx"]
+    robot = recorder.record(MECHANISMS[name])
+    log = simulate(robot, Routine(step=step), rng=np.random.default_rng(5), period=recorder.period)
+
+    story = reconcile(log, type=robot.type)
+
+    assert {one.effect for one in story.findings} <= {"delay"}
+    assert story.gap_after < 2.0 * story.noise_floor
 
 
 def test_elevator_that_stays_on_its_stop_in_a_test_is_fitted_by_the_others():

@@ -15,6 +15,7 @@ from sim.bench.simulate import move_gains_only, simulate
 from sim.core.errors import BadRequest
 from sim.fit import fit
 from sim.physics.battery import Battery
+from sim.physics.replay import replay_log
 
 GAINS = {"kS": 0.25, "kV": 2.0, "kA": 0.3}
 QUIET = Sensor(resolution=1e-12, velocity_noise=0.0, noise_speed=1.0, jitter=0.0)
@@ -135,6 +136,17 @@ def test_a_recorded_voltage_is_what_reached_the_motors():
 
     assert step.voltage[0] == pytest.approx(120.0 * 12.0 / 366.0)
     assert step.voltage[-1] == pytest.approx(7.0)
+
+
+def test_a_delayed_motor_moves_as_the_recorded_voltage_says_under_a_current_limit():
+    late = MECHANISMS["drivetrain"].hide("delay", 1.5)
+    log = simulate(late, Routine(), rng=rng())
+
+    (step,) = (run for run in log.runs if run.test == "dynamic-forward")
+    assert np.ptp(step.voltage) > 2.0  # the limit acts
+    for run, track in zip(log.runs, replay_log(late.model, log), strict=True):
+        error = float(np.sqrt(np.mean(np.square(run.velocity - track.seen))))
+        assert error < 1.5 * late.sensor.velocity_noise
 
 
 def test_current_and_battery_are_recorded_where_asked():

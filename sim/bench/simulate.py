@@ -70,7 +70,8 @@ def simulate(
     _check_period(period)
     model, slips = mechanism.model, make_slip_effect(mechanism)
     wires = make_power_path_array(mechanism, duty_cycle=duty_cycle)
-    parts = _steps_per_loop(mechanism)
+    parts = STEPS_PER_LOOP if mechanism.sensor.latency or mechanism.sensor.frame else 1
+    lag = sum(part.parameters["lag"] for part in model.parts if part.effect == "delay")
     runs: list[Run] = []
     state, start, last, cut, gripped = State(), PAUSE, 0.0, False, False
     for test in routine.tests:
@@ -89,6 +90,8 @@ def simulate(
         if end < track.position.size and state.memory.any():  # without heating after the end
             track, state = _move(active, time, voltage, begin=begin, wires=wires)
         loops, seen = time[::parts], track.truncate(end)
+        applied = _delay_limits(voltage, seen.applied, time=time, lag=lag)
+        seen = replace(seen, applied=applied)
         run = _record_run(mechanism, test, time, seen, loops=loops, rng=rng, electrical=electrical)
         runs.append(replace(run, time=start + loops))
         cool_down(state, model, PAUSE)
@@ -121,6 +124,15 @@ def _is_cut(state: State) -> bool:
     return bool(state.body[OFF_UNTIL] > 0.0)
 
 
+def _delay_limits(voltage: Array, applied: Array, *, time: Array, lag: float) -> Array:
+    """(n,) [V] at the motors, as logged ``lag`` [s] before it acts.
+
+    The delay lies between the log and the motion, so battery and limits reduce the voltage of one
+    sample by what the motors lose when it acts, a delay later.
+    """
+    return voltage + np.interp(time + lag, time, applied - voltage)
+
+
 def _record_run(
     mechanism: Mechanism, test: str, time: Array, track: Track,
     *, loops: Array, rng: np.random.Generator, electrical: bool,
@@ -133,11 +145,6 @@ def _record_run(
     logged = track.take_every((time.size - 1) // (loops.size - 1))
     extra = {"current": logged.current, "bus_voltage": logged.bus} if electrical else {}
     return Run(test, loops, logged.applied, *seen, **extra)
-
-
-def _steps_per_loop(mechanism: Mechanism) -> int:
-    """Number of recorded steps per loop, for the sensor model."""
-    return STEPS_PER_LOOP if mechanism.sensor.latency or mechanism.sensor.frame else 1
 
 
 def _divide_loops(time: Array, voltage: Array, parts: int) -> tuple[Array, Array]:

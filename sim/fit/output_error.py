@@ -400,6 +400,7 @@ def _make_result(
         velocity_delay=lag + 0.5 * window,
         velocity_threshold=0.0,
         step_duration=0.0,
+        lag_differs=problem.lag_sd > 0.0,
         parts=list_everyday_effects(point),
         doubts=(
             *log.doubts,

@@ -40,6 +40,7 @@ class Fit:
         velocity_threshold: [unit/s] slower quasistatic samples were left out; 0 with
             ``output-error``.
         step_duration: [s] used part of each dynamic test; 0 with ``output-error``.
+        lag_differs: whether the lag of the readings was found to differ from run to run.
         parts: small effects that were fitted together with the gains, in SI. A simulation needs
             them, a feedforward leaves them out.
         doubts: warnings about the numbers.
@@ -60,6 +61,7 @@ class Fit:
     velocity_delay: float
     velocity_threshold: float
     step_duration: float
+    lag_differs: bool = False
     parts: tuple[Part, ...] = field(default=())
     doubts: tuple[Doubt, ...] = field(default=())
 

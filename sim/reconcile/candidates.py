@@ -54,7 +54,7 @@ class Candidate:
         effect: its name; empty for the base model.
         estimate: the optimized parameters of the model with it.
         bic: [of -2 log L] Bayesian information criterion of the estimate, integrated over the
-            friction of each run; the smaller, the better.
+            friction and lag of each run; the smaller, the better.
     """
 
     effect: str
@@ -67,6 +67,9 @@ def score_estimate(problem: PredictionErrorProblem, point: Estimate, effect: str
     penalty = point.structure.free_count * math.log(max(problem.sample_count, 2))
     sd = get_friction_sd(point.values)
     integral = compute_laplace_correction(sd, problem.compute_friction_jacobian(point))
+    if problem.lag_sd:
+        lags = problem.compute_lag_jacobian(point)
+        integral += compute_laplace_correction(problem.lag_sd, lags)
     return Candidate(effect, point, point.cost + integral + penalty)
 
 

@@ -170,7 +170,20 @@ def estimate_initial_nuisance(problem: PredictionErrorProblem, point: Estimate) 
     found = problem.evaluate(point.structure, point.values, first, point.process_noise)
     for _ in range(ROUNDS):
         found = estimate_backlash_phase(problem, found)
+        if problem.lag_sd:
+            found = _estimate_lags(problem, found)
     return found.nuisance
+
+
+def _estimate_lags(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
+    """The estimate after a Gauss-Newton step of the lag of each run."""
+    slopes = problem.compute_lag_jacobian(point)
+    lags, known = point.nuisance.lag_offset, 1.0 / problem.lag_sd**2
+    gradient = slopes.T @ problem.whiten(point, point.innovations) + known * lags
+    step = -gradient / (np.sum(np.square(slopes), axis=0) + known)
+    nuisance = point.nuisance.add_lag(step)
+    found = problem.evaluate(point.structure, point.values, nuisance, point.process_noise)
+    return min(point, found, key=lambda one: one.cost)
 
 
 def _has_backlash(chapter: Chapter) -> bool:

@@ -1,5 +1,6 @@
 """The logs that are reconciled with a model, and what follows from them before any fit."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -19,6 +20,7 @@ from sim.estimation.run_records import (
 from sim.reconcile.damage import DamageDecision
 from sim.reconcile.thresholds import LEAST_FLOOR, MOST_WANDERING
 
+UNIFORM = math.sqrt(3.0)  # root mean square of what is uniform between 0 and 1, inverted
 ORDER = ("log", "validation", "held_out")  # in which they were recorded
 
 
@@ -32,6 +34,7 @@ class Recordings:
         held_out: runs on which the gap is shown, if given.
         type: the base model: ``simple``, ``elevator`` or ``arm``.
         damage: excluded intervals of each of these logs, by its name.
+        lag_differs: whether the lag of the readings differs from run to run, by up to a period.
     """
 
     log: Log
@@ -39,6 +42,7 @@ class Recordings:
     held_out: Log | None
     type: str
     damage: DamageDecision = field(default_factory=DamageDecision)
+    lag_differs: bool = False
 
     @property
     def logs_by_name(self) -> Mapping[str, Log]:
@@ -68,13 +72,13 @@ class Recordings:
     def make_problem(self) -> PredictionErrorProblem:
         """The problem of all runs that may be fitted, without damaged intervals."""
         fitted = [name for name in self.logs_by_name if name != "held_out"]
-        return _make_problem(
+        return self._make_problem(
             [one for n, name in enumerate(fitted) for one in self._records(name, session=n)]
         )
 
     def make_shown_problem(self, name: str) -> PredictionErrorProblem:
         """The problem of one log alone, on which a gap can be shown."""
-        return _make_problem(self._records(name))
+        return self._make_problem(self._records(name))
 
     def count_repeated_runs(self, name: str) -> int:
         """Number of a log's runs that were recorded before, in it or in an earlier log."""
@@ -102,17 +106,21 @@ class Recordings:
             aside=self.damage.excluded.get(name, ()),
         )
 
+    def _make_problem(self, records: Sequence[RunRecord]) -> PredictionErrorProblem:
+        """The estimation problem of some runs, with limits of velocity noise and process noise.
 
-def _make_problem(records: Sequence[RunRecord]) -> PredictionErrorProblem:
-    """The estimation problem of some runs, with limits of velocity noise and process noise.
-
-    A velocity that a device averages is so smooth that hardly any noise is measured in it. With so
-    little noise, random acceleration would explain the motion better than the voltage does.
-    """
-    problem = PredictionErrorProblem.from_records(records)
-    top = problem.top_speed
-    noise = replace(problem.noise, velocity=max(problem.noise.velocity, LEAST_FLOOR * top))
-    return replace(problem, noise=noise, max_process_noise=(MOST_WANDERING * top) ** 2)
+        A velocity that a device averages is so smooth that hardly any noise is measured in it. With
+        so little noise, random acceleration would explain the motion better than the voltage does.
+        """
+        problem = PredictionErrorProblem.from_records(records)
+        top = problem.top_speed
+        noise = replace(problem.noise, velocity=max(problem.noise.velocity, LEAST_FLOOR * top))
+        return replace(
+            problem,
+            noise=noise,
+            max_process_noise=(MOST_WANDERING * top) ** 2,
+            lag_sd=problem.period / UNIFORM if self.lag_differs else 0.0,
+        )
 
 
 def _is_same_run(one: Run, other: Run) -> bool:
