@@ -11,9 +11,9 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from test_exercises import mistakes_of
 
 from grader.course import find_course
+from grader.course_check import list_mistakes
 from grader.exercise import list_exercises
 from grader.misconception import MISCONCEPTIONS
 from sim.inspect.faults import FAULTS
@@ -110,7 +110,7 @@ def test_an_item_is_checked_and_a_wrong_answer_falls_to_the_check(item):
         assert check in [one.id for one in EXERCISES[name].checks], f"{name} has no check {check}"
     for wrong in item["caught"]:
         name, _, mistake = wrong.partition(": ")
-        found = {(name, one.check) for one in mistakes_of(name) if one.name == mistake}
+        found = {(name, one.check) for one in list_mistakes(EXERCISES[name]) if one.name == mistake}
         assert found, f"solutions/{name}/mistakes.py has no {mistake!r}"
         assert found <= checks, f"{mistake!r} falls to another check: {found}"
     assert item["caught"]

@@ -9,24 +9,13 @@ from dataclasses import dataclass, field
 from grader.answers.choice_answer import check_choice, read_choices
 from grader.check import WrongAnswer
 
-from .morning import FOLDERS, SEEN, draw_morning
+from .morning import FOLDERS, SEEN, WHY, draw_morning
 
 __all__ = ["CHOICES", "draw_morning", "judge_all", "judge_choice", "judge_steps"]
 
 DECISIONS = ("go", "no-go")
 STEPS = ("wire-routine", "run-tests", "inspect-and-fit", "place-gains")
 LISTED = tuple(sorted(STEPS))
-WHY = {  # item of the checklist -> what a wrong decision overlooks
-    "travel": "how much room does the ramp need, forward and back? Do the wheels push the robot? "
-    "Do the motors brake after the test, as the plan says? In coast mode the robot rolls on.",
-    "battery": "at 12.5 V at rest or less, the voltage drops too far in a step.",
-    "encoder": "a positive voltage must give a rising position, without jumps.",
-    "log": "you need the log after the test. Has anybody fetched one from this robot before?",
-    "guard": "can somebody start a test by accident?",
-    "driver_station": (
-        "is there a person who can stop the robot at once and has nothing else to do?"
-    ),
-}
 
 
 @dataclass(frozen=True)

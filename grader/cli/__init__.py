@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from grader.exercise import Exercise
 
 
-OWN_MODULE = ("class", "doctor", "edition", "export", "mystery", "release", "watch")
+OWN_MODULE = ("check-course", "class", "doctor", "edition", "export", "mystery", "release", "watch")
 SIMILAR = 0.75  # [1] a word as similar to a command is a typing error, and no exercise
 COURSE_PACKAGES = ("tomlkit", "tree_sitter", "tree_sitter_java")  # of the extra `course`
 
@@ -45,7 +45,7 @@ class ExerciseOrCommand(click.Group):
         """The command of this name, or None."""
         if cmd_name not in OWN_MODULE:
             return super().get_command(ctx, cmd_name)
-        module = cmd_name.replace("class", "classroom")
+        module = {"class": "classroom"}.get(cmd_name, cmd_name.replace("-", "_"))
         return cast("click.Command", import_module(f"{__name__}.{module}").COMMAND)
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
@@ -63,7 +63,7 @@ class ExerciseOrCommand(click.Group):
         formatter.write_usage("grade", "start [FOLDER] [--no-lab] [--student NAME]")
         formatter.write_usage(
             "grade",
-            "watch | mystery | doctor | class FOLDER | release | export  [--help]",
+            "watch | mystery | doctor | class FOLDER | release | export | check-course  [--help]",
         )
         self.format_help_text(ctx, formatter)
         self.commands["exercise"].format_options(ctx, formatter)
