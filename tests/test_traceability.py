@@ -193,7 +193,8 @@ def test_the_practice_of_a_lesson_names_its_exercises_and_how_to_grade_them(less
 
 
 def test_every_exercise_is_practice_of_a_lesson():
-    assert {name for names in TABLE["practice"].values() for name in names} == {*EXERCISES}
+    named = {name for names in TABLE["practice"].values() for name in names}
+    assert named == {*EXERCISES}, "traceability.toml, [practice]: lesson -> its exercises"
 
 
 @pytest.mark.parametrize("name", EXERCISES)
@@ -205,6 +206,7 @@ def test_the_pointer_hint_sends_to_sections_that_are_there(name):
         lists = re.findall(r"[Ss]ections? (\d+(?:(?:, | and |, and )\d+)*)", part)
         sent |= {(lesson, number) for one in lists for number in re.findall(r"\d+", one)}
     meant = set()
+    assert name in TABLE["pointers"], f"traceability.toml, [pointers]: where {name}'s hint sends to"
     for lesson, heading in TABLE["pointers"][name]:
         assert heading in sections(lesson), f"lesson {lesson} has no section {heading!r}"
         meant.add((lesson, sections(lesson)[heading][0]))
