@@ -29,7 +29,16 @@ if TYPE_CHECKING:
     from grader.exercise import Exercise
 
 
-OWN_MODULE = ("check-course", "class", "doctor", "edition", "export", "mystery", "release", "watch")
+OWN_MODULE = {  # each is imported when it is asked for; the list of commands imports none of them
+    "check-course": "Check exercises that you wrote or changed.",
+    "class": "Grade what a class handed in.",
+    "doctor": "Check what is installed on this computer, and what is missing.",
+    "edition": "Run all lessons, and write each as a page and as slides.",
+    "export": "Make an autograder, or a configuration of JupyterHub.",
+    "mystery": "Make a log with a hidden problem, or grade your ANSWER to it.",
+    "release": "Make the students' package.",
+    "watch": "Grade an exercise each time you save its file.",
+}
 SIMILAR = 0.75  # [1] a word as similar to a command is a typing error, and no exercise
 COURSE_PACKAGES = ("tomlkit", "tree_sitter", "tree_sitter_java")  # of the extra `course`
 
@@ -67,7 +76,9 @@ class ExerciseOrCommand(click.Group):
         )
         self.format_help_text(ctx, formatter)
         self.commands["exercise"].format_options(ctx, formatter)
-        self.format_commands(ctx, formatter)
+        with formatter.section("Commands"):
+            own = {"start": self.commands["start"].get_short_help_str(limit=80), **OWN_MODULE}
+            formatter.write_dl(sorted(own.items()))
         self.format_epilog(ctx, formatter)
 
 

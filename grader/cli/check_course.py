@@ -3,6 +3,7 @@
 import click
 
 from grader.cli.course_here import choose_exercises, find_course_here
+from grader.course_check import find_flaws, list_mistakes
 from grader.terminal import print_lines, style_line, wrap_text
 from sim.support.command_line import DONE, NOT_RIGHT
 
@@ -18,8 +19,6 @@ def check_course(exercises: tuple[str, ...]) -> int:
 
     Exit codes: 0 all in order, 1 something is not.
     """
-    from grader.course_check import find_flaws, list_mistakes  # noqa: PLC0415 - --help must not wait for it
-
     bad = False
     for one in choose_exercises(exercises, find_course_here()):
         flaws = list(find_flaws(one))
