@@ -57,13 +57,13 @@ def _require_effect(name: str) -> None:
         raise WrongAnswer(f'"{name[:40]}", which is no effect', hint=f"{also}{LIST}.")
 
 
-def read_parts(names: tuple[str, ...], given: Mapping[str, object], per: Unit) -> list[Part]:
+def read_parts(names: tuple[str, ...], given: Mapping[str, object], unit: Unit) -> list[Part]:
     """The effects with their parameters, as the bench needs them.
 
     Args:
         names: of the effects.
         given: the answers.
-        per: the unit of position in which the learner writes.
+        unit: the unit of position in which the learner writes.
 
     Raises:
         WrongAnswer: a parameter is missing, or is none.
@@ -76,7 +76,7 @@ def read_parts(names: tuple[str, ...], given: Mapping[str, object], per: Unit) -
             lines = ", ".join(f"{name}.{one.name} = …" for one in known)
             raise WrongAnswer(f"no parameters of {name}", hint=f"Write a line for each: {lines}.")
         _require_parameters(name, table, [one.name for one in known])
-        values = {one.name: _read_value(name, one, table.get(one.name), per) for one in known}
+        values = {one.name: _read_value(name, one, table.get(one.name), unit) for one in known}
         parts.append(Part(name, values))
     return parts
 
@@ -96,17 +96,17 @@ def _require_parameters(name: str, table: Mapping[str, object], known: list[str]
             )
 
 
-def _read_value(name: str, known: Parameter, raw: object, per: Unit) -> float:
+def _read_value(name: str, known: Parameter, raw: object, unit: Unit) -> float:
     """A parameter, in SI."""
     asked = AskedNumber(
-        f"{name}.{known.name}", 0.0, known.unit.format(u=per.symbol), Band(0.0, 0.0)
+        f"{name}.{known.name}", 0.0, known.unit.format(u=unit.symbol), Band(0.0, 0.0)
     )
     try:
         value = read_answer_number(raw, asked)
     except WrongAnswer as wrong:
         wrong.seen = f"{asked.name}: {wrong.seen}"
         raise
-    si = value / per.si**known.power
+    si = value / unit.si**known.power
     if not known.least <= si <= known.most:
         raise WrongAnswer(
             f"{asked.name} = {value:g} {asked.unit}",
