@@ -80,7 +80,7 @@ def letter_options(options: Sequence[Option], order: Sequence[int]) -> dict[str,
 
 
 def judge_choice(chosen: Option, *, points: float, backed: bool) -> str | None:
-    """Hold the chosen option against what is right.
+    """Compare the chosen option with what is right.
 
     Args:
         chosen: the option.

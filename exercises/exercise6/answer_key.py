@@ -91,7 +91,7 @@ CHOICES: Mapping[str, Choice] = {
 
 
 def judge_choice(name: str, given: Mapping[str, object], right: str = "") -> None:
-    """Hold a word against the right one; where none is named, the one that is always right.
+    """Compare a word with the right one; where none is named, the one that is always right.
 
     Raises:
         WrongAnswer: it is another, or none.
@@ -107,7 +107,7 @@ def judge_choice(name: str, given: Mapping[str, object], right: str = "") -> Non
 
 
 def judge_all(given: Mapping[str, object], right: Mapping[str, str], *, points: float) -> None:
-    """Hold several words against the right ones; each wrong word cancels a right one.
+    """Compare several words with the right ones; each wrong word cancels a right one.
 
     So who writes the same word everywhere, or guesses, earns about nothing.
 
@@ -128,7 +128,7 @@ def judge_all(given: Mapping[str, object], right: Mapping[str, str], *, points: 
 
 
 def judge_steps(raw: object) -> None:
-    """Hold an order of the four steps against the one that works.
+    """Compare an order of the four steps with the one that works.
 
     Raises:
         WrongAnswer: it is another, or no order of the four.

@@ -101,7 +101,7 @@ def consequence(answers: Answers) -> Consequence | None:
 
 
 def _judge_plan(kind: str, answers: Answers) -> str:
-    """Hold a plan against the rules; a note on what it does."""
+    """Compare a plan with the rules; a note on what it does."""
     machine = answers.variant.machines[kind]
     plan = _read_plan(machine, answers.given)
     found = find_broken_rules(machine, plan)

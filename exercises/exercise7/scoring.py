@@ -1,4 +1,4 @@
-"""Hold what was said about one log against the truth about it."""
+"""Compare what was said about one log with the truth about it."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

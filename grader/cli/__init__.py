@@ -117,7 +117,7 @@ def _refuse_bare_installation() -> None:
 def complete_exercise(
     context: click.Context, _parameter: click.Parameter, begun: str
 ) -> list[CompletionItem]:
-    """Names of exercises in the course that one stands in; and of commands, where one may stand."""
+    """Exercise names of the current course, and command names where one may stand."""
     from grader.course import find_course  # noqa: PLC0415 - --help has to start at once
 
     try:

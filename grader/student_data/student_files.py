@@ -1,4 +1,4 @@
-"""What a learner is given to work on, written where it is not there as it was made."""
+"""What a learner is given to work on, written unless an unchanged copy exists."""
 
 import hashlib
 import json
