@@ -155,15 +155,36 @@ def check(
     Raises:
         ValueError: the function has no docstring, so the learner could not be told what it wants.
     """
-    before = after if isinstance(after, tuple) else (after,)
 
     def made(look: Callable[[Subject], str | None]) -> Check[Subject]:
         sentence = (look.__doc__ or "").strip().partition("\n")[0].removesuffix(".")
         if not sentence:
             raise ValueError(f"the check {look.__name__} needs a docstring: the learner reads it")
-        return Check(look.__name__.replace("_", "-"), sentence, float(points), before, look)
+        return make_check(look.__name__, sentence, look, points=points, after=after)
 
     return made
+
+
+def make_check(
+    name: str,
+    description: str,
+    judge: Callable[[Subject], str | None],
+    *,
+    points: float,
+    after: Check[Subject] | tuple[Check[Subject], ...] = (),
+) -> Check[Subject]:
+    """Make one of several checks that differ in a name: ``check`` is for one that is alone.
+
+    Args:
+        name: of the check; capitals and underscores are for Python.
+        description: the line that the learner reads.
+        judge: looks at an answer.
+        points: for a full pass.
+        after: the check, or checks, that have to pass first.
+    """
+    before = after if isinstance(after, tuple) else (after,)
+    id_ = name.lower().replace("_", "-")
+    return Check(id_, description.removesuffix("."), float(points), before, judge)
 
 
 def run_checks(checks: Sequence[Check[Subject]], subject: Subject) -> tuple[Result, ...]:

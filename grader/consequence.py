@@ -11,7 +11,7 @@ wanted. It never tells a gain.
 import os
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -45,6 +45,22 @@ class Consequence:
 
     words: str
     draw: Callable[[], Picture]
+
+
+def show_motions(motions: "Sequence[tuple[Any, ...]]", *, words: str) -> Consequence:
+    """Motions in one panel each.
+
+    Args:
+        motions: of each the arguments of ``sim.plot.consequence.Trace``.
+        words: what happens.
+    """
+
+    def draw() -> Picture:
+        from sim.plot.consequence import Trace, plot_consequence  # noqa: PLC0415 - only who draws waits for it
+
+        return plot_consequence([Trace(*one) for one in motions], words=words)
+
+    return Consequence(words, draw)
 
 
 def follow_profiles(followed: "Sequence[FollowedProfile]") -> Consequence:

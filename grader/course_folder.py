@@ -62,7 +62,7 @@ def find_course_source() -> Path:
         if is_course_folder(folder):
             return folder
     raise BadRequest(
-        "this installation brought no lessons and exercises",
+        "this installation contains no lessons or exercises",
         where=str(INSTALLATION),
         advice="Install it again, from its wheel or its repository: python -m pip install "
         "--force-reinstall FILE-OR-FOLDER",

@@ -1,14 +1,21 @@
 """An exercise: a folder with a task, files to fill in, checks and hints; and grading one answer.
 
-A folder ``exercises/exerciseN`` holds ``README.md`` with the task, ``hints.toml`` with the hints
-``concept``, ``pointer`` and ``step`` (one worked in part), and ``checks.py``, which offers
+An exercise is its task, its numbers and its mistakes. A folder ``exercises/exerciseN`` holds
+``README.md`` with the task, ``hints.toml`` with the hints ``concept``, ``pointer``, ``step`` (one
+worked in part), and ``checks.py``, which offers
 
     FILES : tuple[str, ...]                    the files to fill in, the preferred one first
-    def read(path, *, student) -> Subject      what the checks look at; a Refusal if unreadable;
-                                               one that runs the learner's code also takes
-                                               ``run: bool``
-    its checks                                 functions under @check, in the order they are shown
-    def prepare(student, *, say) -> None       optional: makes what the learner works on
+    its checks                                 functions under @check, or tuples of checks from
+                                               ``make_check``, in the order they are shown
+    def draw(student) -> Variant               optional: the learner's own numbers, always the same;
+                                               ``draw_until`` draws again what is no good
+    def make_files(student) -> dict            optional: what the learner works on: file -> what
+                                               makes it (``grader.student_data.student_files``)
+    class Answers(StudentAnswers)              optional: what the checks look at, with more than the
+                                               answers and the variant
+    def read(path, *, student) -> Subject      optional: the same, where it is no file of answers;
+                                               a Refusal if unreadable; one that runs the learner's
+                                               code also takes ``run: bool``
     BESIDE : tuple[str, ...]                   optional: files to fill in that belong to the one
                                                graded; ``read`` finds them beside its path
     ANSWER_NAMES : tuple[str, ...]             optional: the names that a file of answers may have;
@@ -19,8 +26,9 @@ A folder ``exercises/exerciseN`` holds ``README.md`` with the task, ``hints.toml
     def consequence(subject)                   optional: what a wrong answer would do on the robot,
                                                a Consequence; None where there is nothing to see
 
-What does not fit there stands in modules beside it: ``from .drawn import draw``. Answers that can
-be looked up stand in ``answer_key.py``: see ``grader.answers.answer_key``.
+What does not fit there stands in modules beside it: ``from .drawn import draw``. What is said of a
+mistake that a number shows stands in ``slips.toml``: see ``grader.answers.wrong_number.Slips``.
+Answers that can be looked up stand in ``answer_key.py``: see ``grader.answers.answer_key``.
 """
 
 import hashlib
@@ -38,9 +46,17 @@ from types import ModuleType
 from typing import Any
 
 from grader.answers.answer_names import find_unknown_names
-from grader.answers.submission import find_files, find_whole_answer, read_answers, read_text
+from grader.answers.submission import (
+    NamedAnswers,
+    StudentAnswers,
+    find_files,
+    find_whole_answer,
+    read_answers,
+    read_text,
+)
 from grader.check import Check, NotReachedError, NotRunError, Result, Status, run_checks, skip_check
 from grader.consequence import Consequence
+from grader.student_data.student_files import write_student_files
 from sim.core.errors import BadRequest, Refusal
 from sim.support.os_errors import refuse_os_errors
 
@@ -109,7 +125,7 @@ class Exercise:
     @property
     def checks(self) -> tuple[Check[Any], ...]:
         """The exercise's checks, in the order in which they are written."""
-        return tuple(value for value in vars(self.module).values() if isinstance(value, Check))
+        return find_checks(self.module)
 
     @property
     def hints(self) -> tuple[str, ...]:
@@ -152,12 +168,13 @@ class Exercise:
     @property
     def is_personal(self) -> bool:
         """Whether each learner works on numbers or data of their own."""
-        return hasattr(self.module, "prepare")
+        return hasattr(self.module, "make_files")
 
     @property
     def runs_code(self) -> bool:
         """Whether it can run the learner's code, besides reading it."""
-        return "run" in inspect.signature(self.module.read).parameters
+        reader = getattr(self.module, "read", None)
+        return reader is not None and "run" in inspect.signature(reader).parameters
 
     @property
     def solution(self) -> Path | None:
@@ -174,10 +191,29 @@ class Exercise:
             student: for whom.
             say: shows a line about what is going on.
         """
-        maker = getattr(self.module, "prepare", None)
-        if maker is not None:
+        if self.is_personal:
             with suppress(NotReachedError):
-                maker(student, say=say)
+                files = self.module.make_files(student)
+                write_student_files(files, exercise=self.folder, student=student, say=say)
+
+    def read(self, file: Path, *, student: str, run: bool) -> Any:  # noqa: ANN401 - each has its own
+        """What the checks look at.
+
+        Args:
+            file: of the answer.
+            student: whose it is.
+            run: whether the learner's code may be run.
+
+        Raises:
+            Refusal: the file cannot be read.
+            NotReachedError: what it is compared with is in no class's package.
+            NotRunError: only running the learner's code could tell anything.
+        """
+        reader = getattr(self.module, "read", None)
+        if reader is not None:
+            return reader(file, student=student, **({"run": run} if self.runs_code else {}))
+        make = getattr(self.module, "Answers", StudentAnswers)
+        return make(NamedAnswers(read_answers(file)), self.module.draw(student), student)
 
     def grade(self, given: Path | None, *, student: str, run: bool = True) -> Grade:
         """Grade an answer; of several files, the one that earns most.
@@ -220,17 +256,15 @@ class Exercise:
         tell = getattr(self.module, "consequence", None)
         if tell is None or grade.file is None or grade.status != "failed":
             return None
-        asked = {"run": False} if self.runs_code else {}
         try:
-            found = tell(self.module.read(grade.file, student=grade.student, **asked))
+            found = tell(self.read(grade.file, student=grade.student, run=False))
         except (Refusal, NotRunError):  # somebody is saving it, or only a run could tell
             return None
         return found if isinstance(found, Consequence) else None
 
     def _grade_file(self, file: Path, *, student: str, run: bool) -> Grade:
-        asked = {"run": run} if self.runs_code else {}
         try:
-            subject = self.module.read(file, student=student, **asked)
+            subject = self.read(file, student=student, run=run)
         except (Refusal, NotRunError, NotReachedError) as refusal:
             return replace(self.skip(str(refusal), student=student), file=file)
         results = run_checks(self.checks, subject)
@@ -273,6 +307,15 @@ class Exercise:
         results = tuple(skip_check(one, reason) for one in self.checks)
         most = sum(one.points for one in self.checks)
         return Grade(self.name, student, 0.0, most, "ungradable", results, reason=reason)
+
+
+def find_checks(module: ModuleType) -> tuple[Check[Any], ...]:
+    """The checks of a module, and those in its tuples of checks, as they are written."""
+    found: list[Check[Any]] = []
+    for value in vars(module).values():
+        several = value if isinstance(value, tuple) else (value,)
+        found += [one for one in several if isinstance(one, Check)]
+    return tuple(found)
 
 
 def _sum_points(results: Sequence[Result]) -> list[tuple[float, float]]:

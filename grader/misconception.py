@@ -1,8 +1,9 @@
 """Misconceptions the examiner can name: a code for statistics, and what puts it right."""
 
-import tomllib
 from dataclasses import dataclass
 from pathlib import Path
+
+from grader.texts import read_texts
 
 
 @dataclass(frozen=True)
@@ -25,12 +26,7 @@ class Misconception:
         return f'lesson {int(self.lesson.partition("_")[0])}, "{self.section}"'
 
 
-def _read_misconceptions() -> dict[str, Misconception]:
-    text = Path(__file__).with_name("misconceptions.toml").read_text(encoding="utf-8")
-    found = tomllib.loads(text).items()
-    return {
-        code: Misconception(**one | {"says": " ".join(one["says"].split())}) for code, one in found
-    }
-
-
-MISCONCEPTIONS = _read_misconceptions()
+MISCONCEPTIONS = {
+    code: Misconception(**one)
+    for code, one in read_texts(Path(__file__).with_name("misconceptions.toml")).items()
+}

@@ -4,8 +4,9 @@ An instructor's course folder also holds solved exercises, notes, and what stude
 file is packed if it is
 
     exercises/starters.toml and what it lists     the starters, as their authors wrote them
-    README.md, hints.toml and checks.py           of an exercise, and the modules checks.py imports
-    answer_key.py                                 of an exercise, and the modules it imports, but
+    README.md, hints.toml and checks.py           of an exercise, the modules checks.py imports, and
+                                                  what these read: Path(__file__).with_name("…")
+    answer_key.py                                 of an exercise, and what it imports and reads, but
                                                   not for a class that is graded
     lessons/NAME.py and lessons/NAME.ipynb        a notebook as it was derived, without outputs
     grader/ and sim/                              their Python files and page templates
@@ -181,20 +182,21 @@ def _list_key_files(one: Exercise) -> set[Path]:
 
 
 def list_modules(one: Exercise) -> set[Path]:
-    """The modules of an exercise: checks.py, its answer key, and all that these import."""
+    """The modules of an exercise: checks.py, its answer key, and all that these import and read."""
     key = one.folder / KEY
     found = find_imported_modules(one.folder / "checks.py")
     return found | find_imported_modules(key) if key.is_file() else found
 
 
 def find_imported_modules(module: Path) -> set[Path]:
-    """A module of an exercise, and the modules beside it that it imports, directly or not."""
+    """A module of an exercise, and what it imports and reads beside it, directly or not."""
     found: set[Path] = set()
     left = {module}
     while left:
         path = left.pop()
         found.add(path)
-        left |= {beside for beside in _find_imports(path) if beside.is_file()} - found
+        if path.suffix == ".py":
+            left |= {beside for beside in _find_imports(path) if beside.is_file()} - found
     return found
 
 
@@ -203,6 +205,9 @@ def _find_imports(module: Path) -> Iterator[Path]:
         if isinstance(node, ast.ImportFrom) and node.level == 1:
             names = [node.module] if node.module else [one.name for one in node.names]
             yield from (module.with_name(f"{name.partition('.')[0]}.py") for name in names)
+        elif isinstance(node, ast.Call) and ast.unparse(node.func).endswith(".with_name"):
+            named = (one.value for one in node.args if isinstance(one, ast.Constant))
+            yield from (module.with_name(str(name)) for name in named)
 
 
 def _list_lesson_files(course: Path) -> Iterator[Path]:

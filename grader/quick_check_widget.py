@@ -42,7 +42,7 @@ class QuickCheck(Prediction):
         self._says, self._right = options, right
         self._told = ipywidgets.HTML()
         self._box.children = (*self._box.children, self._told)
-        self._buttons.observe(self._tell, "value")
+        self._buttons.observe(self._show_feedback, "value")
 
     def answer(self, chosen: str) -> str:
         """Choose an answer; returns the feedback to it.
@@ -60,7 +60,7 @@ class QuickCheck(Prediction):
             return ""
         return f"{RIGHT if self.value == self._right else NOT_YET} {self._says[self.value]}"
 
-    def _tell(self, _: object = None) -> None:
+    def _show_feedback(self, _: object = None) -> None:
         self._told.value = f"<p><b>{escape(self.feedback)}</b></p>" if self.feedback else ""
 
 
@@ -98,7 +98,7 @@ class QuickNumberCheck:
                                       continuous_update=False)  # fmt: skip
         self._told = ipywidgets.HTML()
         self._box = ipywidgets.VBox([ipywidgets.HTML(escape(question)), self._typed, self._told])
-        self._typed.observe(self._tell, "value")
+        self._typed.observe(self._show_feedback, "value")
 
     def answer(self, given: object) -> str:
         """The feedback to an answer: a number, or a text with a unit."""
@@ -111,7 +111,7 @@ class QuickNumberCheck:
             return f"{NOT_YET} {wrong.seen}. {hint} {why}".strip()
         return f"{RIGHT} {note}" if note else RIGHT
 
-    def _tell(self, _: object = None) -> None:
+    def _show_feedback(self, _: object = None) -> None:
         given = str(self._typed.value)
         said = self.answer(given) if given.strip() else ""
         self._told.value = f"<p><b>{escape(said)}</b></p>" if said else ""

@@ -13,6 +13,7 @@ from sim.inspect.faults import FAULTS
 from sim.physics.effects import EFFECTS
 
 ROOT = Path(__file__).resolve().parents[1]
+EXERCISES = {one.name for one in list_exercises(ROOT)}
 PROGRAMS = {"grade": "grader.cli", "sysid": "sim.cli"}
 
 
@@ -42,7 +43,7 @@ def complete(line, cwd=ROOT):
         ("sysid contaminate a.csv --fault enc", {"encoder-slip"}),
         ("sysid fit --met", {"--method"}),
         ("sysid fit --type ", {"simple", "elevator", "arm"}),
-        ("grade exercise1", {"exercise1", "exercise10", "exercise11", "exercise12", "exercise13"}),
+        ("grade exercise1", {one for one in EXERCISES if one.startswith("exercise1")}),
         ("grade watch pr", {"practice"}),
         ("grade rel", {"release"}),
     ],
@@ -52,4 +53,4 @@ def test_tab_offers(line, offered):
 
 
 def test_every_exercise_is_offered():
-    assert {one.name for one in list_exercises(ROOT)} <= complete("grade ")
+    assert complete("grade ") >= EXERCISES

@@ -40,7 +40,7 @@ def test_a_folder_that_cannot_be_written_is_refused(tmp_path, monkeypatch):
 def test_an_installation_without_the_course_says_so(tmp_path, monkeypatch):
     monkeypatch.setattr(course_folder, "INSTALLATION", tmp_path)
 
-    with pytest.raises(BadRequest, match="brought no lessons and exercises"):
+    with pytest.raises(BadRequest, match="contains no lessons or exercises"):
         find_course_source()
 
 

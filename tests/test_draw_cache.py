@@ -118,7 +118,7 @@ def test_the_oldest_are_forgotten(shelf, tmp_path, monkeypatch):
 def test_files_that_are_as_made_are_not_made_again(tmp_path):
     made, exercise = [], tmp_path / "exercises" / "exercise7"
     files = {"log.csv": lambda path: (made.append(path), path.write_bytes(b"rows"))}
-    told = {"exercise": exercise, "student": "ann", "what": "log", "say": lambda _: None}
+    told = {"exercise": exercise, "student": "ann", "say": lambda _: None}
     with enable_draw_cache():
         write_student_files(files, **told)
         write_student_files(files, **told)

@@ -159,8 +159,9 @@ def test_mirrored_volts_give_mirrored_motion(name, kind, seed):
     there = simulate_run(model, time=TIME, voltage=volts, state=State())
     back = simulate_run(model, time=TIME, voltage=-volts, state=State())
 
-    assert (there.position == -back.position).all()
-    assert (there.seen == -back.seen).all()
+    told = "other volts, other motion: an effect with a direction of its own says symmetric=False"
+    assert (there.position == -back.position).all(), told
+    assert (there.seen == -back.seen).all(), told
 
 
 def energy(model, track):
@@ -205,12 +206,13 @@ def test_energy_never_appears_from_nowhere(name, kind, seed):
     given_most = spent + np.where(turned, np.abs(volts[:-1]) * speeds * 0.02, 0.0)
     if late:  # what arrives now was asked for before
         given_most = np.abs(volts).max() * speeds * 0.02 + slack
-    assert (gained <= given_most + slack).all()
+    told = "energy comes from nowhere: a force that gives back what it took needs stored_energy"
+    assert (gained <= given_most + slack).all(), told
 
     coasting = simulate_run(model, time=TIME, voltage=np.zeros_like(TIME), state=state, step=fine)
     lost = np.diff(energy(model, coasting))
     first = 3 if late else 0  # the last command is still on its way
-    assert (lost[first:] <= slack).all()
+    assert (lost[first:] <= slack).all(), told
 
 
 @pytest.mark.parametrize("name", ["backlash", "compliance"])

@@ -64,6 +64,16 @@ def test_the_compiled_engine_does_what_the_plain_text_says(name):
     assert fast.applied == pytest.approx(slow.applied, abs=1e-9)
 
 
+def test_an_arm_that_is_let_go_swings_through_and_settles_below():
+    arm = Model("arm", {"kS": 0.0, "kV": 0.05, "kA": 0.1, "kG": 1.0, "offset_rad": 0.0})
+    time = np.arange(0.0, 60.0, 0.02)
+
+    track = simulate_run(arm, time=time, voltage=np.zeros(time.size), state=State.cold_at(0.3))
+
+    assert track.position[-1] == pytest.approx(-math.pi / 2.0, abs=1e-3)
+    assert track.position.min() < -math.pi / 2.0 - 0.5
+
+
 def test_an_elevator_on_its_stop_lifts_when_the_ramp_exceeds_weight_and_friction():
     lift = Model("elevator", {"kS": 0.2, "kV": 4.0, "kA": 0.2, "kG": 1.0}, travel=(0.0, 1.0))
     time = np.arange(0.0, 4.0, 0.02)

@@ -88,7 +88,7 @@ def hold(gains, student, place="", language="java"):
 def written(student, *, language="java"):
     """A plain answer made of plain numbers."""
     variant = OWN.module.draw(student)
-    gains = needed(tomllib.loads(OWN.module.told(variant)))
+    gains = needed(tomllib.loads(OWN.module.describe(variant)))
     handed = ", ".join(f"{C}{name}" for name in gains if name != "kP")
     held = hold(gains, student, language=language)
     if language == "python":
@@ -110,7 +110,7 @@ def in_place(student, place, *, language="java", swap=None, kp=1.0, without=(), 
         without: settings that are left out.
         scales: gain -> by what it is wrong.
     """
-    given = tomllib.loads(OWN.module.told(OWN.module.draw(student)))
+    given = tomllib.loads(OWN.module.describe(OWN.module.draw(student)))
     gains = needed(given, place)
     gains = {name: value * (scales | {"kP": kp}).get(name, 1.0) for name, value in gains.items()}
     python, arm = language == "python", given["analyzer"]["analysis"] == "Arm"
@@ -371,7 +371,7 @@ def load(name):
 @pytest.mark.parametrize("duty", [False, True])
 def test_every_mistake_is_named_whatever_the_mechanism(checked, tmp_path, kind, duty):
     student = of(kind=kind, duty=duty)
-    (tmp_path / "given.toml").write_text(OWN.module.told(OWN.module.draw(student)), "utf-8")
+    (tmp_path / "given.toml").write_text(OWN.module.describe(OWN.module.draw(student)), "utf-8")
     answers = load("solve.py").solve(OWN.folder, tmp_path)
 
     for mistake in load("mistakes.py").MISTAKES:

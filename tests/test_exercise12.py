@@ -81,7 +81,7 @@ def test_what_can_be_hidden_is_physics_and_its_first_effect_alone_matters_most(k
     for name, _ in effects:
         assert find_effect(name).reason_against(MECHANISMS[kind].scale) == ""
 
-    variant = DRAWN._one(np.random.default_rng(1), [(kind, effects)])
+    variant = DRAWN.draw_any(np.random.default_rng(1), [(kind, effects)])
     search, truth = variant.make_search(), variant.mechanism.model
     alone = [
         search.measure_gap(search.fit_near(replace(truth, parts=(part,)))) for part in truth.parts
@@ -214,8 +214,8 @@ def test_what_a_log_does_not_determine_is_drawn_again():
     drawn = sys.modules[OWN.module.draw.__module__]
     weak = ("drivetrain", (("cogging", 2.0), ("velocity-filter", 0.02)))
 
-    assert not drawn._determined(drawn._one(np.random.default_rng(0), [weak]))
-    assert drawn._determined(OWN.module.draw("ada"))
+    assert not drawn.is_determined(drawn.draw_any(np.random.default_rng(0), [weak]))
+    assert drawn.is_determined(OWN.module.draw("ada"))
 
 
 def test_the_students_of_a_class_meet_many_effects():

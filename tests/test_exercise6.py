@@ -25,7 +25,7 @@ ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise6", ROOT / "exercises" / "exercise6")
 KEY = load_answer_key(OWN.module.__name__)
 DRAWN = sys.modules[OWN.module.draw.__module__]
-RULES = sys.modules[OWN.module.broken.__module__]
+RULES = sys.modules[OWN.module.find_broken_rules.__module__]
 PLAN = sys.modules[OWN.module.Plan.__module__]
 CLASS = [f"student {number}" for number in range(50)]
 KINDS = ("drivetrain", "elevator", "turret", "shooter")
@@ -61,7 +61,7 @@ def right(student):
     """Everything as it should be."""
     answers = {}
     for kind, machine in OWN.module.draw(student).machines.items():
-        answers |= written(kind, DRAWN.sound(machine))
+        answers |= written(kind, DRAWN.make_sound_plan(machine))
     morning = KEY.draw_morning(student)
     answers |= {f"check_{item}": word for item, word in morning.decisions.items()}
     return answers | {
@@ -93,7 +93,7 @@ def test_plans_away_from_every_bound_pass(copy):
 def test_every_mechanism_has_several_plans_and_far_more_that_break_a_rule():
     for student in CLASS[:4]:
         for machine in OWN.module.draw(student).machines.values():
-            kept = [not RULES.broken(machine, plan) for plan in grid(machine)]
+            kept = [not RULES.find_broken_rules(machine, plan) for plan in grid(machine)]
 
             assert 4 <= sum(kept) < 0.4 * len(kept)
 
@@ -101,7 +101,7 @@ def test_every_mechanism_has_several_plans_and_far_more_that_break_a_rule():
 def test_any_plan_that_keeps_the_rules_passes(copy):
     variant = OWN.module.draw("ann")
     for kind, machine in variant.machines.items():
-        kept = [plan for plan in grid(machine) if not RULES.broken(machine, plan)]
+        kept = [plan for plan in grid(machine) if not RULES.find_broken_rules(machine, plan)]
         for plan in kept[:: max(1, len(kept) // 6)]:
             assert grade_answer(copy, **written(kind, plan))[kind].points == 1.5
 
@@ -125,7 +125,7 @@ def test_the_closed_form_is_where_the_bench_goes_under_the_routine(kind):
     variant = OWN.module.draw("ann")
     machine, built = variant.machines[kind], variant.built[kind]
     per = find_unit(UNITS[machine.symbol]).si
-    plan = replace(DRAWN.sound(machine), release=math.inf)
+    plan = replace(DRAWN.make_sound_plan(machine), release=math.inf)
     sensor = replace(built.sensor, velocity_noise=0.0, jitter=0.0)
     strong = Battery(14.0, 0.0)
     quiet = replace(built, sensor=sensor, battery=strong, stator=1e4, supply=1e4)
@@ -149,7 +149,7 @@ def test_the_bench_stands_where_the_plan_says(kind):
     """The mark, a late thumb, and 0 V in brake mode: how far it got."""
     for student in CLASS[:5]:
         machine = OWN.module.draw(student).machines[kind]
-        plan = DRAWN.sound(machine)
+        plan = DRAWN.make_sound_plan(machine)
         gains = {"kS": machine.ks, "kV": machine.kv, "kA": machine.ka}
         gains |= {"kG": machine.kg} if machine.kg else {}
         stops = (0.0, 100.0) if machine.kg else None  # it begins at the bottom
@@ -175,7 +175,7 @@ def test_a_log_made_by_a_plan_that_keeps_the_rules_tells_the_gains(kind):
         if machine.travel is not None:
             built = replace(built, travel=machine.travel * find_unit(UNITS[machine.symbol]).si)
         built = replace(built, lowest=0.0) if machine.kg else built
-        plan = DRAWN.sound(machine)
+        plan = DRAWN.make_sound_plan(machine)
         routine = Routine(ramp=plan.ramp, step=plan.step, timeout=plan.timeout)
         log = simulate(built, routine, rng=np.random.default_rng(number))
         found = fit(log, type=built.type, method="sysid").gains
@@ -209,8 +209,8 @@ def test_nothing_a_learner_reads_is_a_plan_or_favors_the_word_that_is_right(copy
 
     assert all(one in printed for one in ("V/s", "you have", "at least 25 %", "does not move it"))
     for machine in variant.machines.values():
-        ramp = DRAWN.sound(machine).ramp
-        for value, per in ((ramp, "V/s"), *((step, "V") for step in DRAWN.steps(machine))):
+        ramp = DRAWN.make_sound_plan(machine).ramp
+        for value, per in ((ramp, "V/s"), *((step, "V") for step in DRAWN.find_steps(machine))):
             near = [float(one) for one in re.findall(rf"(\d+\.\d+) {per}(?!/s)\b", told)]
 
             assert [one for one in near if abs(one - value) < 0.02 * value] == []
@@ -222,18 +222,18 @@ def test_nothing_a_learner_reads_is_a_plan_or_favors_the_word_that_is_right(copy
 def test_who_rounds_up_to_a_bound_is_not_wrong(off, kept):
     """The current, the grip, the end of the travel: a fifth of a percent beyond is rounding."""
     machine = replace(OWN.module.draw("ann").machines["drivetrain"], limit=1e4)
-    plan = replace(DRAWN.sound(machine), step=0.9 * machine.slip * (1.0 + off))
+    plan = replace(DRAWN.make_sound_plan(machine), step=0.9 * machine.slip * (1.0 + off))
     rests = max(one(machine, plan).rests for one in (PLAN.quasistatic, PLAN.dynamic))
     short = replace(machine, travel=rests / (1.0 + off))
     drawn = replace(machine, grip=9.0, limit=plan.step / 12.0 * machine.stall / (1.0 + off))
 
     for here in (machine, replace(short, grip=9.0), drawn):
-        assert (RULES.broken(here, plan) == ()) == kept
+        assert (RULES.find_broken_rules(here, plan) == ()) == kept
 
 
 def test_a_plan_that_breaks_one_rule_earns_half(copy):
     machine = OWN.module.draw("ann").machines["shooter"]
-    plan = DRAWN.sound(machine)
+    plan = DRAWN.make_sound_plan(machine)
     one = grade_answer(copy, **written("shooter", replace(plan, step=12.0)))["shooter"]
     two = grade_answer(copy, **written("shooter", replace(plan, step=12.0, timeout=30.0)))[
         "shooter"
@@ -257,7 +257,7 @@ def test_a_plan_that_breaks_one_rule_earns_half(copy):
     ],
 )
 def test_a_number_may_be_written_in_many_ways(copy, written_as, status):
-    plan = DRAWN.sound(OWN.module.draw("ann").machines["turret"])
+    plan = DRAWN.make_sound_plan(OWN.module.draw("ann").machines["turret"])
     answers = written("turret", plan) | {"turret_step": written_as.format(plan.step)}
     comma = answers | {"turret_step": answers["turret_step"].replace(".", ",")}
 

@@ -41,7 +41,7 @@ def right(case):
         tests = ", ".join(dict.fromkeys(part.test for part in one.where))
         first, begin = one.where[0], case.log.runs[one.where[0].run].time[0]
         times = "" if one.whole else f"{first.start - begin:.2f} to {first.end - begin:.2f}"
-        said.append(f"{one.fault}, {tests}, {times}, {FEEDBACK.ACCEPTED[one.fault][0]}")
+        said.append(f"{one.fault}, {tests}, {times}, {FEEDBACK.list_actions(one.fault)[0]}")
     return " + ".join(said) or "clean"
 
 
@@ -124,7 +124,7 @@ def test_the_files_hold_the_logs_and_not_the_answers(tmp_path):
     files = sorted((folder / "data" / "ann").iterdir())
 
     assert len(files) == 24
-    assert said == ["Your own logs for exercise 7: exercises/exercise7/data/ann/log01.wpilog"]
+    assert said == ["Your own files for exercise 7: exercises/exercise7/data/ann/log01.wpilog"]
     words = [form for name in FAULTS for form in (name, name.replace("-", "_"))]
     for file in files:
         text = file.read_bytes().lower()

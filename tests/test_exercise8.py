@@ -10,6 +10,7 @@ import pytest
 
 from grader.check import WrongAnswer
 from grader.exercise import Exercise
+from sim.core.log import FOUR_TESTS
 from sim.core.units import find_unit
 from sim.fit import fit
 
@@ -20,7 +21,7 @@ DRAWN, PREPARATION, COVERAGE = (
     sys.modules[f"{CHECKS.__name__}.{name}"] for name in ("drawn", "preparation", "coverage")
 )
 STUDENTS = tuple(f"student {number}" for number in range(20))
-RAMPS, STEPS = PREPARATION.TESTS[:2], PREPARATION.TESTS[2:]
+RAMPS, STEPS = FOUR_TESTS[:2], FOUR_TESTS[2:]
 
 
 @cache
@@ -63,7 +64,7 @@ def test_twenty_students_get_all_kinds_of_logs():
     stops = {test for student in STUDENTS for test in variant(student).reference.keep}
 
     assert kinds == {"meters", "degrees"}
-    assert stops == {*PREPARATION.TESTS}
+    assert stops == {*FOUR_TESTS}
 
 
 def test_the_standstill_may_be_trimmed_instead_of_dropped_by_a_threshold():
@@ -137,7 +138,7 @@ def test_what_is_lost_costs_half_a_point_for_each_test():
     ],
 )
 def test_a_window_may_be_written_in_many_ways(raw, expected):
-    given = dict.fromkeys((one.replace("-", "_") for one in PREPARATION.TESTS), "all")
+    given = dict.fromkeys((one.replace("-", "_") for one in FOUR_TESTS), "all")
     given |= {"dynamic_forward": raw, "threshold": "0,2 m/s", "median": "3"}
     found = PREPARATION.read_preparation(given, symbol="m", si=1.0)
 
@@ -146,7 +147,7 @@ def test_a_window_may_be_written_in_many_ways(raw, expected):
 
 
 def test_a_threshold_is_read_in_the_unit_of_the_log():
-    given = dict.fromkeys((one.replace("-", "_") for one in PREPARATION.TESTS), "all")
+    given = dict.fromkeys((one.replace("-", "_") for one in FOUR_TESTS), "all")
     degrees = find_unit("degrees")
 
     for written in (20, "20 deg/s", "0.34907 rad/s"):
@@ -176,7 +177,7 @@ def test_a_threshold_is_read_in_the_unit_of_the_log():
     ],
 )
 def test_a_line_that_cannot_be_read_is_named_and_nothing_else_is_judged(name, raw, says):
-    given = dict.fromkeys((one.replace("-", "_") for one in PREPARATION.TESTS), "all")
+    given = dict.fromkeys((one.replace("-", "_") for one in FOUR_TESTS), "all")
     given |= {"threshold": 0, "median": 1, name: raw}
     with pytest.raises(WrongAnswer) as wrong:
         PREPARATION.read_preparation(given, symbol="m", si=1.0)
@@ -191,4 +192,4 @@ def test_a_threshold_of_nothing_and_no_window_is_the_fit_of_the_bench():
     mine = variant("ann")
     theirs = fit(mine.log, method="sysid").in_log_units()
 
-    assert PREPARATION.fitted(mine.log, DRAWN.NOTHING).gains == theirs.gains
+    assert PREPARATION.fit_prepared(mine.log, DRAWN.NOTHING).gains == theirs.gains

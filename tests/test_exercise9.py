@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from grader.exercise import Exercise
-from grader.student_data.variant import derive_student_seed
 
 ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise9", ROOT / "exercises" / "exercise9")
@@ -31,7 +30,7 @@ def unseen():
 
 
 def logs_of(student):
-    return unseen().hidden(student, derive_student_seed(student, "exercise9"))
+    return unseen().draw_hidden(student)
 
 
 def solution():

@@ -5,8 +5,8 @@ import shutil
 from pathlib import Path
 
 import pytest
-from authored import authored_answer, mistakes_of
 
+from grader.course_check import list_mistakes, solve
 from grader.exercise import Exercise
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -40,8 +40,12 @@ def one(request, tmp_path):
 def test_no_right_number_is_told(one):
     one.prepare("ann", say=lambda _: None)
     (data,) = (one.folder / "data").iterdir()
-    right = authored_answer(one, data)
-    mistakes = [mistake for mistake in mistakes_of(one.name) if mistake.file == one.files[0]]
+    right = solve(one, data, solution=ROOT / "solutions" / one.name)
+    mistakes = [
+        mistake
+        for mistake in list_mistakes(Exercise(one.name, ROOT / "exercises" / one.name))
+        if mistake.file == one.files[0]
+    ]
     told = [*one.hints, *(file.read_text("utf-8") for file in data.glob("*.toml"))]
     for mistake in mistakes[:: -(-len(mistakes) // MISTAKES)]:
         for name in right:

@@ -127,8 +127,9 @@ def test_damage_leaves_a_log_that_can_be_worked_with(name, severity, sound_logs)
 
     spoilt = damaged(log, name, seed=2, severity=severity)
 
-    assert strays(spoilt.log, log) > 0
-    assert spoilt.where
+    told = "each severity above 0 must change the log; DamagedLog(log, ()) says it would not show"
+    assert strays(spoilt.log, log) > 0, told
+    assert spoilt.where, told
     for field in fields(Log):  # its runs are damaged; what is known of it stays
         assert field.name == "runs" or getattr(spoilt.log, field.name) == getattr(log, field.name)
     for stretch in spoilt.where:

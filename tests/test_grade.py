@@ -226,7 +226,7 @@ def test_a_file_that_is_no_answer_is_refused(course, capsys, given, said, issued
     if issued:
         checks = course / "exercises" / "exercise1" / "checks.py"
         text = checks.read_text(encoding="utf-8")
-        checks.write_text(f"{text}\n\ndef prepare(student, *, say):\n    pass\n", "utf-8")
+        checks.write_text(f"{text}\n\ndef make_files(student):\n    return {{}}\n", "utf-8")
         (course / ".course").mkdir()
         (course / ".course" / "class.toml").write_text('class = "A"\nstudent = "me"\n', "utf-8")
 

@@ -7,9 +7,9 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from authored import authored_answer
 
 from grader.answers.submission import read_answers
+from grader.course_check import solve
 from grader.exercise import list_exercises
 from sim.core.errors import UnreadableFile
 
@@ -58,7 +58,9 @@ def answered(tmp_path_factory):
     def written(one):
         place = tmp_path_factory.mktemp(one.name)
         one.prepare(STUDENT, say=lambda _: None)
-        for name, text in authored_answer(one, one.folder / "data" / STUDENT).items():
+        for name, text in solve(
+            one, one.folder / "data" / STUDENT, solution=ROOT / "solutions" / one.name
+        ).items():
             (place / name).write_text(text, encoding="utf-8")
         return place, (place / "answers.toml").read_text(encoding="utf-8")
 

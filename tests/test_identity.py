@@ -18,9 +18,10 @@ from sim.core.errors import BadRequest
 SECRET = b"0123456789abcdef-east"
 MAKER = '''
 
-def prepare(student, *, say):
+def make_files(student):
     """Draws nothing; says for whom."""
-    say(f"made for {student}")
+    print(f"made for {student}")
+    return {}
 '''
 
 

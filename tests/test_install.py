@@ -11,9 +11,9 @@ from pathlib import Path
 from urllib.request import urlopen
 
 import pytest
-from authored import authored_answer
 from wheel import build_wheel
 
+from grader.course_check import solve
 from grader.exercise import find_exercise
 
 pytestmark = pytest.mark.slow
@@ -137,7 +137,8 @@ def test_an_exercise_is_solved_in_a_folder_that_grade_start_made(whole, tmp_path
     assert "Ready. Begin with lessons/00_guess_or_measure.ipynb" in started.stdout
     before = run(["grade", ANSWERED], whole, cwd=mine)
     one = find_exercise(ANSWERED, mine)
-    for name, text in authored_answer(one, one.folder / "data" / "ann").items():
+    solution = Path(__file__).resolve().parents[1] / "solutions" / one.name
+    for name, text in solve(one, one.folder / "data" / "ann", solution=solution).items():
         (one.folder / name).write_text(text, encoding="utf-8")
     after = run(["grade", ANSWERED, "--json"], whole, cwd=mine)
 

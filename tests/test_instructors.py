@@ -81,4 +81,5 @@ def test_every_exercise_has_a_place_in_the_plans(text, root):
 
     assert "practice" in told
     for one in list_exercises(find_course(root)):
-        assert one.name == "practice" or int(one.name.removeprefix("exercise")) in named
+        told = f"INSTRUCTORS.md does not say to which lesson {one.name} belongs"
+        assert one.name == "practice" or int(one.name.removeprefix("exercise")) in named, told

@@ -14,14 +14,14 @@ import shutil
 import subprocess
 import sys
 import zipfile
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
-from authored import authored_answer, mistakes_of
 from wheel import LEFT_OUT, build_wheel
 
+from grader.course_check import list_mistakes, solve
 from grader.exercise import list_exercises
 from grader.student_data.variant import make_folder_name, use_class_secret
 
@@ -135,7 +135,11 @@ def answered(student: Student, packages: Path, place: Path, *, installed: Path =
         data = one.folder / "data"
         folders = [path.name for path in data.iterdir()] if data.is_dir() else []
         assert folders in ([], [make_folder_name(student.name)]), "somebody else's numbers"
-        texts = authored_answer(one, data / make_folder_name(student.name))
+        texts = solve(
+            one,
+            data / make_folder_name(student.name),
+            solution=ROOT / "solutions" / one.name,
+        )
         for name, text in texts.items():
             (one.folder / name).write_text(text, encoding="utf-8")
     return mine
@@ -224,7 +228,7 @@ def test_planted_mistakes_lose_in_a_class_what_they_lose_one_by_one(course, at_h
     shutil.copytree(at_home[student.name] / "exercises", there)
     expected = {}
     for one in list_exercises(course):
-        mistake = mistakes_of(one.name)[0]
+        mistake = list_mistakes(replace(one, folder=ROOT / "exercises" / one.name))[0]
         file = there / one.name / mistake.file
         file.write_text(mistake.edit_text(file.read_text(encoding="utf-8")), encoding="utf-8")
         secret = (course.parent / "class.secret").read_bytes().strip()

@@ -23,12 +23,12 @@ from pathlib import Path
 import psutil
 import pytest
 import requests
-from authored import authored_answer
 from tornado.httpclient import HTTPRequest
 from tornado.websocket import websocket_connect
 
 from grader.cli import run_command
 from grader.course import find_course
+from grader.course_check import solve
 from grader.exercise import find_exercise
 from grader.student_data.variant import make_folder_name
 
@@ -285,7 +285,7 @@ def find_right_answer(root, work, class_folder, student):
         package.extractall(work / "unpacked")
     one = find_exercise("exercise1", find_course(root))
     data = work / "unpacked" / "course" / "exercises" / "exercise1" / "data" / folder
-    return authored_answer(one, data)["answers.toml"]
+    return solve(one, data, solution=ROOT / "solutions" / one.name)["answers.toml"]
 
 
 @pytest.mark.parametrize(

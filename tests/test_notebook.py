@@ -204,7 +204,7 @@ def test_a_file_of_code_is_graded_as_it_stands(root, tmp_path, monkeypatch):
 def test_numbers_of_a_class_are_only_received(course):
     checks = course / "exercises" / "exercise1" / "checks.py"
     checks.write_text(
-        checks.read_text("utf-8") + "\ndef prepare(student, *, say):\n    pass\n", encoding="utf-8"
+        checks.read_text("utf-8") + "\ndef make_files(student):\n    return {}\n", encoding="utf-8"
     )
     place = course / ".course"
     place.mkdir()

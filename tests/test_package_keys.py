@@ -10,12 +10,12 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from authored import authored_answer
 from test_release import lay_out, read
 
 from grader.answers.answer_key import load_answer_key
 from grader.classroom.bundle import pack_course
 from grader.course import find_course
+from grader.course_check import solve
 from grader.exercise import Exercise, list_exercises
 from grader.package_files import select_package_files
 from grader.release import StudentPackage, make_student_package, pack_course_folder
@@ -95,8 +95,7 @@ def right(unpacked):
     """Student -> exercise -> name -> right answer."""
     return {
         who: {
-            name: _flatten(authored_answer(EXERCISES[name], _find_data(course, name)))
-            for name in FILLED_IN
+            name: _flatten(solve(EXERCISES[name], _find_data(course, name))) for name in FILLED_IN
         }
         for who, course in unpacked.items()
     }

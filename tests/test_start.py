@@ -19,8 +19,9 @@ MAKER = '''
 from grader.check import check
 FILES = ("answers.toml",)
 
-def prepare(student, *, say):
-    say(f"made for {student}")
+def make_files(student):
+    print(f"made for {student}")
+    return {}
 
 @check(points=1)
 def anything(_):
@@ -184,7 +185,9 @@ def test_it_ends_quietly_with_jupyterlab(monkeypatch, capsys, ends, code):
 
 def test_ctrl_c_before_jupyterlab_is_quiet_too(course, capsys):
     path = course / "exercises" / "exercise1" / "checks.py"
-    path.write_text(MAKER.replace('say(f"made for {student}")', "raise KeyboardInterrupt"), "utf-8")
+    path.write_text(
+        MAKER.replace('print(f"made for {student}")', "raise KeyboardInterrupt"), "utf-8"
+    )
 
     assert run_command(["start"]) == 130
     assert capsys.readouterr().err.strip() == ""

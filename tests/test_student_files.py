@@ -15,7 +15,7 @@ TYPES = ("Simple", "Arm", "Elevator")
 def test_files_are_written_once_and_again_when_they_were_changed(tmp_path):
     exercise, said = tmp_path / "exercises" / "exercise5", []
     files = {"given.toml": "kS = 1\n", "log.csv": lambda path: path.write_bytes(b"rows")}
-    told = {"exercise": exercise, "student": "Zoë", "what": "numbers", "say": said.append}
+    told = {"exercise": exercise, "student": "Zoë", "say": said.append}
     write_student_files(files, **told)
     write_student_files(files, **told)
     made = exercise / "data" / make_folder_name("Zoë")
@@ -26,17 +26,17 @@ def test_files_are_written_once_and_again_when_they_were_changed(tmp_path):
     assert (made / "log.csv").read_bytes() == b"rows"
     assert len(list(made.iterdir())) == 2
     assert [line.partition(": ")[0] for line in said] == [
-        "Your own numbers for exercise 5",
-        "Your numbers were changed; written again",
+        "Your own files for exercise 5",
+        "Your files were changed; written again",
     ]
 
 
 def test_a_place_that_cannot_be_written_is_said(tmp_path):
     (tmp_path / "exercise5").write_text("in the way", encoding="utf-8")
 
-    with pytest.raises(BadRequest, match="your log cannot be written"):
+    with pytest.raises(BadRequest, match="your files cannot be written"):
         write_student_files(
-            {"log.csv": ""}, exercise=tmp_path / "exercise5", student="ann", what="log", say=print
+            {"log.csv": ""}, exercise=tmp_path / "exercise5", student="ann", say=print
         )
 
 

@@ -11,9 +11,9 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from test_exercises import mistakes_of
 
 from grader.course import find_course
+from grader.course_check import list_mistakes
 from grader.exercise import list_exercises
 from grader.misconception import MISCONCEPTIONS
 from sim.inspect.faults import FAULTS
@@ -110,7 +110,7 @@ def test_an_item_is_checked_and_a_wrong_answer_falls_to_the_check(item):
         assert check in [one.id for one in EXERCISES[name].checks], f"{name} has no check {check}"
     for wrong in item["caught"]:
         name, _, mistake = wrong.partition(": ")
-        found = {(name, one.check) for one in mistakes_of(name) if one.name == mistake}
+        found = {(name, one.check) for one in list_mistakes(EXERCISES[name]) if one.name == mistake}
         assert found, f"solutions/{name}/mistakes.py has no {mistake!r}"
         assert found <= checks, f"{mistake!r} falls to another check: {found}"
     assert item["caught"]
@@ -193,7 +193,8 @@ def test_the_practice_of_a_lesson_names_its_exercises_and_how_to_grade_them(less
 
 
 def test_every_exercise_is_practice_of_a_lesson():
-    assert {name for names in TABLE["practice"].values() for name in names} == {*EXERCISES}
+    named = {name for names in TABLE["practice"].values() for name in names}
+    assert named == {*EXERCISES}, "traceability.toml, [practice]: lesson -> its exercises"
 
 
 @pytest.mark.parametrize("name", EXERCISES)
@@ -205,6 +206,7 @@ def test_the_pointer_hint_sends_to_sections_that_are_there(name):
         lists = re.findall(r"[Ss]ections? (\d+(?:(?:, | and |, and )\d+)*)", part)
         sent |= {(lesson, number) for one in lists for number in re.findall(r"\d+", one)}
     meant = set()
+    assert name in TABLE["pointers"], f"traceability.toml, [pointers]: where {name}'s hint sends to"
     for lesson, heading in TABLE["pointers"][name]:
         assert heading in sections(lesson), f"lesson {lesson} has no section {heading!r}"
         meant.add((lesson, sections(lesson)[heading][0]))

@@ -10,6 +10,7 @@ from pathlib import Path
 
 FOLDER = Path(__file__).parent / "snapshots"
 WRITES = os.environ.get("SYSID_SNAPSHOTS") == "write"
+AGAIN = "if the new text is right, write it: SYSID_SNAPSHOTS=write pytest tests/test_NAME.py"
 HEAD = re.compile(r"^## (.*)\n\n", re.MULTILINE)
 
 
@@ -32,7 +33,7 @@ def compare(name, parts):
     if WRITES:
         write_parts(name, parts)
 
-    assert parts == read_parts(name)
+    assert parts == read_parts(name), AGAIN
 
 
 def compare_part(name, title, text):
@@ -41,7 +42,7 @@ def compare_part(name, title, text):
     if WRITES:
         write_parts(name, dict(sorted((read_parts(name) | {title: text}).items())))
 
-    assert text == read_parts(name).get(title)
+    assert text == read_parts(name).get(title), AGAIN
 
 
 def _trim(text):

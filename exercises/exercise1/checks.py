@@ -2,26 +2,22 @@
 
 import math
 import re
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from pathlib import Path
+from functools import partial
 
 from grader.answers.number_answer import read_answer_number
 from grader.answers.quantity import NotAUnitError, read_unit
-from grader.answers.submission import read_answers
-from grader.check import WrongAnswer, check
+from grader.answers.submission import StudentAnswers
+from grader.check import WrongAnswer, check, make_check
 from grader.consequence import Consequence
-from grader.student_data.student_files import write_student_files
+from grader.student_data.student_files import Made
 
 from .budget import MOMENTS, Variant
 from .drawn import draw
-from .guess import suspects
-from .outcome import outcome
+from .outcome import find_outcome
+from .slips import find_suspects
 
 FILES = ("answers.toml",)
 ANSWER_NAMES = (*MOMENTS, "kV_unit", "largest")
-FILE_MADE = "given.toml"
-HERE = Path(__file__).resolve().parent
 
 BATTERY = 13.5  # [V] of a battery that was just charged
 LITTLE = 0.10  # [share] up to here a voltage is outside by a little
@@ -36,21 +32,12 @@ WORDS = {
 }
 
 
-@dataclass(frozen=True)
-class Answers:
-    """What the checks look at."""
-
-    given: Mapping[str, object]
-    variant: Variant
+def make_files(student: str) -> dict[str, Made]:
+    """The learner's numbers."""
+    return {"given.toml": _describe(draw(student))}
 
 
-def prepare(student: str, *, say: Callable[[str], None]) -> None:
-    """Write down the learner's numbers, where they are not there as they were."""
-    made = {FILE_MADE: _told(draw(student))}
-    write_student_files(made, exercise=HERE, student=student, what="numbers", say=say)
-
-
-def _told(variant: Variant) -> str:
+def _describe(variant: Variant) -> str:
     """The learner's numbers, with their units in words; the signs are left to the learner."""
     unit, gains = variant.symbol, variant.gains
     lines = [
@@ -73,54 +60,20 @@ def _told(variant: Variant) -> str:
     return "\n".join(lines) + "\n"
 
 
-def read(path: Path, *, student: str) -> Answers:
-    """The answers, and what they are held against.
-
-    Raises:
-        UnreadableFile: the file cannot be read.
-    """
-    given = {name.lower(): value for name, value in read_answers(path).items()}
-    return Answers(given, draw(student))
-
-
-def consequence(answers: Answers) -> Consequence | None:
+def consequence(answers: StudentAnswers) -> Consequence | None:
     """What the learner's volts would do on their mechanism."""
-    return outcome(answers.given, answers.variant)
+    return find_outcome(answers.given, answers.variant)
 
 
-@check(points=2)
-def forward(answers: Answers) -> None:
-    """The voltage at a steady speed forward."""
-    _voltage("forward", answers)
-
-
-@check(points=2)
-def accelerating(answers: Answers) -> None:
-    """The voltage while it speeds up."""
-    _voltage("accelerating", answers)
-
-
-@check(points=2)
-def braking(answers: Answers) -> None:
-    """The voltage while it brakes, and still moves forward."""
-    _voltage("braking", answers)
-
-
-@check(points=2)
-def backward(answers: Answers) -> None:
-    """The voltage at a steady speed backward."""
-    _voltage("backward", answers)
-
-
-def _voltage(name: str, answers: Answers) -> None:
+def _judge_voltage(name: str, answers: StudentAnswers) -> None:
     asked = answers.variant.asked(name)
     value = read_answer_number(answers.given.get(name), asked)
     if asked.is_right(value):
         return
-    found = suspects(value, answers.variant, name)
+    found = find_suspects(value, answers.variant, name)
     codes = {slip.misconception for slips in found for slip in slips}
-    said = "; or ".join("; and ".join(slip.says for slip in slips) for slips in found)
-    hint = said.replace("?; ", "? ")
+    hint = "; or ".join("; and ".join(slip.says for slip in slips) for slips in found)
+    hint = hint.replace("?; ", "? ")
     if found and len(found[0]) > 1:
         hint = f"maybe there are two mistakes: {hint}"
     if not hint:
@@ -133,8 +86,19 @@ def _voltage(name: str, answers: Answers) -> None:
     )
 
 
+voltages = tuple(
+    make_check(name, description, partial(_judge_voltage, name), points=2)
+    for name, description in (
+        ("forward", "The voltage at a steady speed forward."),
+        ("accelerating", "The voltage while it speeds up."),
+        ("braking", "The voltage while it brakes, and still moves forward."),
+        ("backward", "The voltage at a steady speed backward."),
+    )
+)
+
+
 @check(points=2)
-def kv_unit(answers: Answers) -> None:
+def kv_unit(answers: StudentAnswers) -> None:
     """The unit of kV."""
     raw, symbol = answers.given.get("kv_unit"), answers.variant.symbol
     letters = (
@@ -174,7 +138,7 @@ def _about_unit(given: tuple[int, ...]) -> str:
 
 
 @check(points=2)
-def largest(answers: Answers) -> None:
+def largest(answers: StudentAnswers) -> None:
     """The largest term at the moment that largest_at names."""
     raw, variant = answers.given.get("largest"), answers.variant
     listed = "Choose one of: kS, kV, kA."

@@ -7,11 +7,12 @@ the learner's number lacks is left to see.
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from typing import Any
 
 from grader.answers.number_answer import read_answer_number
 from grader.check import WrongAnswer
-from grader.consequence import Consequence, Picture
+from grader.consequence import Consequence, show_motions
+from sim.feedback.response import MovingPlant, Plant
 
 from .budget import MOMENTS, Variant
 
@@ -22,26 +23,9 @@ SHARE = 0.6  # [share of its velocity] that it loses at most while it brakes
 HARDLY = 0.05  # [share of the speed wanted] below which it hardly moves
 
 
-@dataclass(frozen=True)
-class Motion:
-    """What one answer does.
-
-    Args:
-        name: of the moment.
-        time: (n,) [s].
-        wanted: (n,) velocity that was wanted.
-        found: (n,) velocity that comes.
-    """
-
-    name: str
-    time: tuple[float, ...]
-    wanted: tuple[float, ...]
-    found: tuple[float, ...]
-
-
-def outcome(given: Mapping[str, object], variant: Variant) -> Consequence | None:
+def find_outcome(given: Mapping[str, object], variant: Variant) -> Consequence | None:
     """What the wrong ones of the four numbers would do; None where none is both there and wrong."""
-    motions = []
+    motions, words = [], []
     for name in MOMENTS:
         asked = variant.asked(name)
         try:
@@ -49,26 +33,14 @@ def outcome(given: Mapping[str, object], variant: Variant) -> Consequence | None
         except WrongAnswer:
             continue
         if not asked.is_right(value):
-            motions.append(_moved(name, value, variant))
-    if not motions:
-        return None
-    words = " ".join(_words(one, variant) for one in motions)
-
-    def draw() -> Picture:
-        from sim.plot import consequence as plot  # noqa: PLC0415 - only who draws waits for it
-
-        ylabel, done = f"velocity [{variant.symbol}/s]", "what it does"
-        shown = [
-            plot.Trace(one.name, ylabel, one.time, one.wanted, {done: one.found}) for one in motions
-        ]
-        return plot.plot_consequence(shown, words=words)
-
-    return Consequence(words, draw)
+            motion, sentence = _simulate_moment(name, value, variant)
+            motions.append(motion)
+            words.append(sentence)
+    return show_motions(motions, words=" ".join(words)) if motions else None
 
 
-def _moved(name: str, volts: float, variant: Variant) -> Motion:
-    from sim.feedback.response import MovingPlant, Plant  # noqa: PLC0415 - numpy only where it is needed
-
+def _simulate_moment(name: str, volts: float, variant: Variant) -> tuple[tuple[Any, ...], str]:
+    """The velocity that is wanted and the one that comes, as a panel and in words."""
     at, gains = variant.moments[name], variant.gains
     lasts, begin = LONG * gains["kA"] / gains["kV"], 0.0
     if at.acceleration:
@@ -81,21 +53,19 @@ def _moved(name: str, volts: float, variant: Variant) -> Motion:
     for t in time[:-1]:
         change = gains["kV"] * at.acceleration * (t + step / 2.0)
         moving.apply_voltage(min(max(volts + change, -BATTERY), BATTERY))
-    return Motion(name, time, wanted, tuple(moving.speed))
+    after = f" after {float(f'{1000.0 * lasts:.1g}'):g} ms" if at.acceleration else ""
+    words = _describe_end(wanted[-1], moving.speed[-1], variant.symbol, after=after)
+    ylabel = f"velocity [{variant.symbol}/s]"
+    motion = (name, ylabel, time, wanted, {"what it does": tuple(moving.speed)})
+    return motion, f"{name.capitalize()}, with your volts: it {words}."
 
 
-def _words(one: Motion, variant: Variant) -> str:
+def _describe_end(wanted: float, found: float, symbol: str, *, after: str) -> str:
     """What is to be seen in the end, with one digit: it is a picture, not a measurement."""
-    wanted, found = one.wanted[-1], one.found[-1]
-    at = variant.moments[one.name]
-    told = f"{one.name.capitalize()}, with your volts: it"
     if abs(found) <= HARDLY * abs(wanted):
-        return f"{told} hardly moves."
+        return "hardly moves"
     if found * wanted < 0.0:
-        return f"{told} goes the other way."
+        return "goes the other way"
     off = (found - wanted) * math.copysign(1.0, wanted)
-    size = f"about {float(f'{abs(off):.1g}'):g} {variant.symbol}/s"
-    if not at.acceleration:
-        return f"{told} gets {size} too {'fast' if off > 0.0 else 'slow'}."
-    after = f"after {float(f'{1000.0 * one.time[-1]:.1g}'):g} ms"
-    return f"{told} is {size} too {'fast' if off > 0.0 else 'slow'} {after}."
+    size = f"about {float(f'{abs(off):.1g}'):g} {symbol}/s too {'fast' if off > 0.0 else 'slow'}"
+    return f"is {size}{after}" if after else f"gets {size}"

@@ -11,7 +11,7 @@ from grader.consequence import Consequence
 from grader.robotcode.bench.gains_run import GainConstant, Gains
 from grader.robotcode.checks.causes import check_compiles, check_stop
 from grader.robotcode.running import Runs, judge_runs, run_gains
-from grader.student_data.student_files import write_student_files
+from grader.student_data.student_files import Made
 
 from .comment_units import find_commented_units, judge_comment
 from .drawn import draw
@@ -25,12 +25,10 @@ from .feedforwards import (
     list_feedbacks,
 )
 from .key import FEED_FORWARD, FULL, SLOT0, Variant, near
-from .outcome import outcome
+from .outcome import find_outcome
 from .slips import find_constant_slip, find_feedback_slip, find_handed_slip
 
 FILES = ("ExampleMechanism.java", "example_mechanism.py")
-HERE = Path(__file__).resolve().parent
-GIVEN = "given.toml"
 HOLDER = "CharacterizationConstants"
 START = re.compile(
     r"start|tun(e|ing)|initial|first (guess|value|try)|begin|suggest|guess|adjust|preliminary",
@@ -62,13 +60,12 @@ def check_all_runs(points: float) -> Callable[[Look], Check[Code]]:
     return make
 
 
-def prepare(student: str, *, say: Callable[[str], None]) -> None:
-    """Write down what the analyzer showed for the learner's mechanism."""
-    made = {GIVEN: told(draw(student))}
-    write_student_files(made, exercise=HERE, student=student, what="numbers", say=say)
+def make_files(student: str) -> dict[str, Made]:
+    """What the analyzer showed for the learner's mechanism."""
+    return {"given.toml": describe(draw(student))}
 
 
-def told(variant: Variant) -> str:
+def describe(variant: Variant) -> str:
     """What a learner gets to know."""
     given, used = variant.symbol(used=False), variant.symbol(used=True)
     units = {
@@ -122,7 +119,7 @@ def read(path: Path, *, student: str, run: bool = True) -> Code:
 
 def consequence(code: Code) -> Consequence | None:
     """What the learner's feedforward would do on their mechanism."""
-    return outcome(Seen(code.runs[0], code.variant))
+    return find_outcome(Seen(code.runs[0], code.variant))
 
 
 @check_all_runs(1)

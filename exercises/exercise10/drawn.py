@@ -2,14 +2,14 @@
 
 from dataclasses import replace
 from itertools import combinations
-from typing import TYPE_CHECKING
 
-from grader.student_data.variant import make_student_rng
+import numpy as np
+
+from grader.student_data.variant import choose, draw_until, make_student_rng, round_digits
+from sim.bench.mechanisms import MECHANISMS
+from sim.core.units import convert_gains
 
 from .key import FULL, LENGTHS, PLACES, SLOT0, UNITS, Variant, near
-
-if TYPE_CHECKING:
-    import numpy as np
 
 # kind -> analysis, and pairs of what the analyzer counted in and what the robot's code counts in.
 # An ArmFeedforward takes radians, whatever the rest of a program does.
@@ -26,36 +26,33 @@ SLIPS = (FULL, 60.0)  # no gain may pass for another that is off by one of these
 ALIKE = 0.05
 DIGITS = 4
 GEARED = 1.5  # our shooter's wheel turns once for so many turns of the motor, not one to one
-MOST_DRAWS = 2000
 
 
 def draw(student: str) -> Variant:
     """A learner's mechanism, always the same; drawn until its numbers can be told apart."""
     rng = make_student_rng(student, "exercise10")
-    kind = tuple(KINDS)[int(rng.integers(len(KINDS)))]
-    for _ in range(MOST_DRAWS):
-        variant = _drawn(kind, rng)
-        places = [variant.held_by(place) for place in ("", *PLACES)]
-        if all(map(_are_numbers_distinguishable, places)) and _is_gearing_distinguishable(
-            variant.held_by(SLOT0)
-        ):
-            return variant
-    raise RuntimeError(f"no clear numbers for {student!r}")
+    kind = choose(tuple(KINDS), rng)
+    return draw_until(lambda _: _draw_variant(kind, rng), _is_clear)
 
 
-def _drawn(kind: str, rng: "np.random.Generator") -> Variant:
-    from sim.bench.mechanisms import MECHANISMS  # noqa: PLC0415 - numpy only where it is needed
-    from sim.core.units import convert_gains  # noqa: PLC0415 - the same
+def _is_clear(variant: Variant) -> bool:
+    """Whether every number is known by its size, wherever the learner puts the gains."""
+    places = [variant.held_by(place) for place in ("", *PLACES)]
+    return all(map(_are_numbers_distinguishable, places)) and _is_gearing_distinguishable(
+        variant.held_by(SLOT0)
+    )
 
+
+def _draw_variant(kind: str, rng: np.random.Generator) -> Variant:
     analysis, pairs = KINDS[kind]
-    shown_in, used_in = pairs[int(rng.integers(len(pairs)))]
+    shown_in, used_in = choose(pairs, rng)
     made = MECHANISMS[kind].draw(rng)
     if kind == "shooter":
         made = replace(made, ratio=made.ratio * GEARED)
     found = convert_gains(made.gains, factor=UNITS[shown_in][1])
     found["kP"] = found["kV"] * rng.uniform(*KP)
     names = ("kS", *(("kG",) if "kG" in found else ()), "kV", "kA", "kP")
-    shown = {name: float(f"{found[name]:.{DIGITS}g}") for name in names}
+    shown = {name: round_digits(found[name], DIGITS) for name in names}
     return Variant(
         kind,
         analysis,
@@ -63,8 +60,8 @@ def _drawn(kind: str, rng: "np.random.Generator") -> Variant:
         shown_in,
         used_in,
         bool(rng.integers(2)),
-        ratio=float(f"{made.ratio:.3g}"),
-        radius=float(f"{made.radius:.3g}") if shown_in in LENGTHS else 0.0,
+        ratio=round_digits(made.ratio, 3),
+        radius=round_digits(made.radius, 3) if shown_in in LENGTHS else 0.0,
     )
 
 

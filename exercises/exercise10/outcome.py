@@ -1,18 +1,16 @@
 """What a learner's feedforward would do: their mechanism follows a profile by it alone."""
 
 import math
-from typing import TYPE_CHECKING
 
 from grader.check import NotReachedError, WrongAnswer
 from grader.consequence import Consequence, follow_profiles
 from grader.robotcode.bench.gains_run import Gains
+from sim.feedback import Plant
+from sim.feedback.following import INFINITE, follow_profile
+from sim.feedback.profile import Profile, make_brisk_profile, make_return_profile
 
 from .feedforwards import GRAVITY, SETTINGS, Seen
 from .key import CLASSES, SCALED, Variant, near
-
-if TYPE_CHECKING:
-    from sim.feedback import Plant
-    from sim.feedback.profile import Profile
 
 TYPES = {made: analysis.lower() for analysis, made in CLASSES.items()}
 POSITIONS = {"arm": "angle", "elevator": "height", "shooter": ""}  # what a position is called
@@ -22,11 +20,8 @@ SPEED = {"arm": 1.0, "elevator": 0.5}  # [rad/s, m/s]
 RISING, STEADY, STILL = 0.25, 0.75, 0.5  # [s]
 
 
-def outcome(seen: Seen) -> Consequence | None:
+def find_outcome(seen: Seen) -> Consequence | None:
     """What the feedforward would do; None where it is as it should be, or cannot be told."""
-    from sim.feedback import Plant  # noqa: PLC0415 - numpy only where it is needed
-    from sim.feedback.following import INFINITE, follow_profile  # noqa: PLC0415 - the same
-
     variant = seen.variant
     try:
         one = seen.feedforwards[0]
@@ -71,9 +66,7 @@ def _in_code(name: str, value: float, variant: Variant) -> float:
     return value * variant.coded(name) / variant.needed(name) if name in SCALED else value
 
 
-def _make_profile(plant: "Plant", kind: str) -> "Profile":
-    from sim.feedback.profile import make_brisk_profile, make_return_profile  # noqa: PLC0415 - numpy, when needed
-
+def _make_profile(plant: Plant, kind: str) -> Profile:
     if kind in SPEED:
         return make_return_profile(
             SPEED[kind], rising=RISING, steady=STEADY, still=STILL, start=START[kind]

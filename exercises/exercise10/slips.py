@@ -1,67 +1,24 @@
 """What may have gone wrong with a number on its way from the analyzer into the code."""
 
 from collections.abc import Iterable
+from pathlib import Path
 
-from grader.answers.wrong_number import WrongNumber
+from grader.answers.wrong_number import Slips, WrongNumber
 
 from .key import FULL, SLOT0, Variant, near
 
 ROUNDED = 0.10  # [share] what rounding to one digit may take away
 MINUTE = 60.0
 TURN = 6.283185307179586  # [rad]
-TEXT = """
-integer||Whole numbers divide to a whole number in Java: 1 / 2 is 0
-rounded||close, but rounded too much. Keep three digits or more
-other||not a gain of this mechanism. They are in given.toml; in practice, in your own fit
-other-gain||that is the analyzer's {other}. Copy its {gain}
-sign||the size is right, the sign is not
-radians|M-UNITS|this value is per radian. {counting}, and one rotation is 2π radians
-rotor|M-GEARING|this value is per rotation of the motor's rotor. SensorToMechanismRatio is set, \
-so {counting}, and this is {ratio:g} times too small
-geared-twice|M-GEARING|this value is multiplied by the gear ratio, but {counting} already
-diameter|M-GEARING|twice what it should be: did you take the diameter of the wheel or drum?
-volts|M-UNITS|{gain} has no velocity in its unit: volts stay volts, nothing to convert
-turned|M-UNITS|converted in the wrong direction: a larger unit needs more volts
-twice|M-UNITS|converted twice. In the unit of kA only the seconds are squared, not the length
-duty|M-DUTY|wrong by a factor of 12. A feedforward's gains are in volts, whatever the loop outputs
-minutes|M-UNITS|wrong by a factor of 60. Did you use minutes instead of seconds?
-coded|M-UNITS|this value is per {coded}, but {counting}: convert it
-unconverted|M-UNITS|this value is per {given}, as the analyzer shows it. {counting}: the voltage \
-will be {factor:.3g} times too {size}
-again|M-UNITS|converted twice, in the constant and again here
-handed||correct the constant {gain} first
-unmodified|M-UNITS|this value is per {given}, as the analyzer shows it. {counting}{also}
-output|M-DUTY|the unit is right, the output is not: it is {output}
-12-turned|M-DUTY|the output is {output}: did you multiply by 12 instead of dividing?
-unit|M-UNITS|this value is still per {given}, but {inner}
-kP-turned|M-UNITS|the unit is converted in the wrong direction
-kP-other||not the suggested kP. It is in given.toml; in practice, in your own fit
-ratio|M-UNITS|The right value is the number of turns of the motor for one turn of the mechanism: \
-the gear_ratio of given.toml, not 1 and not its inverse.
-no-ratio|M-GEARING|Then the motor controller counts rotations of the motor. Set \
-SensorToMechanismRatio to the gear ratio.
-level||Without Arm_Cosine the motor controller adds kG at every angle as if the arm were level. \
-(Elevator_Static is the default.)
-cosine||That is for arms. An elevator weighs the same at every height: use Elevator_Static, or kG.
-closed-loop||Then kS follows the sign of the error, and the mechanism may shake around the target. \
-Your mechanism follows a velocity: use UseVelocitySign, which is the default.
-arm||A Spark adds kG at every angle. An arm's kG goes into kCos.
-arm-turns|M-UNITS|kCosRatio converts the encoder's position into rotations of the arm, and the \
-Spark takes the cosine of this angle. How many rotations is one of your units?
-"""  # of each slip: code, misconception, sentence
-SAYS = {
-    code: (says, misconception)
-    for row in TEXT.strip().splitlines()
-    for code, misconception, says in [map(str.strip, row.split("|"))]
-}
+SLIPS = Slips(Path(__file__).with_name("slips.toml"))
 Ways = list[tuple[str, Iterable[float]]]  # a slip, and what numbers it gives
 
 
 def name_slip(code: str, gain: str, variant: Variant, other: str = "") -> WrongNumber:
     """A slip in words."""
-    says, misconception = SAYS[code]
     output = "a duty cycle, where 1 is 12 V" if variant.duty else "volts"
-    words = says.format(
+    return SLIPS.name(
+        code,
         gain=gain,
         other=other,
         ratio=variant.ratio,
@@ -74,7 +31,6 @@ def name_slip(code: str, gain: str, variant: Variant, other: str = "") -> WrongN
         output=output,
         also=f", and your loop outputs {output}" if variant.duty else "",
     )
-    return WrongNumber(code, words, misconception)
 
 
 def _find_first(value: float, ways: Ways) -> str:

@@ -9,24 +9,17 @@ from grader.answers.choice_answer import check_choice, read_choice
 from grader.answers.number_answer import AnswerKey, judge_number, read_answer_number
 from grader.check import NotReachedError, WrongAnswer, shorten
 
-from .drawn import QUESTIONS, Variant, draw
-from .knowledge import STORIES
+from .drawn import Variant, draw
 from .question import judge_choice
-from .table import DECISIONS, REASONS, ROWS, WRONG, Row
+from .questions import DECISIONS, QUESTIONS, REASONS, ROWS, STORIES, WRONG_REASONS, Row
 
-__all__ = [
-    "QUESTIONS",
-    "ROWS",
-    "draw",
-    "judge_answer",
-    "tell_questions",
-]
+__all__ = ["QUESTIONS", "ROWS", "draw", "format_questions", "judge_answer"]
 
 ROUNDED = 0.0015  # [share] a slip is named for who writes three digits, too
 ALSO = {"usually not needed": "usually not", "not": "usually not", "no": "usually not"}
 
 
-def tell_questions(variant: Variant) -> str:
+def format_questions(variant: Variant) -> str:
     """All questions, their options under the learner's own letters."""
     parts = ["# Your own questions for exercise 11\n\nWrite your letters into answers.toml.\n"]
     for name, one in QUESTIONS.items():
@@ -61,7 +54,7 @@ def judge_answer(
 
     Args:
         name: of the answer.
-        given: name in lower case -> answer.
+        given: the answers.
         variant: the learner's own numbers and letters.
         points: for a right answer.
 
@@ -72,9 +65,9 @@ def judge_answer(
         WrongAnswer: it is not right.
         NotReachedError: it is a reason, and its decision is not right.
     """
-    raw = given.get(name.lower())
+    raw = given.get(name)
     if name in QUESTIONS:
-        chosen = QUESTIONS[name].chosen(raw, variant.letters[name])
+        chosen = QUESTIONS[name].find_option(raw, variant.letters[name])
         return judge_choice(chosen, points=points, backed=_is_backed(name, given, variant))
     if name == "KC2_volts":
         return _judge_volts(raw, variant, points=points)
@@ -89,7 +82,7 @@ def _is_backed(name: str, given: Mapping[str, object], variant: Variant) -> bool
     if reason == name or reason not in QUESTIONS:
         return False
     try:
-        chosen = QUESTIONS[reason].chosen(given.get(reason.lower()), variant.letters[reason])
+        chosen = QUESTIONS[reason].find_option(given.get(reason), variant.letters[reason])
     except WrongAnswer:
         return False
     return chosen.share == 1.0
@@ -100,9 +93,12 @@ def _judge_volts(raw: object, variant: Variant, *, points: float) -> str | None:
     asked = variant.volts
     value = read_answer_number(raw, asked)
     if not asked.is_right(value):
-        for slipped, says, code in variant.slips:
-            if abs(value - slipped) <= ROUNDED * slipped:
-                raise WrongAnswer(f"{value:.4g} V", hint=says, misconception=code)
+        for one in variant.slips:
+            if abs(value - one.value) <= ROUNDED * one.value:
+                slip = one.slip
+                raise WrongAnswer(
+                    f"{value:.4g} V", hint=slip.says, misconception=slip.misconception
+                )
     return judge_number(
         asked.name, {asked.name: raw}, AnswerKey({asked.name: asked}), points=points
     )
@@ -132,9 +128,13 @@ def _judge_reason(row: Row, given: Mapping[str, object], variant: Variant) -> No
     if row.argues(decided, chosen):
         return
     if chosen not in row.reasons:
-        own, code = WRONG.get(chosen, ("", ""))
-        other = f"this is no reason for '{decided}' here: {row.told}. {row.ask}"
-        raise WrongAnswer(f'"{REASONS[chosen]}"', hint=own or other, misconception=code)
+        other = {"says": f"this is no reason for '{decided}' here: {row.told}. {row.ask}"}
+        said = WRONG_REASONS.get(chosen, other)
+        raise WrongAnswer(
+            f'"{REASONS[chosen]}"',
+            hint=said["says"],
+            misconception=said.get("misconception", ""),
+        )
     if decided != row.decision:
         raise NotReachedError("a reason counts only together with a decision that is right")
 

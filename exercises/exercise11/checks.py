@@ -1,18 +1,14 @@
 """Exercise 11: what a team should know about measuring gains, and for which mechanism it pays."""
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from pathlib import Path
+from functools import partial
 from typing import Any
 
 from grader.answers.answer_key import load_answer_key
-from grader.answers.submission import read_answers
-from grader.check import Check, check
-from grader.student_data.student_files import write_student_files
+from grader.answers.submission import StudentAnswers
+from grader.check import make_check
+from grader.student_data.student_files import Made
 
 FILES = ("answers.toml",)
-HERE = Path(__file__).resolve().parent
-GIVEN = "questions.md"
 TIER, SINGLE = 2.0, 1.0  # points of a tier of a knowledge check, of every other question
 QUESTIONS = {  # name -> what its check is about, and its points
     "Q0_guess": ("The question of somebody who guesses gains.", SINGLE),
@@ -42,63 +38,36 @@ ANSWER_NAMES = (
 )
 
 
-@dataclass(frozen=True)
-class Answers:
-    """What the checks look at.
-
-    Args:
-        given: name in lower case -> answer.
-        variant: the learner's own numbers and letters.
-        key: the module ``answer_key``.
-    """
-
-    given: Mapping[str, object]
-    variant: Any
-    key: Any
-
-
-def prepare(student: str, *, say: Callable[[str], None]) -> None:
-    """Write down the learner's questions, where they are not there as they were made.
+def draw(student: str) -> Any:  # noqa: ANN401 - of a module that a class's package lacks
+    """A learner's own numbers and letters.
 
     Raises:
         NotReachedError: this is a class's package, which has no questions for other names.
     """
+    return load_answer_key(__name__).draw(student)
+
+
+def make_files(student: str) -> dict[str, Made]:
+    """The learner's questions."""
     key = load_answer_key(__name__)
-    made = {GIVEN: key.tell_questions(key.draw(student))}
-    write_student_files(made, exercise=HERE, student=student, what="questions", say=say)
+    return {"questions.md": key.format_questions(key.draw(student))}
 
 
-def read(path: Path, *, student: str) -> Answers:
-    """The answers, and what they are held against.
-
-    Raises:
-        UnreadableFile: the file cannot be read.
-        NotReachedError: this is a class's package.
-    """
-    given = {name.lower(): value for name, value in read_answers(path).items()}
+def _judge(name: str, points: float, answers: StudentAnswers) -> str | None:
     key = load_answer_key(__name__)
-    return Answers(given, key.draw(student), key)
+    note: str | None = key.judge_answer(name, answers.given, answers.variant, points=points)
+    return note
 
 
-def _check(name: str, describes: str, points: float, *, function: str) -> Check[Answers]:
-    """The check of one answer."""
-
-    def look(answers: Answers) -> str | None:
-        said: str | None = answers.key.judge_answer(
-            name, answers.given, answers.variant, points=points
-        )
-        return said
-
-    look.__name__, look.__doc__ = function, describes
-    return check(points=points)(look)
-
-
-# The loader finds checks by the names of this module, in the order they are written.
-for _name, (_describes, _points) in QUESTIONS.items():
-    globals()[_name.lower()] = _check(_name, _describes, _points, function=_name.lower())
-for _name in MECHANISMS:
-    for _answer, _id, _describes in (
-        (_name, f"decision_{_name}", f"Whether to characterize it: {_name}."),
-        (f"{_name}_reason", f"reason_{_name}", f"The reason: {_name}."),
-    ):
-        globals()[_id] = _check(_answer, _describes, SINGLE, function=_id)
+question_checks = tuple(
+    make_check(name, description, partial(_judge, name, points), points=points)
+    for name, (description, points) in QUESTIONS.items()
+)
+mechanism_checks = tuple(
+    make_check(id_, description, partial(_judge, answer, SINGLE), points=SINGLE)
+    for name in MECHANISMS
+    for id_, answer, description in (
+        (f"decision_{name}", name, f"Whether to characterize it: {name}."),
+        (f"reason_{name}", f"{name}_reason", f"The reason: {name}."),
+    )
+)

@@ -2,18 +2,16 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from pathlib import Path
+
+import numpy as np
 
 from grader.answers.number_answer import AskedNumber, Band
+from grader.answers.wrong_number import Lookalike, Slips
 from grader.student_data.variant import cache_draws, make_student_rng
 
-from .knowledge import CHECKS
-from .question import LETTERS, Option, lettered
-from .questions import EVERYDAY
-from .table import REASONS
-
-if TYPE_CHECKING:
-    import numpy as np
+from .question import LETTERS, Option, letter_options
+from .questions import QUESTIONS, REASONS
 
 KS, KV = (0.08, 0.16), (0.070, 0.125)  # [V], [V·s/rot] of two Kraken X60 on wheels of many ratios
 TARGETS = (3000, 3500, 4000, 4500, 5000)  # [rpm]
@@ -25,7 +23,7 @@ KA_SPREAD, KA_ERROR = (0.05, 0.09), 0.002  # [share] to either side; [V·s²/m] 
 HOTTER = (40, 50, 60)  # [°C] above the tests; copper takes 20 % more volts at 50
 TIRED, MOST_VOLTS = (11.2, 11.9), 10  # [V] of the battery; that the code sends at most
 VOLTS = Band(0.003, 0.006)  # it is arithmetic; kS alone is 0.8 % of it and more
-QUESTIONS = {one.name: one for one in (*EVERYDAY, *CHECKS)}
+SLIPS = Slips(Path(__file__).with_name("slips.toml"))
 
 
 @dataclass(frozen=True)
@@ -49,29 +47,22 @@ class Variant:
         return AskedNumber("KC2_volts", ks + kv * rpm / 60.0, "V", VOLTS)
 
     @property
-    def slips(self) -> tuple[tuple[float, str, str], ...]:
-        """What slips would make of it [V], a sentence, and the misconception."""
+    def slips(self) -> tuple[Lookalike, ...]:
+        """What slips would make of it [V]."""
         ks, kv, rpm = (self.numbers[name] for name in ("ks", "kv", "target"))
-        says = "your kV is for rotations in a second, and rpm are rotations in a minute"
-        return (
-            (kv * rpm / 60.0, "kS is missing. The wheel has friction at every speed", ""),
+        return SLIPS.list_lookalikes(
             (
-                ks + kv * self.numbers["reached"] / 60.0,
-                "this is for the speed it reached. Use the target speed",
-                "",
-            ),
-            (ks + kv * rpm, says, "M-UNITS"),
-            (kv * rpm, says, "M-UNITS"),
-            (60.0 * ks + kv * rpm, says, "M-UNITS"),
-            (
-                ks + (kv + 0.003) * rpm / 60.0,
-                "the term kA·a is too much here. What is a at a steady speed?",
-                "",
-            ),
+                ("no-ks", kv * rpm / 60.0),
+                ("reached", ks + kv * self.numbers["reached"] / 60.0),
+                ("minutes", ks + kv * rpm),
+                ("minutes", kv * rpm),
+                ("minutes", 60.0 * ks + kv * rpm),
+                ("extra-ka", ks + (kv + 0.003) * rpm / 60.0),
+            )
         )
 
 
-def _everyday(rng: "np.random.Generator") -> dict[str, float]:
+def _draw_everyday_numbers(rng: np.random.Generator) -> dict[str, float]:
     """The numbers of the questions about repeated readings, three recordings, and heat."""
     frame = int(rng.choice(tuple(FRAMES)))
     of_mass, middle = (float(rng.uniform(*KA_DRIVE)) for _ in range(2))
@@ -103,9 +94,9 @@ def draw(student: str) -> Variant:
         "ks_before": before,
         "ks_today": round(before + float(rng.uniform(*KS_MORE)), 2),
     }
-    numbers |= _everyday(rng)
+    numbers |= _draw_everyday_numbers(rng)
     letters = {
-        name: lettered(one.options, rng.permutation(len(one.options)))
+        name: letter_options(one.options, rng.permutation(len(one.options)))
         for name, one in QUESTIONS.items()
     }
     order = rng.permutation(len(REASONS))

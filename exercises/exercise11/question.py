@@ -44,7 +44,7 @@ class Question:
     asks: str
     options: tuple[Option, ...]
 
-    def chosen(self, raw: object, letters: Mapping[str, Option]) -> Option:
+    def find_option(self, raw: object, letters: Mapping[str, Option]) -> Option:
         """The option a learner means: by its letter, or by its first words.
 
         Args:
@@ -59,28 +59,28 @@ class Question:
             raise WrongAnswer("nothing yet", hint=ask)
         if not isinstance(raw, str):
             raise WrongAnswer(f"{shorten(raw)}, which is not a letter", hint=ask)
-        given = plain(raw)
+        given = normalize(raw)
         if given in letters:
             return letters[given]
-        same = [one for one in self.options if plain(one.text) == given]
-        like = same or [one for one in self.options if plain(one.text).startswith(given)]
+        same = [one for one in self.options if normalize(one.text) == given]
+        like = same or [one for one in self.options if normalize(one.text).startswith(given)]
         if (len(given) < SHORTEST and not same) or len(like) != 1:
             raise WrongAnswer(f'"{shorten(raw)}", which is none of them', hint=ask)
         return like[0]
 
 
-def plain(text: str) -> str:
+def normalize(text: str) -> str:
     """A text without what people write it differently by: case, blanks, full stops."""
     return re.sub(r"[^a-z0-9+-]+", " ", text.lower()).strip()
 
 
-def lettered(options: Sequence[Option], order: Sequence[int]) -> dict[str, Option]:
+def letter_options(options: Sequence[Option], order: Sequence[int]) -> dict[str, Option]:
     """Letter -> option, in a learner's own order."""
     return {LETTERS[place]: options[index] for place, index in enumerate(order)}
 
 
 def judge_choice(chosen: Option, *, points: float, backed: bool) -> str | None:
-    """Hold the chosen option against what is right.
+    """Compare the chosen option with what is right.
 
     Args:
         chosen: the option.

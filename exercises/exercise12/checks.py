@@ -2,39 +2,33 @@
 
 import math
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from pathlib import Path
-from typing import TYPE_CHECKING
+
+import numpy as np
 
 from grader.answers.number_answer import AskedNumber, Band, read_answer_number
-from grader.answers.submission import read_answers
+from grader.answers.submission import StudentAnswers
 from grader.check import NotReachedError, WrongAnswer, check
 from grader.mystery import Mystery
-from grader.student_data.student_files import format_log, write_student_files
+from grader.student_data.student_files import Made, format_log
 from grader.student_data.variant import make_folder_name
+from sim.core.units import find_unit
+from sim.estimation.likelihood import Estimate
+from sim.physics.effects import EFFECTS
+from sim.physics.model import Part
+from sim.reconcile.by_hand import HandSearch
 
 from .drawn import FLOOR, HIDDEN, Variant, draw, draw_determined
-from .patch import names_of, on_a_bound, parts_of
+from .patch import find_bound, read_names, read_parts
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    import numpy as np
-
-    from sim.estimation.likelihood import Estimate
-    from sim.physics.model import Part
-    from sim.reconcile.by_hand import HandSearch
-
-__all__ = ["draw", "make_folder_name", "names_of"]  # what try_it.py uses, too
+__all__ = ["draw", "make_folder_name", "read_names"]  # what try_it.py uses, too
 
 Effects = tuple[tuple[str, tuple[tuple[str, float], ...]], ...]  # names, each with its parameters
 
 FILES = ("answers.toml",)
 ANSWER_NAMES = ("effects", "gap_before", "gap_after")
-HERE = Path(__file__).resolve().parent
 
 SHRINK = 0.6  # [share of what can be shrunk] for partial marks
 WORSE = 1.05  # [of the base's gap] beyond it, effects do harm
@@ -46,34 +40,23 @@ REPORTED = 0.5  # points for the two gaps
 REMEMBERED = 16  # searches and fits that are kept while this runs
 
 
-@dataclass(frozen=True)
-class Answers:
-    """What the checks look at.
+class Answers(StudentAnswers):
+    """What the checks look at."""
 
-    Args:
-        given: the answers by name.
-        variant: the learner's own mechanism.
-        names_only: whether only names are asked for, as in a mystery.
-    """
-
-    given: Mapping[str, object]
-    variant: Variant
-    names_only: bool = False
+    names_only = False  # whether only names are asked for, as in a mystery
 
     @property
     def names(self) -> tuple[str, ...]:
         """The effects, in order; raises WrongAnswer."""
-        return names_of(self.given.get("effects"))
+        return read_names(self.given.get("effects"))
 
     @property
-    def parts(self) -> "list[Part]":
+    def parts(self) -> list[Part]:
         """The effects with their parameters; raises WrongAnswer."""
-        from sim.core.units import find_unit  # noqa: PLC0415 - numpy only where it is needed
-
-        return parts_of(self.names, self.given, find_unit(self.variant.log.units))
+        return read_parts(self.names, self.given, find_unit(self.variant.log.units))
 
     @cached_property
-    def search(self) -> "HandSearch":
+    def search(self) -> HandSearch:
         """The search for effects in the learner's logs."""
         return _make_search(self.variant)
 
@@ -82,55 +65,52 @@ class Answers:
         """Number of samples of the validation log."""
         return sum(len(run) for run in self.variant.validation.runs)
 
-    def fitted(self, parts: "Sequence[Part]") -> "Estimate":
+    def fitted(self, parts: Sequence[Part]) -> Estimate:
         """Some of the answer's effects, and gains fitted to the logs: each selection once."""
         return _fit_gains(
             self.search, tuple((one.effect, tuple(one.parameters.items())) for one in parts)
         )
 
-    def measure_gap(self, parts: "Sequence[Part]", log: str = "validation") -> float:
+    def measure_gap(self, parts: Sequence[Part], log: str = "validation") -> float:
         """The gap of a log with some of the answer's effects [times the noise]."""
         return self.search.measure_gap(self.fitted(parts), log)
 
 
+class MysteryAnswers(Answers):
+    """The answer to a mystery."""
+
+    names_only = True
+
+
 @lru_cache(maxsize=REMEMBERED)
-def _make_search(variant: Variant) -> "HandSearch":
+def _make_search(variant: Variant) -> HandSearch:
     """The search in a learner's logs: what does not depend on an answer is fitted once."""
     return variant.make_search()
 
 
 @lru_cache(maxsize=REMEMBERED)
-def _fit_gains(search: "HandSearch", effects: Effects) -> "Estimate":
+def _fit_gains(search: HandSearch, effects: Effects) -> Estimate:
     """The gains of the model with effects, as the answer states them."""
-    from sim.physics.model import Part  # noqa: PLC0415 - numpy only where it is needed
-
     return search.fit_gains([Part(name, dict(values)) for name, values in effects])
 
 
 def list_answer_tables() -> tuple[str, ...]:
     """The names of all effects, each also with ``_`` for ``-``: ``velocity-filter.lag = 0.02``."""
-    from sim.physics.effects import EFFECTS  # noqa: PLC0415 - numpy only where it is needed
-
     return tuple({name: None for one in EFFECTS for name in (one, one.replace("-", "_"))})
 
 
-def prepare(student: str, *, say: Callable[[str], None]) -> None:
-    """Make the learner's logs, where they are not there as they were made."""
+def make_files(student: str) -> dict[str, Made]:
+    """The learner's logs."""
     variant = draw(student)
-    logs = {
-        "log": variant.log,
-        "validation": variant.validation,
-        "held-out": variant.held_out,
-    }
-    made = {
+    logs = {"log": variant.log, "validation": variant.validation, "held-out": variant.held_out}
+    return {
         f"{name}{suffix}": format_log(log)
         for name, log in logs.items()
         for suffix in (".wpilog", ".csv")
     }
-    write_student_files(made, exercise=HERE, student=student, what="logs", say=say)
 
 
-def draw_mystery(rng: "np.random.Generator", *, level: int) -> Mystery:
+def draw_mystery(rng: np.random.Generator, *, level: int) -> Mystery:
     """One to three hidden effects, more at higher levels; the answer is their names.
 
     Args:
@@ -150,23 +130,13 @@ def draw_mystery(rng: "np.random.Generator", *, level: int) -> Mystery:
         example=", ".join(("delay", "backlash", "cogging")[:count]),
         solution=", ".join(variant.hidden),
         checks=(first_effect, all_effects),
-        read=lambda text: Answers({"effects": _split_names(text)}, variant, names_only=True),
+        read=lambda text: MysteryAnswers({"effects": _split_names(text)}, variant, ""),
     )
 
 
 def _split_names(text: str) -> list[str]:
     """The names in one line, between commas or spaces."""
     return [one for one in re.split(r"[,\s]+", text) if one]
-
-
-def read(path: Path, *, student: str) -> Answers:
-    """The answers, and what they are held against.
-
-    Raises:
-        UnreadableFile: the file cannot be read.
-    """
-    given = {name.lower(): value for name, value in read_answers(path).items()}
-    return Answers(given, draw(student))
 
 
 @check(points=3)
@@ -179,7 +149,7 @@ def first_effect(answers: Answers) -> None:
     hint = "another effect alone makes the gap of the validation smaller than this one does"
     if first in answers.variant.hidden:
         hint = f"it is one of the hidden effects, but {hint}"
-    raise WrongAnswer(f'"{first}"', hint=f"{hint}{_alone(answers)}")
+    raise WrongAnswer(f'"{first}"', hint=f"{hint}{_describe_alone(answers)}")
 
 
 def _require_narrower(answers: Answers) -> None:
@@ -205,7 +175,7 @@ def _require_narrower(answers: Answers) -> None:
         )
 
 
-def _alone(answers: Answers) -> str:
+def _describe_alone(answers: Answers) -> str:
     """What the first effect does by itself, as the learner sized it."""
     try:
         part = answers.parts[0]
@@ -324,7 +294,7 @@ def justified(answers: Answers) -> None:
     except WrongAnswer:
         raise NotReachedError("checked after you write effects and their parameters") from None
     for part in parts:
-        if stuck := on_a_bound(part):
+        if stuck := find_bound(part):
             raise WrongAnswer(
                 f"{part.effect}.{stuck} is at its limit",
                 hint="this effect does nothing, or stands in for another. Leave it out, or fit "
@@ -333,7 +303,7 @@ def justified(answers: Answers) -> None:
     whole = answers.measure_gap(parts)
     for part in parts:
         without = answers.measure_gap([one for one in parts if one is not part])
-        if not _worth(part, whole=whole, without=without, count=answers.validation_count):
+        if not _is_worth(part, whole=whole, without=without, count=answers.validation_count):
             raise WrongAnswer(
                 part.effect,
                 hint=f"without it, the gap of the validation is {without / whole:.3g} times as "
@@ -342,7 +312,7 @@ def justified(answers: Answers) -> None:
             )
 
 
-def _worth(part: "Part", *, whole: float, without: float, count: int) -> bool:
+def _is_worth(part: Part, *, whole: float, without: float, count: int) -> bool:
     """Whether an effect makes runs likelier that it was not fitted to, its parameters paid."""
     if not whole <= NARROWER * without:  # a simulation that diverged is not narrower, either
         return False

@@ -2,18 +2,18 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+
+import numpy as np
 
 from grader.student_data.draw_cache import cache_generated_data
-from grader.student_data.variant import cache_draws, make_student_rng
-
-if TYPE_CHECKING:
-    import numpy as np
-
-    from sim.bench.mechanism import Mechanism
-    from sim.core.log import Log
-    from sim.physics.model import Part
-    from sim.reconcile.by_hand import HandSearch
+from grader.student_data.variant import cache_draws, choose, draw_until, make_student_rng
+from sim.bench.mechanism import Mechanism
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
+from sim.core.log import Log
+from sim.physics.model import Part
+from sim.reconcile.by_hand import HandSearch
 
 Recipe = tuple[str, tuple[tuple[str, float], ...]]  # a mechanism; its effects with their sizes
 
@@ -62,7 +62,6 @@ SNUG = 0.9  # [of FLOOR] within which the fit of the right effects must be
 MISSED = 1.07  # [of the validation's gap] by which it is wider without any one of the effects
 SEEN = 1.08  # [noises] of a gap in which something is visibly missing
 CLEAR = 1.15  # [1] by which the gap without the first effect is wider than without any other
-MOST_DRAWS = 50  # so many in a row that cannot be determined would be our fault
 TIMEOUT = 8.0  # [s] of a test of the validation and of the held-out log
 
 
@@ -77,20 +76,18 @@ class Variant:
         held_out: more runs, to show the gap on and nothing else.
     """
 
-    mechanism: "Mechanism"
-    log: "Log"
-    validation: "Log"
-    held_out: "Log"
+    mechanism: Mechanism
+    log: Log
+    validation: Log
+    held_out: Log
 
     @property
     def hidden(self) -> tuple[str, ...]:
         """The effects that are hidden, the one that matters most first."""
         return tuple(part.effect for part in self.mechanism.hidden)
 
-    def make_search(self) -> "HandSearch":
+    def make_search(self) -> HandSearch:
         """The search for effects in its logs, whose gaps are those of ``sysid reconcile``."""
-        from sim.reconcile.by_hand import HandSearch  # noqa: PLC0415 - numpy only where it is needed
-
         return HandSearch(self.log, validation=self.validation, held_out=self.held_out)
 
 
@@ -101,21 +98,17 @@ def draw(student: str) -> Variant:
     return draw_determined(make_student_rng(student, "exercise12"), HIDDEN)
 
 
-def draw_determined(rng: "np.random.Generator", among: Sequence[Recipe]) -> Variant:
+def draw_determined(rng: np.random.Generator, among: Sequence[Recipe]) -> Variant:
     """A mechanism whose hidden effects its logs determine.
 
     Args:
         rng: the source of chance.
         among: what may be hidden, as in ``HIDDEN``.
     """
-    for _ in range(MOST_DRAWS):
-        variant = _one(rng, among)
-        if _determined(variant):
-            return variant
-    raise RuntimeError("no mechanism that can be determined")
+    return draw_until(lambda _: draw_any(rng, among), is_determined, most=50)
 
 
-def _determined(variant: Variant) -> bool:
+def is_determined(variant: Variant) -> bool:
     """Whether the right effects predict the held-out log, and each is missed, the first most."""
     search, truth = variant.make_search(), variant.mechanism.model
     found = search.fit_near(truth)
@@ -123,7 +116,7 @@ def _determined(variant: Variant) -> bool:
     if search.measure_gap(found, "held_out") > SNUG * FLOOR * floor:
         return False
 
-    def measure_gap_with(*parts: "Part") -> float:
+    def measure_gap_with(*parts: Part) -> float:
         return search.measure_gap(search.fit_near(replace(truth, parts=parts)))
 
     without = [measure_gap_with(*(o for o in truth.parts if o is not part)) for part in truth.parts]
@@ -131,13 +124,9 @@ def _determined(variant: Variant) -> bool:
     return min(without) >= least and without[0] >= CLEAR * max(without[1:], default=0.0)
 
 
-def _one(rng: "np.random.Generator", among: Sequence[Recipe]) -> Variant:
+def draw_any(rng: np.random.Generator, among: Sequence[Recipe]) -> Variant:
     """Any mechanism, and its logs."""
-    from sim.bench.mechanisms import MECHANISMS  # noqa: PLC0415 - numpy only where it is needed
-    from sim.bench.routine import Routine  # noqa: PLC0415 - the same
-    from sim.bench.simulate import simulate  # noqa: PLC0415 - the same
-
-    kind, effects = among[int(rng.integers(len(among)))]
+    kind, effects = choose(among, rng)
     mechanism = MECHANISMS[kind].draw(rng)
     for effect, size in effects:
         mechanism = mechanism.hide(effect, size * float(rng.uniform(*SIZES)))

@@ -3,15 +3,13 @@
 import difflib
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 from grader.answers.number_answer import AskedNumber, Band, read_answer_number
 from grader.check import WrongAnswer, shorten
-
-if TYPE_CHECKING:
-    from sim.core.units import Unit
-    from sim.physics.effect import Parameter
-    from sim.physics.model import Part
+from sim.core.units import Unit
+from sim.physics.effect import Parameter
+from sim.physics.effects import EFFECTS, find_effect
+from sim.physics.model import Part
 
 GAINS = ("ks", "kv", "ka", "kg", "kp")
 MOST = 19  # names; more than there are effects is no answer
@@ -20,7 +18,7 @@ NOTHING = 1e-9  # in SI: no effect is so small and still one
 LIST = "sysid effects lists the names"
 
 
-def names_of(raw: object) -> tuple[str, ...]:
+def read_names(raw: object) -> tuple[str, ...]:
     """The names of the effects, in the learner's order.
 
     Raises:
@@ -38,15 +36,13 @@ def names_of(raw: object) -> tuple[str, ...]:
             "nothing yet", hint=f'Write effects = ["…"], the most important first; {LIST}.'
         )
     for name in names[:MOST]:
-        _known(name)
+        _require_effect(name)
     if len(names) > MOST or len({*names}) < len(names):
         raise WrongAnswer(f"{len(names)} names", hint="Name each effect once.")
     return tuple(names)
 
 
-def _known(name: str) -> None:
-    from sim.physics.effects import EFFECTS  # noqa: PLC0415 - numpy only where it is needed
-
+def _require_effect(name: str) -> None:
     if name in GAINS:
         raise WrongAnswer(
             f'"{name}"',
@@ -61,20 +57,17 @@ def _known(name: str) -> None:
         raise WrongAnswer(f'"{name[:40]}", which is no effect', hint=f"{also}{LIST}.")
 
 
-def parts_of(names: tuple[str, ...], given: Mapping[str, object], per: "Unit") -> "list[Part]":
+def read_parts(names: tuple[str, ...], given: Mapping[str, object], unit: Unit) -> list[Part]:
     """The effects with their parameters, as the bench needs them.
 
     Args:
         names: of the effects.
         given: the answers.
-        per: the unit of position in which the learner writes.
+        unit: the unit of position in which the learner writes.
 
     Raises:
         WrongAnswer: a parameter is missing, or is none.
     """
-    from sim.physics.effects import find_effect  # noqa: PLC0415 - numpy only where it is needed
-    from sim.physics.model import Part  # noqa: PLC0415 - the same
-
     parts = []
     for name in names:
         table = given.get(name, given.get(name.replace("-", "_")))
@@ -82,13 +75,13 @@ def parts_of(names: tuple[str, ...], given: Mapping[str, object], per: "Unit") -
         if not isinstance(table, dict):
             lines = ", ".join(f"{name}.{one.name} = …" for one in known)
             raise WrongAnswer(f"no parameters of {name}", hint=f"Write a line for each: {lines}.")
-        _require_known(name, table, [one.name for one in known])
-        values = {one.name: _value(name, one, table.get(one.name), per) for one in known}
+        _require_parameters(name, table, [one.name for one in known])
+        values = {one.name: _read_value(name, one, table.get(one.name), unit) for one in known}
         parts.append(Part(name, values))
     return parts
 
 
-def _require_known(name: str, table: Mapping[str, object], known: list[str]) -> None:
+def _require_parameters(name: str, table: Mapping[str, object], known: list[str]) -> None:
     """Refuse a parameter that the effect does not have.
 
     Raises:
@@ -103,17 +96,17 @@ def _require_known(name: str, table: Mapping[str, object], known: list[str]) -> 
             )
 
 
-def _value(name: str, known: "Parameter", raw: object, per: "Unit") -> float:
+def _read_value(name: str, known: Parameter, raw: object, unit: Unit) -> float:
     """A parameter, in SI."""
     asked = AskedNumber(
-        f"{name}.{known.name}", 0.0, known.unit.format(u=per.symbol), Band(0.0, 0.0)
+        f"{name}.{known.name}", 0.0, known.unit.format(u=unit.symbol), Band(0.0, 0.0)
     )
     try:
         value = read_answer_number(raw, asked)
     except WrongAnswer as wrong:
         wrong.seen = f"{asked.name}: {wrong.seen}"
         raise
-    si = value / per.si**known.power
+    si = value / unit.si**known.power
     if not known.least <= si <= known.most:
         raise WrongAnswer(
             f"{asked.name} = {value:g} {asked.unit}",
@@ -125,10 +118,8 @@ def _value(name: str, known: "Parameter", raw: object, per: "Unit") -> float:
     return si
 
 
-def on_a_bound(part: "Part") -> str:
+def find_bound(part: Part) -> str:
     """The parameter that stands at the end of what is allowed; empty if none does."""
-    from sim.physics.effects import find_effect  # noqa: PLC0415 - numpy only where it is needed
-
     for one in find_effect(part.effect).parameters:
         value = part.parameters[one.name]
         for bound in (one.least, one.most):

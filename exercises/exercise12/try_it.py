@@ -35,7 +35,7 @@ def main() -> int:
     exercise = find_exercise("12", course)
     data = asked.logs or _prepare_own(exercise, asked.student or load_progress(course)[0].student)
     search = EffectSearch.read(data)
-    for name in exercise.module.names_of(asked.effects) if asked.effects else ():
+    for name in exercise.module.read_names(asked.effects) if asked.effects else ():
         _say(search.add(name))
     _say(", ".join(f"{name} = {value:.4g}" for name, value in search.gains.items()))
     for name, gap in search.gaps.items():

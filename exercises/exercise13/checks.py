@@ -1,9 +1,10 @@
 """Exercise 13: a swerve drive, from its logs to the settings of a path planner."""
 
 import math
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from functools import cached_property, partial
 from pathlib import Path
+
+import numpy as np
 
 from grader.answers.answer_key import load_answer_key
 from grader.answers.choice_answer import check_choice
@@ -13,90 +14,83 @@ from grader.answers.number_answer import (
     make_number_check,
     read_answer_number,
 )
-from grader.answers.submission import read_answers
+from grader.answers.submission import StudentAnswers
 from grader.answers.wrong_number import ALIKE, Scene
-from grader.check import WrongAnswer, check
-from grader.student_data.student_files import Made, write_student_files
+from grader.check import Check, WrongAnswer, check, make_check
+from grader.student_data.student_files import Made
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
+from sim.bench.swerve_logs import (
+    record_modules,
+    record_spin,
+    record_wall_push,
+    write_modules,
+    write_rotation,
+)
 
 from .drawn import draw
 from .drive import BATTERY, MODULES, Variant
-from .slips import lookalikes, rarer
+from .slips import list_lookalikes, list_rarer
 
 FILES = ("answers.toml",)
 ANSWER_NAMES = (
     "kS", "kV", "kA", "worn", "worn_radius", "lever", "rate_unit", "kA_turning", "inertia",
     "slip_current", "top_speed", "max_torque",
 )  # fmt: skip
-HERE = Path(__file__).resolve().parent
 RAMP, TIMEOUT = 0.5, 8.0  # [V/s], [s] of both routines
 
 
-@dataclass(frozen=True)
-class Answers:
+class Answers(StudentAnswers):
     """What the checks look at."""
 
-    given: Mapping[str, object]
-    key: AnswerKey
-    variant: Variant
+    @cached_property
+    def key(self) -> AnswerKey:
+        """The right numbers, and what slips make of them."""
+        variant: Variant = self.variant
+        scene = Scene(
+            ratio=variant.ratio,
+            motors=4,
+            ramp=RAMP,
+            lookalikes=list_lookalikes(variant),
+            rarer=list_rarer(variant),
+        )
+        return AnswerKey(variant.asked, scene)
 
 
-def prepare(student: str, *, say: Callable[[str], None]) -> None:
-    """Make the learner's files, where they are not there as they were made."""
-    files = made(draw(student))
-    write_student_files(files, exercise=HERE, student=student, what="files", say=say)
-
-
-def made(variant: Variant) -> dict[str, Made]:
-    """File -> what makes it; all noise comes from the variant's own seed."""
-
-    def straight(path: Path) -> None:
-        import numpy as np  # noqa: PLC0415 - not where the file is there already
-
-        from sim.bench.routine import Routine  # noqa: PLC0415 - the same
-        from sim.bench.swerve_logs import record_modules, write_modules  # noqa: PLC0415 - the same
-
-        routine = Routine(ramp=RAMP, step=variant.step, timeout=TIMEOUT)
-        rng = np.random.default_rng([variant.seed, 1])
-        logs = record_modules(variant.drive, routine, rng=rng, radii=variant.radii)
-        write_modules(logs, path)
-
-    def turning(path: Path) -> None:
-        import numpy as np  # noqa: PLC0415 - the same
-
-        from sim.bench.routine import Routine  # noqa: PLC0415 - the same
-        from sim.bench.simulate import simulate  # noqa: PLC0415 - the same
-        from sim.bench.swerve_logs import write_rotation  # noqa: PLC0415 - the same
-
-        routine = Routine(ramp=RAMP, step=variant.step, timeout=TIMEOUT)
-        rng = np.random.default_rng([variant.seed, 2])
-        log = simulate(variant.drive.rotation, routine, rng=rng)
-        write_rotation(log, path, volts_per_rate=variant.volts_per_angular_speed)
-
-    def push(path: Path) -> None:
-        import numpy as np  # noqa: PLC0415 - the same
-
-        from sim.bench.swerve_logs import record_wall_push  # noqa: PLC0415 - the same
-
-        one = record_wall_push(variant.drive, rng=np.random.default_rng([variant.seed, 3]))
-        rows = zip(one.time, one.voltage, one.current, one.velocity, strict=True)
-        head = "time_s,compute_motor_voltage,stator_current,wheel_velocity\n"
-        text = "".join(f"{t:.2f},{u:.3f},{i:.1f},{v:.3f}\n" for t, u, i, v in rows)
-        path.write_bytes((head + text).encode())
-
+def make_files(student: str) -> dict[str, Made]:
+    """The learner's files; all noise comes from the variant's own seed."""
+    variant = draw(student)
     return {
-        "given.toml": _told(variant),
-        "straight.wpilog": straight,
-        "turning.wpilog": turning,
-        "push.csv": push,
+        "given.toml": _describe(variant),
+        "straight.wpilog": partial(_record_straight, variant),
+        "turning.wpilog": partial(_record_turning, variant),
+        "push.csv": partial(_record_push, variant),
     }
 
 
-def _told(variant: Variant) -> str:
+def _record_straight(variant: Variant, path: Path) -> None:
+    routine = Routine(ramp=RAMP, step=variant.step, timeout=TIMEOUT)
+    rng = np.random.default_rng([variant.seed, 1])
+    logs = record_modules(variant.drive, routine, rng=rng, radii=variant.radii)
+    write_modules(logs, path)
+
+
+def _record_turning(variant: Variant, path: Path) -> None:
+    routine = Routine(ramp=RAMP, step=variant.step, timeout=TIMEOUT)
+    log = simulate(variant.drive.rotation, routine, rng=np.random.default_rng([variant.seed, 2]))
+    write_rotation(log, path, volts_per_rate=variant.volts_per_angular_speed)
+
+
+def _record_push(variant: Variant, path: Path) -> None:
+    one = record_wall_push(variant.drive, rng=np.random.default_rng([variant.seed, 3]))
+    rows = zip(one.time, one.voltage, one.current, one.velocity, strict=True)
+    head = "time_s,compute_motor_voltage,stator_current,wheel_velocity\n"
+    text = "".join(f"{t:.2f},{u:.3f},{i:.1f},{v:.3f}\n" for t, u, i, v in rows)
+    path.write_bytes((head + text).encode())
+
+
+def _describe(variant: Variant) -> str:
     """What a learner gets to know about the robot, and what was read after the slow spin."""
-    import numpy as np  # noqa: PLC0415 - numpy only where it is needed
-
-    from sim.bench.swerve_logs import record_spin  # noqa: PLC0415 - the same
-
     drive, rng = variant.drive, np.random.default_rng([variant.seed, 4])
     spin = record_spin(drive, turns=variant.turns, rng=rng, radii=variant.radii)
     motor = drive.motor
@@ -121,25 +115,6 @@ def _told(variant: Variant) -> str:
         *(f"{module} = {turns:.2f}" for module, turns in spin.motor_turns.items()),
     ]
     return "\n".join(lines) + "\n"
-
-
-def read(path: Path, *, student: str) -> Answers:
-    """The answers, and what they are held against.
-
-    Raises:
-        UnreadableFile: the file cannot be read.
-    """
-    given = {name.lower(): value for name, value in read_answers(path).items()}
-    variant = draw(student)
-    named = {name: given.get(name.lower()) for name in variant.asked}
-    scene = Scene(
-        ratio=variant.ratio,
-        motors=4,
-        ramp=RAMP,
-        lookalikes=lookalikes(variant),
-        rarer=rarer(variant),
-    )
-    return Answers({**given, **named}, AnswerKey(variant.asked, scene), variant)
 
 
 ks = make_number_check("kS", "The kS of going straight, the voltage that friction takes.", points=1)
@@ -181,44 +156,26 @@ ka_turning = make_number_check(
 )
 
 
-@check(points=2)
-def inertia(answers: Answers) -> str | None:
-    """The moment of inertia."""
-    return _computed("inertia", answers, points=2)
+def _make_computed_check(name: str, description: str, *, points: float) -> Check[Answers]:
+    """Make a check of a number that is computed from others."""
+    return make_check(name, description, partial(_judge_computed, name, points), points=points)
 
 
-slip_current = make_number_check(
-    "slip_current", "The current of one motor at which the wheels begin to slip.", points=1
-)
-
-
-@check(points=1)
-def top_speed(answers: Answers) -> str | None:
-    """PathPlanner's true max drive speed, at 12 V."""
-    return _computed("top_speed", answers, points=1)
-
-
-@check(points=1)
-def max_torque(answers: Answers) -> str | None:
-    """Choreo's motor max torque: what one motor gives at the slip current."""
-    return _computed("max_torque", answers, points=1)
-
-
-def _computed(name: str, answers: Answers, *, points: float) -> str | None:
+def _judge_computed(name: str, points: float, answers: Answers) -> str | None:
     """Judge a number that is computed from others; say so where only those are wrong."""
     try:
         return judge_number(name, answers.given, answers.key, points=points)
     except WrongAnswer as wrong:
-        if of := _cause(name, answers):
+        if of := _find_wrong_source(name, answers):
             wrong.hint = f"it follows from your {of}, and that is not right yet"
             wrong.misconception = ""
         raise
 
 
-def _cause(name: str, answers: Answers) -> str:
+def _find_wrong_source(name: str, answers: Answers) -> str:
     """The wrong answer that a wrong number follows from; empty if it follows from none."""
     variant = answers.variant
-    ways: dict[str, tuple[tuple[str, ...], Callable[..., float]]] = {
+    ways = {
         "inertia": (
             ("lever", "kA_turning", "kA"),
             lambda lever, turning, straight: variant.mass * lever * turning / straight,
@@ -242,3 +199,17 @@ def _cause(name: str, answers: Answers) -> str:
         return ""
     pairs = zip(sources, theirs, strict=True)
     return next((one for one, given in pairs if not variant.asked[one].is_right(given)), "")
+
+
+inertia = _make_computed_check("inertia", "The moment of inertia.", points=2)
+slip_current = make_number_check(
+    "slip_current", "The current of one motor at which the wheels begin to slip.", points=1
+)
+
+
+top_speed = _make_computed_check(
+    "top_speed", "PathPlanner's true max drive speed, at 12 V.", points=1
+)
+max_torque = _make_computed_check(
+    "max_torque", "Choreo's motor max torque: what one motor gives at the slip current.", points=1
+)

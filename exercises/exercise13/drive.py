@@ -3,12 +3,11 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from grader.answers.number_answer import BANDS, FAST, FAST_KA, AskedNumber, Band
-
-if TYPE_CHECKING:
-    from sim.bench.swerve import SwerveDrive
+from sim.bench.slip import compute_slip_voltage
+from sim.bench.swerve import SwerveDrive
+from sim.physics.motors import compute_theoretical_kv, find_motor
 
 BATTERY = 12.0  # [V] at which a planner asks for the top speed
 MODULES = ("front-left", "front-right", "back-left", "back-right")
@@ -53,11 +52,8 @@ class Variant:
     seed: int
 
     @property
-    def drive(self) -> "SwerveDrive":
+    def drive(self) -> SwerveDrive:
         """It on the bench."""
-        from sim.bench.swerve import SwerveDrive  # noqa: PLC0415 - numpy only where it is needed
-        from sim.physics.motors import find_motor  # noqa: PLC0415 - the same
-
         return SwerveDrive(
             motor=find_motor(self.motor),
             ratio=self.ratio,
@@ -80,15 +76,11 @@ class Variant:
     @property
     def step(self) -> float:
         """[V] of the dynamic tests: well below what makes the wheels slip."""
-        from sim.bench.slip import compute_slip_voltage  # noqa: PLC0415 - numpy only where it is needed
-
         return math.floor(8.0 * compute_slip_voltage(self.drive.translation)) / 10.0
 
     @property
     def volts_per_angular_speed(self) -> float:
         """[V·s/rad] by which the program turns a rate into a voltage."""
-        from sim.physics.motors import compute_theoretical_kv  # noqa: PLC0415 - the same
-
         drive = self.drive
         paper = compute_theoretical_kv(drive.motor, ratio=drive.ratio, radius=drive.wheel_radius)
         return paper * drive.lever_arm

@@ -1,8 +1,6 @@
 """Exercise 2: the kV from a log, held against the one the motor's free speed promises."""
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
-from pathlib import Path
+from dataclasses import replace
 
 from grader.answers.answer_key import load_answer_key
 from grader.answers.choice_answer import check_choice
@@ -14,39 +12,27 @@ from grader.answers.number_answer import (
     judge_number,
     read_answer_number,
 )
-from grader.answers.submission import read_answers
+from grader.answers.submission import StudentAnswers
 from grader.answers.wrong_number import Scene
 from grader.check import WrongAnswer, check
-from grader.student_data.student_files import write_student_files
+from grader.student_data.student_files import Made
 
 from .drawn import draw
-from .slips import lookalikes, rarer
-from .team import FLAGS, VERDICTS, Variant
-from .team import verdict as find_verdict
+from .slips import list_lookalikes, list_rarer
+from .team import FLAGS, VERDICTS, Variant, find_verdict
 
 FILES = ("answers.toml",)
 ANSWER_NAMES = ("kV_theory", "difference", "verdict", "ks_flag", "inspection")
-FILE_MADE = "given.toml"
-HERE = Path(__file__).resolve().parent
 LARGE = 1000.0  # [%] from here on a difference is shown without decimals
 POINT = 1.0  # [%] that a difference may be off, or 1 % of measured over theory if that is more
 
 
-@dataclass(frozen=True)
-class Answers:
-    """What the checks look at."""
-
-    given: Mapping[str, object]
-    variant: Variant
+def make_files(student: str) -> dict[str, Made]:
+    """The learner's numbers."""
+    return {"given.toml": _describe(draw(student))}
 
 
-def prepare(student: str, *, say: Callable[[str], None]) -> None:
-    """Write down the learner's numbers, where they are not there as they were made."""
-    made = {FILE_MADE: _told(draw(student))}
-    write_student_files(made, exercise=HERE, student=student, what="numbers", say=say)
-
-
-def _told(variant: Variant) -> str:
+def _describe(variant: Variant) -> str:
     """What a learner gets to know: parts, log, code, and what the team noticed."""
     parts, symbol = variant.parts, variant.symbol
     part = {"drivetrain": "wheel", "elevator": "drum"}.get(variant.kind, variant.kind)
@@ -74,31 +60,24 @@ def _told(variant: Variant) -> str:
     return "\n".join(lines) + "\n"
 
 
-def read(path: Path, *, student: str) -> Answers:
-    """The answers, and what they are held against.
-
-    Raises:
-        UnreadableFile: the file cannot be read.
-    """
-    given = {name.lower(): value for name, value in read_answers(path).items()}
-    return Answers(given, draw(student))
-
-
 @check(points=3)
-def kv_theory(answers: Answers) -> str | None:
+def kv_theory(answers: StudentAnswers) -> str | None:
     """The theoretical kV, which follows from the free speed."""
     variant = answers.variant
     value = read_answer_number(answers.given.get("kv_theory"), variant.asked)
     nearest = min(variant.theories, key=lambda one: abs(one - value))
     key = AnswerKey(
         {"kV_theory": replace(variant.asked, expected=nearest)},
-        Scene(lookalikes={"kV_theory": lookalikes(variant)}, rarer={"kV_theory": rarer(variant)}),
+        Scene(
+            lookalikes={"kV_theory": list_lookalikes(variant)},
+            rarer={"kV_theory": list_rarer(variant)},
+        ),
     )
     return judge_number("kV_theory", {"kV_theory": answers.given["kv_theory"]}, key, points=3)
 
 
 @check(points=2)
-def difference(answers: Answers) -> None:
+def difference(answers: StudentAnswers) -> None:
     """How far the measured kV is above the theoretical one, in percent."""
     variant, value, theirs = answers.variant, _percent(answers), _own_theory(answers)
     if _is_accepted(value, answers):
@@ -109,7 +88,7 @@ def difference(answers: Answers) -> None:
     raise WrongAnswer(_shown(value), hint=_about_percent(value, variant))
 
 
-def _own_theory(answers: Answers) -> float:
+def _own_theory(answers: StudentAnswers) -> float:
     """The student's kV_theory; 0 if it is not a number."""
     try:
         return read_answer_number(answers.given.get("kv_theory"), answers.variant.asked)
@@ -117,7 +96,7 @@ def _own_theory(answers: Answers) -> float:
         return 0.0
 
 
-def _is_accepted(value: float, answers: Answers) -> bool:
+def _is_accepted(value: float, answers: StudentAnswers) -> bool:
     """Whether a difference [%] follows from a kV_theory that is right."""
     variant, theirs = answers.variant, _own_theory(answers)
     known = (*variant.theories, *((theirs,) if variant.right(theirs) else ()))
@@ -130,7 +109,7 @@ def _shown(percent: float) -> str:
     return f"{percent:.4g} %" if size < LARGE or size > LARGEST else f"{percent:.0f} %"
 
 
-def _percent(answers: Answers) -> float:
+def _percent(answers: StudentAnswers) -> float:
     """The student's difference [%].
 
     Raises:
@@ -141,7 +120,7 @@ def _percent(answers: Answers) -> float:
     return read_answer_number(raw, AskedNumber("difference", 0.0, "", Band(0.0, 0.0)))
 
 
-def _own_difference(answers: Answers) -> float | None:
+def _own_difference(answers: StudentAnswers) -> float | None:
     try:
         return _percent(answers)
     except WrongAnswer:
@@ -181,7 +160,7 @@ def _about_percent(value: float, variant: Variant) -> str:
 
 
 @check(points=2)
-def verdict(answers: Answers) -> None:
+def verdict(answers: StudentAnswers) -> None:
     """The verdict on the difference: bookkeeping, ok, watch or inspect."""
     right = answers.variant.verdict
     theirs = _own_difference(answers)
@@ -209,13 +188,13 @@ def verdict(answers: Answers) -> None:
 
 
 @check(points=3)
-def inspection(answers: Answers) -> None:
+def inspection(answers: StudentAnswers) -> None:
     """The causes to check, in the order in which you would check them."""
     load_answer_key(__name__).judge_list(answers.given.get("inspection"), answers.variant)
 
 
 @check(points=1)
-def ks_flag(answers: Answers) -> None:
+def ks_flag(answers: StudentAnswers) -> None:
     """What kS says about friction: fine, watch or stop."""
 
     def why(found: str) -> tuple[str, str]:

@@ -1,15 +1,13 @@
 """A team for each learner, with one thing that went wrong, or none."""
 
-from itertools import combinations
-from typing import TYPE_CHECKING
+import numpy as np
 
-from grader.student_data.variant import cache_draws, make_student_rng
+from grader.answers.wrong_number import are_distinguishable
+from grader.student_data.variant import cache_draws, choose, draw_until, make_student_rng
+from sim.physics.motors import MOTORS
 
-from .slips import lookalikes
-from .team import NEAR, Parts, Variant, verdict
-
-if TYPE_CHECKING:
-    import numpy as np
+from .slips import list_lookalikes
+from .team import NEAR, Parts, Variant, find_verdict
 
 LABELS = {
     "krakenX60": "Kraken X60",
@@ -44,32 +42,28 @@ BRAKING = {
     "dragging-belt": "a belt drags over its cover: easy to turn slowly, hard to turn fast",
     "dry-bearing": "a bearing is dry and whistles",
 }
-MOST_DRAWS = 2000  # a few are enough; so many would be our fault
 
 
 @cache_draws
 def draw(student: str) -> Variant:
     """A learner's team, always the same one; drawn again until every verdict is clear."""
-    for attempt in range(MOST_DRAWS):
-        variant = _drawn(make_student_rng(student, "exercise2", draw=attempt))
-        if variant is not None and _clear(variant):
-            return variant
-    raise RuntimeError(f"no clear numbers for {student!r}")
+    return draw_until(
+        lambda attempt: _draw_variant(make_student_rng(student, "exercise2", draw=attempt)),
+        _is_clear,
+    )
 
 
-def _drawn(rng: "np.random.Generator") -> Variant | None:
-    from sim.physics.motors import MOTORS  # noqa: PLC0415 - only where it is needed
-
-    kind = _one(tuple(BUILT), rng)
+def _draw_variant(rng: np.random.Generator) -> Variant | None:
+    kind = choose(tuple(BUILT), rng)
     names, count, ratios, diameters = BUILT[kind]
-    name = _one(names, rng)
+    name = choose(names, rng)
     rpm = round(MOTORS[name].free_speed * 30.0 / 3.141592653589793)
-    ratio, diameter = _one(ratios, rng), _one(diameters, rng)
+    ratio, diameter = choose(ratios, rng), choose(diameters, rng)
     parts = Parts(LABELS[name], rpm, MOTORS[name].back_emf, count, ratio, diameter)
-    cause, flag = _one(CAUSES, rng), _one(tuple(FRICTION), rng)
+    cause, flag = choose(CAUSES, rng), choose(tuple(FRICTION), rng)
     if (cause == "radius" and not diameter) or (flag == "stop" and kind == "drivetrain"):
         return None  # a drivetrain never creeps through a match
-    factor, words, told = _gone_wrong(cause, parts, ratios, rng)
+    factor, words, told = _draw_cause(cause, parts, ratios, rng)
     if flag != "fine" and cause != "belt":
         told["noticed"]["mechanic"] = f'"{STIFF}"'
     measured = float(f"{parts.exact * factor:.4g}")
@@ -79,8 +73,8 @@ def _drawn(rng: "np.random.Generator") -> Variant | None:
     return Variant(kind, parts, measured, round(friction, 2), speed, words, told)
 
 
-def _gone_wrong(
-    cause: str, parts: Parts, ratios: tuple[float, ...], rng: "np.random.Generator"
+def _draw_cause(
+    cause: str, parts: Parts, ratios: tuple[float, ...], rng: np.random.Generator
 ) -> tuple[float, tuple[str, ...], dict[str, dict[str, str]]]:
     """By how much kV is off, the words that name why, and what the team can see of it."""
     factor, words = 1.0 + float(rng.uniform(*FREE_DRAG)), ()
@@ -88,10 +82,10 @@ def _gone_wrong(
     drive, logged = "motor.setVoltage(volts)", "the applied volts"
     mechanic = "everything turns by hand as easily as when it was new, and stays cool"
     if cause == "ratio":
-        ratio = _one(tuple(one for one in ratios if one != parts.ratio), rng)
+        ratio = choose(tuple(one for one in ratios if one != parts.ratio), rng)
         factor, words = factor * ratio / parts.ratio, ("gear-ratio",)
     elif cause == "radius":
-        times = _one((0.5, 2.0), rng)
+        times = choose((0.5, 2.0), rng)
         radius *= times
         factor, words = factor / times, ("wheel-size",)
     elif cause == "voltage":
@@ -99,7 +93,7 @@ def _gone_wrong(
         drive, logged = "motor.set(volts / 12)", "the commanded volts"
         factor, words = factor * 12.0 / battery, ("logged-voltage",)
     elif cause == "belt":
-        part = _one(tuple(BRAKING), rng)
+        part = choose(tuple(BRAKING), rng)
         factor, words = 1.0 + float(rng.uniform(*BAD_DRAG)), (part,)
         mechanic = f"{BRAKING[part]}; it is too hot to touch after a test"
     code = {"ratio": f"{ratio:g}"}
@@ -115,29 +109,21 @@ def _gone_wrong(
     return factor, words, {"code": code, "noticed": noticed}
 
 
-def _one(of: tuple, rng: "np.random.Generator"):  # type: ignore[no-untyped-def,type-arg]  # noqa: ANN202 - whatever is in it
-    return of[int(rng.integers(len(of)))]
-
-
-def _clear(variant: Variant) -> bool:
+def _is_clear(variant: Variant) -> bool:
     """Whether the verdict is the same by either theory, and slips are told apart."""
     ways = {
-        verdict(variant.percent(theory) + off)
+        find_verdict(variant.percent(theory) + off)
         for theory in variant.theories
         for off in (-CLEAR, CLEAR)
     }
     low, high = variant.percent(variant.parts.theoretical_kv), OFF[1] * 100.0
     if "gear-ratio" in variant.planted and not OFF[0] * 100.0 < abs(low) < high:
         return False
-    found = lookalikes(variant)
-    near = 2.0 * NEAR.full
+    found = list_lookalikes(variant)[1:]
+    kv, near = variant.parts.theoretical_kv, 2.0 * NEAR.full
     return (
         len(ways) == 1
         and abs(low) > 2.5
-        and not any(abs(one.value / variant.parts.theoretical_kv - 1.0) < near for one in found[1:])
-        and not any(
-            abs(one.value / other.value - 1.0) < APART
-            for one, other in combinations(found[1:], 2)
-            if one.slip.misconception != other.slip.misconception
-        )
+        and all(abs(one.value / kv - 1.0) >= near for one in found)
+        and are_distinguishable(found, apart=APART, by=lambda slip: slip.misconception)
     )

@@ -1,107 +1,64 @@
 """Wrong theoretical kV's, and the mistakes that lead to them."""
 
 import math
+from collections.abc import Iterator
 from itertools import combinations
+from pathlib import Path
 
-from grader.answers.wrong_number import Lookalike, WrongNumber
+from grader.answers.wrong_number import Lookalike, Slips
 
 from .team import Variant
 
-UNITS, GEARING = "M-UNITS", "M-GEARING"
+SLIPS = Slips(Path(__file__).with_name("slips.toml"))
 
 
-def lookalikes(variant: Variant) -> tuple[Lookalike, ...]:
+def list_lookalikes(variant: Variant) -> tuple[Lookalike, ...]:
     """What the known slips make of a learner's own parts; the measured kV comes first."""
-    parts = variant.parts
-    gears = "the free speed is that of the motor. How fast is the output then? Use the gear ratio"
+    parts, kv = variant.parts, variant.parts.theoretical_kv
     found = [
-        (variant.measured, "this is the measured kV. Compute the theoretical one", ""),
-        (parts.theoretical_kv / 60.0, "60 seconds are a minute. Did you divide by rpm?", UNITS),
-        (
-            parts.theoretical_kv * 60.0,
-            "60 seconds are a minute. Did you multiply by 60 once too often?",
-            UNITS,
-        ),
-        (parts.theoretical_kv / parts.ratio, gears, GEARING),
-        (
-            parts.theoretical_kv / parts.ratio**2,
-            "is the gear ratio upside down? The output is slower",
-            GEARING,
-        ),
+        ("measured", variant.measured),
+        ("rpm", kv / 60.0),
+        ("minutes", kv * 60.0),
+        ("no-gears", kv / parts.ratio),
+        ("turned-gears", kv / parts.ratio**2),
     ]
-    skipped = [(60.0, "60 seconds are a minute"), (parts.ratio, "the gear ratio")]
-    if parts.diameter:
-        skipped.append((1.0 / (math.pi * parts.diameter), "how far one turn of the wheel goes"))
-    for count in range(2, len(skipped) + 1):
-        for steps in combinations(skipped, count):
-            missing = " and ".join(name for _, name in steps)
-            says = (
-                "12 V divided by a free speed that is not in your unit yet. Still missing: "
-                f"{missing}"
-            )
-            code = UNITS if skipped[0] in steps else GEARING
-            found.append(
-                (parts.theoretical_kv / math.prod(times for times, _ in steps), says, code)
-            )
     coded = float(variant.told["code"]["ratio"])
     if coded != parts.ratio:
-        says = "this uses the ratio in the code. Use the real ratio"
-        found.append((parts.theoretical_kv * coded / parts.ratio, says, ""))
+        found.append(("coded-ratio", kv * coded / parts.ratio))
     if parts.diameter:
-        found += _slips_of_a_wheel(variant)
+        radius = "radius-or-motors" if parts.motors == 2 else "radius"
+        found += [
+            *((radius, kv * times) for times in (0.5, 2.0)),
+            *(("around", kv * times) for times in (2 * math.pi, 0.5 / math.pi)),
+            ("per-turn", kv * math.pi * parts.diameter),
+            ("per-radian", kv * parts.diameter / 2.0),
+        ]
     else:
-        turn = "2π = 6.28. Is this per radian? Write it per rotation"
-        found += [
-            (parts.theoretical_kv * times, turn, UNITS) for times in (2 * math.pi, 0.5 / math.pi)
-        ]
-        found += [
-            (parts.theoretical_kv / 360.0, "a rotation is 360°. Is your speed in degrees?", UNITS)
-        ]
+        found += [("radians", kv * times) for times in (2 * math.pi, 0.5 / math.pi)]
+        found += [("degrees", kv / 360.0)]
     if parts.motors == 4:
-        many = "four motors share the work, but none of them turns faster for it"
-        found += [(parts.theoretical_kv * times, many, "") for times in (0.25, 4.0)]
-    return _named(found)
+        found += [("motors", kv * times) for times in (0.25, 4.0)]
+    return (*SLIPS.list_lookalikes(found), *_list_skipped_steps(variant))
 
 
-def _slips_of_a_wheel(variant: Variant) -> list[Lookalike]:
-    """What slips between a wheel's turns and its way make of kV_theory."""
-    kv, diameter = variant.parts.theoretical_kv, variant.parts.diameter
-    radius = "a factor of 2: did you mix up diameter and radius?"
-    if variant.parts.motors == 2:
-        radius += " Or did you count the motors? Two motors do not turn faster than one"
-    around = "2π = 6.28. One turn of a wheel is how many meters of ground?"
-    turn = "that is volts for each turn of the wheel in a second. How far does one turn go?"
-    angle = "that is volts for each rad/s of the wheel. How far does it go in one radian?"
-    return [
-        *((kv * times, radius, GEARING) for times in (0.5, 2.0)),
-        *((kv * times, around, UNITS) for times in (2 * math.pi, 0.5 / math.pi)),
-        (kv * math.pi * diameter, turn, GEARING),
-        (kv * diameter / 2.0, angle, GEARING),
-    ]
-
-
-def rarer(variant: Variant) -> tuple[Lookalike, ...]:
-    """What rarer slips make of the parts."""
+def _list_skipped_steps(variant: Variant) -> Iterator[Lookalike]:
+    """Two or more steps from rpm to the unit of kV that were left out."""
     parts = variant.parts
-    found = [
-        (
-            12.0 / parts.theoretical_kv,
-            "this is the free speed of your mechanism. kV_theory is 12 V divided by it",
-            "",
-        ),
-        (
-            1.0 / parts.theoretical_kv,
-            "this is upside down: speed for each volt. kV is volts for each unit of speed",
-            "",
-        ),
-    ]
+    steps = [(60.0, "60 seconds are a minute"), (parts.ratio, "the gear ratio")]
     if parts.diameter:
-        around = "π = 3.14 is missing: one turn of a wheel or drum goes π times its diameter"
-        found += [
-            (parts.theoretical_kv * times, around, GEARING) for times in (math.pi, 1 / math.pi)
-        ]
-    return _named(found)
+        steps.append((1.0 / (math.pi * parts.diameter), "how far one turn of the wheel goes"))
+    for count in range(2, len(steps) + 1):
+        for skipped in combinations(steps, count):
+            missing = " and ".join(name for _, name in skipped)
+            code = "skipped-minutes" if steps[0] in skipped else "skipped"
+            value = parts.theoretical_kv / math.prod(times for times, _ in skipped)
+            yield Lookalike(value, SLIPS.name(code, missing=missing))
 
 
-def _named(found: list[tuple[float, str, str]]) -> tuple[Lookalike, ...]:
-    return tuple(Lookalike(value, WrongNumber(says, says, code)) for value, says, code in found)
+def list_rarer(variant: Variant) -> tuple[Lookalike, ...]:
+    """What rarer slips make of the parts."""
+    kv = variant.parts.theoretical_kv
+    found = [("free-speed", 12.0 / kv), ("upside-down", 1.0 / kv)]
+    if variant.parts.diameter:
+        found += [("no-pi", kv * times) for times in (math.pi, 1 / math.pi)]
+    return SLIPS.list_lookalikes(found)

@@ -36,19 +36,19 @@ class Parts:
     diameter: float
 
     @property
-    def _per(self) -> float:
+    def _output_per_radian(self) -> float:
         """Output units for one radian of the motor: meters, or rotations."""
         return (self.diameter / 2.0 if self.diameter else 0.5 / math.pi) / self.ratio
 
     @property
     def theoretical_kv(self) -> float:
         """KV as 12 V over the free speed promises it."""
-        return FULL / (self.free_rpm * math.pi / 30.0) / self._per
+        return FULL / (self.free_rpm * math.pi / 30.0) / self._output_per_radian
 
     @property
     def exact(self) -> float:
         """KV as the back-EMF gives it: free current has its own small drop."""
-        return self.back_emf / self._per
+        return self.back_emf / self._output_per_radian
 
 
 @dataclass(frozen=True)
@@ -99,7 +99,7 @@ class Variant:
     @property
     def verdict(self) -> str:
         """What the difference says."""
-        return verdict(self.percent(self.parts.theoretical_kv))
+        return find_verdict(self.percent(self.parts.theoretical_kv))
 
     @property
     def flag(self) -> str:
@@ -109,7 +109,7 @@ class Variant:
         return "watch" if self.friction > FRICTION else "fine"
 
 
-def verdict(percent: float) -> str:
+def find_verdict(percent: float) -> str:
     """The word for a difference [%]."""
     if percent < 0.0:
         return "bookkeeping"

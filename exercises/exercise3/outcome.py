@@ -5,19 +5,15 @@ that the course's own elevator and arm are made of, and kA from kG: the same mas
 """
 
 import math
-from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Mapping
 
-from grader.answers.number_answer import AskedNumber, read_answer_number
-from grader.check import WrongAnswer
+from grader.answers.number_answer import read_wrong_numbers
 from grader.consequence import Consequence, follow_profiles
+from sim.feedback import Plant
+from sim.feedback.following import FollowedProfile, follow_profile
+from sim.feedback.profile import make_return_profile
 
 from .holds import Variant
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from sim.feedback.following import FollowedProfile
 
 FALLS = {"elevator": 9.81, "arm": 19.62}  # [m/s² or rad/s²] what gravity alone would do
 KV = {"elevator": 4.5, "arm": 1.2}  # [V·s/m, V·s/rad]
@@ -27,62 +23,36 @@ HEIGHT = 0.5  # [m] where the elevator begins
 ROOM = {"elevator": (0.0, 1.3), "arm": (-math.pi / 4, math.pi / 2)}  # [m, rad from level]
 
 
-def outcome(given: Mapping[str, object], variant: Variant) -> Consequence | None:
+def find_outcome(given: Mapping[str, object], variant: Variant) -> Consequence | None:
     """What the numbers would do; None where none is wrong, or too few are there."""
-    found = [*_elevator(given, variant), *_arm(given, variant)]
+    found = list(_follow_profiles(given, variant))
     return follow_profiles(found) if found else None
 
 
-def _numbers(
-    given: Mapping[str, object], asked: Mapping[str, AskedNumber]
-) -> dict[str, float] | None:
-    """The numbers, if all of them are there, and not all of them right."""
-    try:
-        values = {name: read_answer_number(given.get(name), one) for name, one in asked.items()}
-    except WrongAnswer:
-        return None
-    return None if all(one.is_right(values[name]) for name, one in asked.items()) else values
-
-
-def _elevator(given: Mapping[str, object], variant: Variant) -> "Iterator[FollowedProfile]":
-    names = ("elevator_kG", "elevator_kS")
-    if values := _numbers(given, {name: variant.asked[name] for name in names}):
-        truth = {name[-2:]: variant.asked[name].expected for name in names}
+def _follow_profiles(given: Mapping[str, object], variant: Variant) -> Iterator[FollowedProfile]:
+    """Up and back. The arm begins level; its angle is the encoder's, as in the learner's code."""
+    for kind in ("elevator", "arm"):
+        names = (f"{kind}_kG", f"{kind}_kS")
+        asked = {name: variant.asked[name] for name in names}
+        if kind == "arm":
+            asked["arm_offset"] = variant.offset
+        values = read_wrong_numbers(given, asked)
+        if not values:
+            continue
+        truth = {name[-2:]: asked[name].expected for name in names}
         theirs = {name[-2:]: values[name] for name in names}
-        yield _followed("elevator", truth, theirs, start=HEIGHT, room=ROOM["elevator"])
-
-
-def _arm(given: Mapping[str, object], variant: Variant) -> "Iterator[FollowedProfile]":
-    """From level up and back; an angle is what the encoder reads, as the learner's code has it."""
-    names = ("arm_kG", "arm_kS")
-    asked = {name: variant.asked[name] for name in names} | {"arm_offset": variant.offset}
-    if values := _numbers(given, asked):
-        truth = {name[-2:]: variant.asked[name].expected for name in names}
-        theirs = {name[-2:]: values[name] for name in names}
-        level = -math.radians(variant.offset.expected)
-        truth["offset_rad"], theirs["offset_rad"] = -level, math.radians(values["arm_offset"])
-        low, high = ROOM["arm"]
-        yield _followed("arm", truth, theirs, start=level, room=(level + low, level + high))
-
-
-def _followed(
-    kind: str,
-    truth: Mapping[str, float],
-    theirs: Mapping[str, float],
-    *,
-    start: float,
-    room: tuple[float, float],
-) -> "FollowedProfile":
-    from sim.feedback import Plant  # noqa: PLC0415 - numpy only where it is needed
-    from sim.feedback.following import follow_profile  # noqa: PLC0415 - the same
-    from sim.feedback.profile import make_return_profile  # noqa: PLC0415 - the same
-
-    moves = {"kV": KV[kind], "kA": truth["kG"] / FALLS[kind]}
-    symbol, place = ("m", "height") if kind == "elevator" else ("rad", "angle")
-    wanted = make_return_profile(
-        SPEED[kind], rising=RISING, steady=STEADY, still=STILL, start=start
-    )
-    plant, believed = (Plant(kind, {**gains, **moves}) for gains in (truth, theirs))
-    return follow_profile(
-        plant, believed, wanted, name=kind, symbol=symbol, place=place, stops=room
-    )
+        start, (low, high) = HEIGHT, ROOM[kind]
+        if kind == "arm":
+            truth["offset_rad"] = math.radians(variant.offset.expected)
+            theirs["offset_rad"] = math.radians(values["arm_offset"])
+            start = -truth["offset_rad"]
+            low, high = start + low, start + high
+        moves = {"kV": KV[kind], "kA": truth["kG"] / FALLS[kind]}
+        symbol, place = ("m", "height") if kind == "elevator" else ("rad", "angle")
+        plant, believed = (Plant(kind, {**gains, **moves}) for gains in (truth, theirs))
+        wanted = make_return_profile(
+            SPEED[kind], rising=RISING, steady=STEADY, still=STILL, start=start
+        )
+        yield follow_profile(
+            plant, believed, wanted, name=kind, symbol=symbol, place=place, stops=(low, high)
+        )

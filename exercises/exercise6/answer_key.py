@@ -9,24 +9,13 @@ from dataclasses import dataclass, field
 from grader.answers.choice_answer import check_choice, read_choices
 from grader.check import WrongAnswer
 
-from .morning import FOLDERS, SEEN, draw_morning
+from .morning import FOLDERS, SEEN, WHY, draw_morning
 
 __all__ = ["CHOICES", "draw_morning", "judge_all", "judge_choice", "judge_steps"]
 
 DECISIONS = ("go", "no-go")
 STEPS = ("wire-routine", "run-tests", "inspect-and-fit", "place-gains")
 LISTED = tuple(sorted(STEPS))
-WHY = {  # item of the checklist -> what a wrong decision overlooks
-    "travel": "how much room does the ramp need, forward and back? Do the wheels push the robot? "
-    "Do the motors brake after the test, as the plan says? In coast mode the robot rolls on.",
-    "battery": "at 12.5 V at rest or less, the voltage drops too far in a step.",
-    "encoder": "a positive voltage must give a rising position, without jumps.",
-    "log": "you need the log after the test. Has anybody fetched one from this robot before?",
-    "guard": "can somebody start a test by accident?",
-    "driver_station": (
-        "is there a person who can stop the robot at once and has nothing else to do?"
-    ),
-}
 
 
 @dataclass(frozen=True)
@@ -102,7 +91,7 @@ CHOICES: Mapping[str, Choice] = {
 
 
 def judge_choice(name: str, given: Mapping[str, object], right: str = "") -> None:
-    """Hold a word against the right one; where none is named, the one that is always right.
+    """Compare a word with the right one; where none is named, the one that is always right.
 
     Raises:
         WrongAnswer: it is another, or none.
@@ -118,7 +107,7 @@ def judge_choice(name: str, given: Mapping[str, object], right: str = "") -> Non
 
 
 def judge_all(given: Mapping[str, object], right: Mapping[str, str], *, points: float) -> None:
-    """Hold several words against the right ones; each wrong word cancels a right one.
+    """Compare several words with the right ones; each wrong word cancels a right one.
 
     So who writes the same word everywhere, or guesses, earns about nothing.
 
@@ -139,7 +128,7 @@ def judge_all(given: Mapping[str, object], right: Mapping[str, str], *, points: 
 
 
 def judge_steps(raw: object) -> None:
-    """Hold an order of the four steps against the one that works.
+    """Compare an order of the four steps with the one that works.
 
     Raises:
         WrongAnswer: it is another, or no order of the four.

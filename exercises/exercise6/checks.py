@@ -1,28 +1,26 @@
 """Exercise 6: plan four tests for each of four mechanisms, then look before they run."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import dataclass, replace
-from pathlib import Path
+from dataclasses import replace
+from functools import partial
 from typing import Any
 
 from grader.answers.answer_key import load_answer_key
 from grader.answers.choice_answer import normalize_choice
 from grader.answers.number_answer import AskedNumber, Band, read_answer_number
-from grader.answers.submission import read_answers
-from grader.check import NotReachedError, WrongAnswer, check
+from grader.answers.submission import StudentAnswers
+from grader.check import NotReachedError, WrongAnswer, check, make_check
 from grader.consequence import Consequence
-from grader.student_data.student_files import write_student_files
+from grader.student_data.student_files import Made
 
-from .drawn import Variant, draw
-from .outcome import outcome
+from .drawn import draw
+from .outcome import find_outcome
 from .plan import Machine, Plan, dynamic, quasistatic
-from .rules import LONGEST, broken
+from .rules import LONGEST, find_broken_rules
 
 FILES = ("answers.toml",)
-FILE_MADE = "given.toml"
-HERE = Path(__file__).resolve().parent
 KINDS = ("drivetrain", "elevator", "turret", "shooter")
 ITEMS = ("travel", "battery", "encoder", "log", "guard", "driver_station")  # of the checklist
 POINTS = 1.5  # for a mechanism's plan
@@ -36,13 +34,8 @@ ANSWER_NAMES = (
 )  # fmt: skip
 
 
-@dataclass(frozen=True)
-class Answers:
+class Answers(StudentAnswers):
     """What the checks look at."""
-
-    given: Mapping[str, object]
-    variant: Variant
-    student: str
 
     @property
     def morning(self) -> Any:  # noqa: ANN401 - of a module that a class's package lacks
@@ -50,15 +43,14 @@ class Answers:
         return load_answer_key(__name__).draw_morning(self.student)
 
 
-def prepare(student: str, *, say: Callable[[str], None]) -> None:
-    """Write down the learner's numbers, where they are not there as they were made."""
+def make_files(student: str) -> dict[str, Made]:
+    """The learner's numbers."""
     lines = ["# Your own numbers for exercise 6. Only read here; answers go into answers.toml."]
     for machine in draw(student).machines.values():
         lines += ["", *_describe_machine(machine)]
     with suppress(NotReachedError):  # of a class's package, which has no answers to the words
         lines += _describe_morning(load_answer_key(__name__).draw_morning(student))
-    made = {FILE_MADE: "\n".join(lines) + "\n"}
-    write_student_files(made, exercise=HERE, student=student, what="numbers", say=say)
+    return {"given.toml": "\n".join(lines) + "\n"}
 
 
 def _describe_morning(morning: Any) -> list[str]:  # noqa: ANN401 - of a module that a class's package lacks
@@ -99,54 +91,20 @@ def _describe_machine(machine: Machine) -> list[str]:
     return lines
 
 
-def read(path: Path, *, student: str) -> Answers:
-    """The answers, and what they are held against.
-
-    Raises:
-        UnreadableFile: the file cannot be read.
-    """
-    given = {name.lower(): value for name, value in read_answers(path).items()}
-    return Answers(given, draw(student), student)
-
-
 def consequence(answers: Answers) -> Consequence | None:
     """What the learner's plans would do in the room there is."""
     plans = {}
     for kind, machine in answers.variant.machines.items():
         with suppress(WrongAnswer):
-            plans[kind] = _plan(machine, answers.given)
-    return outcome(plans, answers.variant.machines)
+            plans[kind] = _read_plan(machine, answers.given)
+    return find_outcome(plans, answers.variant.machines)
 
 
-@check(points=POINTS)
-def drivetrain(answers: Answers) -> str:
-    """A plan for the drivetrain that follows all the rules."""
-    return _planned("drivetrain", answers)
-
-
-@check(points=POINTS)
-def elevator(answers: Answers) -> str:
-    """A plan for the elevator that follows all the rules."""
-    return _planned("elevator", answers)
-
-
-@check(points=POINTS)
-def turret(answers: Answers) -> str:
-    """A plan for the turret that follows all the rules."""
-    return _planned("turret", answers)
-
-
-@check(points=POINTS)
-def shooter(answers: Answers) -> str:
-    """A plan for the shooter that follows all the rules."""
-    return _planned("shooter", answers)
-
-
-def _planned(kind: str, answers: Answers) -> str:
-    """Hold a plan against the rules; a note on what it does."""
+def _judge_plan(kind: str, answers: Answers) -> str:
+    """Compare a plan with the rules; a note on what it does."""
     machine = answers.variant.machines[kind]
-    plan = _plan(machine, answers.given)
-    found = broken(machine, plan)
+    plan = _read_plan(machine, answers.given)
+    found = find_broken_rules(machine, plan)
     slow, fast = quasistatic(machine, plan), dynamic(machine, plan)
     if not found:
         run = f"{slow.rests:.2f} {machine.symbol} and {fast.rests:.2f} {machine.symbol}"
@@ -155,7 +113,7 @@ def _planned(kind: str, answers: Answers) -> str:
     codes = {one.misconception for one in found} - {""}
     hints = [one.says for one in found]
     exchanged = replace(plan, ramp=plan.step, step=plan.ramp)
-    if plan.ramp > plan.step and len(broken(machine, exchanged)) < len(found):
+    if plan.ramp > plan.step and len(find_broken_rules(machine, exchanged)) < len(found):
         hints.insert(0, "your ramp is larger than your step: did you swap them?")
     mark = "timeout" if math.isinf(plan.release) else f"{plan.release:g} {machine.symbol}"
     raise WrongAnswer(
@@ -166,7 +124,18 @@ def _planned(kind: str, answers: Answers) -> str:
     )
 
 
-def _plan(machine: Machine, given: Mapping[str, object]) -> Plan:
+plans = tuple(
+    make_check(
+        kind,
+        f"A plan for the {kind} that follows all the rules.",
+        partial(_judge_plan, kind),
+        points=POINTS,
+    )
+    for kind in KINDS
+)
+
+
+def _read_plan(machine: Machine, given: Mapping[str, object]) -> Plan:
     """Read a plan.
 
     Raises:
@@ -174,12 +143,12 @@ def _plan(machine: Machine, given: Mapping[str, object]) -> Plan:
     """
     raw = given.get(f"{machine.kind}_release")
     never = isinstance(raw, str) and normalize_choice(raw) == "timeout"
-    values = [_positive(machine, name, given, *most) for name, most in MOST.items()]
-    mark = math.inf if never else _positive(machine, "release", given, machine.symbol, 1e6)
+    values = [_read_positive(machine, name, given, *most) for name, most in MOST.items()]
+    mark = math.inf if never else _read_positive(machine, "release", given, machine.symbol, 1e6)
     return Plan(*values, mark)
 
 
-def _positive(
+def _read_positive(
     machine: Machine, what: str, given: Mapping[str, object], unit: str, most: float
 ) -> float:
     name = f"{machine.kind}_{what}"

@@ -3,17 +3,24 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from functools import partial
 
-from grader.student_data.variant import cache_draws, make_student_rng
+import numpy as np
+
+from grader.student_data.variant import (
+    cache_draws,
+    choose,
+    draw_until,
+    make_student_rng,
+    round_digits,
+)
+from sim.bench.mechanism import Mechanism
+from sim.bench.mechanisms import MECHANISMS
+from sim.core.units import convert_gains, find_unit
+from sim.physics.motors import find_motor
 
 from .plan import Machine, Plan, dynamic, quasistatic
-from .rules import GRIP, QUARTER, SIGNAL, broken
-
-if TYPE_CHECKING:
-    import numpy as np
-
-    from sim.bench.mechanism import Mechanism
+from .rules import GRIP, QUARTER, SIGNAL, find_broken_rules
 
 # Mechanisms differ so much, in so little room, that many plans fail for another student.
 LIMITS = {  # [A] that teams set for one motor
@@ -54,7 +61,6 @@ MOST_TAU = 0.8  # [s] a ramp of some seconds shows little of a slower one
 WIDE = 1.5  # [times] the largest step is above the smallest: room for a choice
 LASTS = 3.4  # [s] that a sound ramp moves
 BEYOND = 1.12  # [times] the wanted speed that it reaches
-MOST_DRAWS = 500  # a few are enough; so many would be our fault
 
 
 @dataclass(frozen=True)
@@ -62,86 +68,78 @@ class Variant:
     """One learner's mechanisms."""
 
     machines: Mapping[str, Machine]
-    built: "Mapping[str, Mechanism]"
+    built: Mapping[str, Mechanism]
 
 
 @cache_draws
 def draw(student: str) -> Variant:
     """A learner's mechanisms, always the same; each drawn again until a plan can be made for it."""
-    machines, built = {}, {}
-    for kind in MOTORS:
-        machines[kind], built[kind] = _feasible(student, kind)
-    return Variant(machines, built)
+    drawn = {kind: draw_until(partial(_draw_machine, student, kind), _has_plan) for kind in MOTORS}
+    return Variant(
+        {kind: machine for kind, (machine, _) in drawn.items()},
+        {kind: built for kind, (_, built) in drawn.items()},
+    )
 
 
-def _feasible(student: str, kind: str) -> "tuple[Machine, Mechanism]":
-    for attempt in range(MOST_DRAWS):
-        rng = make_student_rng(student, f"exercise6 {kind}", draw=attempt)
-        built = _built(kind, rng)
-        machine = _machine(kind, built, rng)
-        low, high = steps(machine)
-        fits = (machine.travel or 0.0) <= MOST_TRAVEL.get(kind, math.inf)
-        clear = LEAST_TAU < machine.tau < MOST_TAU and high > WIDE * low
-        if fits and clear and not broken(machine, sound(machine)):
-            return machine, built
-    raise RuntimeError(f"no plan for {kind} of {student!r}")
+def _draw_machine(student: str, kind: str, attempt: int) -> tuple[Machine, Mechanism]:
+    rng = make_student_rng(student, f"exercise6 {kind}", draw=attempt)
+    built = _draw_mechanism(kind, rng)
+    return _describe_mechanism(kind, built, rng), built
 
 
-def _built(kind: str, rng: "np.random.Generator") -> "Mechanism":
-    from sim.bench.mechanisms import MECHANISMS  # noqa: PLC0415 - numpy only where it is needed
-    from sim.physics.motors import find_motor  # noqa: PLC0415 - the same
+def _has_plan(drawn: tuple[Machine, Mechanism]) -> bool:
+    """Whether a plan can be made for a mechanism."""
+    machine, _ = drawn
+    low, high = find_steps(machine)
+    fits = (machine.travel or 0.0) <= MOST_TRAVEL.get(machine.kind, math.inf)
+    clear = LEAST_TAU < machine.tau < MOST_TAU and high > WIDE * low
+    return fits and clear and not find_broken_rules(machine, make_sound_plan(machine))
 
+
+def _draw_mechanism(kind: str, rng: np.random.Generator) -> Mechanism:
     plain = MECHANISMS[kind]
-    names = MOTORS[kind]
     plain = replace(
         plain,
         spread={**plain.spread, **SPREAD.get(kind, {})},
-        motor=find_motor(names[int(rng.integers(len(names)))]),
+        motor=find_motor(choose(MOTORS[kind], rng)),
         travel=None,
         lowest=None,
     )
     return plain.draw(rng)
 
 
-def _machine(kind: str, built: "Mechanism", rng: "np.random.Generator") -> Machine:
-    from sim.core.units import convert_gains, find_unit  # noqa: PLC0415 - numpy only where it is needed
-
-    per = find_unit(UNITS.get(kind, "rotations"))
-    found = convert_gains(built.gains, factor=per.si)
-    gains = [_rounded(found.get(name, 0.0)) for name in ("kS", "kV", "kA", "kG")]
-    limits = LIMITS[built.motor.name]
-    limit = limits[int(rng.integers(len(limits)))]
+def _describe_mechanism(kind: str, built: Mechanism, rng: np.random.Generator) -> Machine:
+    unit = find_unit(UNITS.get(kind, "rotations"))
+    found = convert_gains(built.gains, factor=unit.si)
+    gains = [round_digits(found.get(name, 0.0), 4) for name in ("kS", "kV", "kA", "kG")]
+    limit = choose(LIMITS[built.motor.name], rng)
     machine = Machine(
         kind,
-        per.symbol,
+        unit.symbol,
         *gains,
         travel=None,
         stall=built.motor.stall_current,
         limit=limit * (1.5 if kind == "shooter" else 1.0),
-        noise=float(f"{rng.uniform(*NOISE[kind]):.2g}"),
-        grip=GRIPS[int(rng.integers(len(GRIPS)))] if kind == "drivetrain" else 0.0,
+        noise=round_digits(rng.uniform(*NOISE[kind]), 2),
+        grip=choose(GRIPS, rng) if kind == "drivetrain" else 0.0,
         reaction=round(float(rng.uniform(*REACTION)), 2),
     )
     if kind not in ROOM:
         return machine
-    need = quasistatic(machine, sound(machine)).rests * float(rng.uniform(*ROOM[kind]))
-    return replace(machine, travel=float(f"{need:.2g}"))
+    need = quasistatic(machine, make_sound_plan(machine)).rests * float(rng.uniform(*ROOM[kind]))
+    return replace(machine, travel=round_digits(need, 2))
 
 
-def _rounded(value: float) -> float:
-    return float(f"{value:.4g}")
-
-
-def steps(machine: Machine) -> tuple[float, float]:
+def find_steps(machine: Machine) -> tuple[float, float]:
     """[V] the smallest and the largest step that is allowed, whatever the travel."""
     low = machine.hold + SIGNAL * machine.scatter * machine.ka
     return low, min(12.0 * machine.limit / machine.stall, GRIP * machine.slip)
 
 
-def sound(machine: Machine) -> Plan:
+def make_sound_plan(machine: Machine) -> Plan:
     """A plan that keeps the rules, if there is room for one."""
     ramp = BEYOND * QUARTER * machine.free * machine.kv / (LASTS - machine.tau)
-    step = math.sqrt(math.prod(steps(machine)))
+    step = math.sqrt(math.prod(find_steps(machine)))
     timeout = machine.hold / ramp + LASTS + 0.5
     plan = Plan(ramp, step, timeout, math.inf)
     mark = quasistatic(machine, plan).place(LASTS - machine.reaction)

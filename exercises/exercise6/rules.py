@@ -18,38 +18,40 @@ CLEARLY = 10.0  # [travels] a mark beyond the end is less of a slip of the pen t
 
 
 @dataclass(frozen=True)
-class Broken:
+class BrokenRule:
     """A rule that a plan breaks: what is told, and the misconception's code, or empty."""
 
     says: str
     misconception: str = ""
 
 
-def broken(machine: Machine, plan: Plan) -> tuple[Broken, ...]:
+def find_broken_rules(machine: Machine, plan: Plan) -> tuple[BrokenRule, ...]:
     """The rules that a plan breaks; none if it may be run."""
-    return (*_safe(machine, plan), *_tells(machine, plan))
+    return (*_find_dangers(machine, plan), *_find_lacks(machine, plan))
 
 
-def _safe(machine: Machine, plan: Plan) -> Iterator[Broken]:
+def _find_dangers(machine: Machine, plan: Plan) -> Iterator[BrokenRule]:
     if plan.timeout > LONGEST:
-        yield Broken(f"a timeout of {plan.timeout:g} s; no test may be longer than {LONGEST:g} s")
+        yield BrokenRule(
+            f"a timeout of {plan.timeout:g} s; no test may be longer than {LONGEST:g} s"
+        )
     if machine.travel is not None and MORE * machine.travel < plan.release < math.inf:
         room = f"{machine.travel:g} {machine.symbol}"
         says = f"your mark is at {plan.release:g} {machine.symbol}; the travel ends at {room}"
         named, times = SMALLER[machine.symbol]
         fits = CLEARLY * machine.travel < plan.release <= MORE * times * machine.travel
-        yield Broken(f"{says}. Is your number in {named}?" if fits else says, UNITS * fits)
+        yield BrokenRule(f"{says}. Is your number in {named}?" if fits else says, UNITS * fits)
     slow = quasistatic(machine, plan)
     asks = plan.ramp * (slow.still + slow.lasts)
     if asks > MORE * BATTERY:
-        yield Broken(f"your ramp reaches {asks:.1f} V; the battery has {BATTERY:g} V")
+        yield BrokenRule(f"your ramp reaches {asks:.1f} V; the battery has {BATTERY:g} V")
     for name, test in (("ramp", slow), ("step", dynamic(machine, plan))):
         if machine.travel is not None and test.rests > MORE * machine.travel:
-            yield Broken(_too_far(name, test, machine.travel))
+            yield BrokenRule(_too_far(name, test, machine.travel))
     amps = plan.step / BATTERY * machine.stall
     if amps > MORE * machine.limit:
         says = f"at standstill your step draws {amps:.0f} A; the limit is {machine.limit:g} A. The "
-        yield Broken(
+        yield BrokenRule(
             (f"{says}controller reduces the voltage, and the mechanism starts more slowly"), BIG
         )
     if plan.step > MORE * GRIP * machine.slip:
@@ -57,7 +59,7 @@ def _safe(machine: Machine, plan: Plan) -> Iterator[Broken]:
         says = f"your step is {share:.1f} % of V_slip; at most 90 %"
         if plan.step > machine.slip:
             says += ". The wheels spin, and the encoder counts meters that the robot does not move"
-        yield Broken(says, BIG)
+        yield BrokenRule(says, BIG)
 
 
 def _too_far(name: str, test: Test, travel: float) -> str:
@@ -74,7 +76,7 @@ def _too_far(name: str, test: Test, travel: float) -> str:
     )
 
 
-def _tells(machine: Machine, plan: Plan) -> Iterator[Broken]:
+def _find_lacks(machine: Machine, plan: Plan) -> Iterator[BrokenRule]:
     slow = quasistatic(machine, plan)
     end = "your mark" if slow.by_mark else "the timeout"
     needs = "kS + kG" if machine.kind == "elevator" else "kS"
@@ -83,19 +85,19 @@ def _tells(machine: Machine, plan: Plan) -> Iterator[Broken]:
         if not slow.by_mark:
             says += f". For the first {slow.still:.2f} s it stands still: until then, "
             says += f"your ramp is below {needs} ({machine.hold:.2f} V)"
-        yield Broken(says)
+        yield BrokenRule(says)
     if slow.fastest < LESS * QUARTER * machine.free:
         yield _too_slow(slow, end)
     push = plan.step - machine.hold
     if push <= 0.0:
-        yield Broken(f"your step does not move it: {needs} is {machine.hold:.2f} V")
+        yield BrokenRule(f"your step does not move it: {needs} is {machine.hold:.2f} V")
     elif push / machine.ka < LESS * SIGNAL * machine.scatter:
         times = push / machine.ka / machine.scatter
         says = f"your step's acceleration is {times:.2f} times its noise; at least {SIGNAL:g}"
-        yield Broken(f"{says} times. You cannot see it in the noise")
+        yield BrokenRule(f"{says} times. You cannot see it in the noise")
 
 
-def _too_slow(slow: Test, end: str) -> Broken:
+def _too_slow(slow: Test, end: str) -> BrokenRule:
     machine = slow.machine
     share = 100.0 * slow.fastest / machine.free
     says = f"your ramp reaches {share:.1f} % of the free speed at {end}; at least 25 %"
@@ -104,6 +106,6 @@ def _too_slow(slow: Test, end: str) -> Broken:
         if slow.by_mark:
             says += f". To reach that, your ramp needs {run:.1f} {machine.symbol}; your mark is at "
             says += f"{slow.release:g} {machine.symbol}"
-        return Broken(says)
+        return BrokenRule(says)
     says += f". To reach that, your ramp needs {run:.1f} {machine.symbol}; you have "
-    return Broken(f"{says}{machine.travel:g} {machine.symbol}", SLOW)
+    return BrokenRule(f"{says}{machine.travel:g} {machine.symbol}", SLOW)

@@ -1,16 +1,20 @@
 """Twelve logs for each learner: some sound, most damaged, each so that its damage can be found."""
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+
+import numpy as np
 
 from grader.student_data.draw_cache import cache_generated_data
-from grader.student_data.variant import cache_draws, make_student_rng
-
-if TYPE_CHECKING:
-    import numpy as np
-
-    from sim.core.log import Log
-    from sim.inspect.fault import LogInterval
+from grader.student_data.variant import cache_draws, draw_until, make_student_rng
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
+from sim.core.errors import Refusal
+from sim.core.log import Log
+from sim.inspect.contaminate import contaminate
+from sim.inspect.detect_faults import inspect
+from sim.inspect.fault import LogInterval
+from sim.inspect.faults import FAULTS
 
 LOGS = 12
 SOUND = (2, 3)  # this many of them are sound: two or three, so that nobody can count them off
@@ -44,7 +48,6 @@ LEVELS: tuple[tuple[tuple[tuple[str, ...], ...], tuple[float, float]], ...] = (
 """What a mystery of each level may have wrong with it, and how badly."""
 
 NEAR = 0.5  # [shared over covered time] what the bench's own detective must reach
-MOST_DRAWS = 200  # so many in a row that cannot be solved would be our fault
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,7 +61,7 @@ class Damaged:
     """
 
     fault: str
-    where: "tuple[LogInterval, ...]"
+    where: tuple[LogInterval, ...]
     whole: bool
 
 
@@ -71,7 +74,7 @@ class Case:
         damage: none, one or two.
     """
 
-    log: "Log"
+    log: Log
     damage: tuple[Damaged, ...]
 
 
@@ -83,7 +86,7 @@ def draw(student: str) -> tuple[Case, ...]:
     return tuple(draw_case(faults, rng) for faults in _plan(rng))
 
 
-def _plan(rng: "np.random.Generator") -> list[tuple[str, ...]]:
+def _plan(rng: np.random.Generator) -> list[tuple[str, ...]]:
     """Which faults strike which log; the first has one that the lesson names."""
     first, *lesson = (str(name) for name in rng.permutation(LESSON))
     sound = int(rng.choice(SOUND))
@@ -97,7 +100,7 @@ def _plan(rng: "np.random.Generator") -> list[tuple[str, ...]]:
 
 def draw_case(
     faults: tuple[str, ...],
-    rng: "np.random.Generator",
+    rng: np.random.Generator,
     *,
     severity: tuple[float, float] = SEVERITY,
 ) -> Case:
@@ -108,23 +111,12 @@ def draw_case(
         rng: the source of chance.
         severity: least and largest; 1 is an ordinary bad day.
     """
-    for _ in range(MOST_DRAWS):
-        case = _one(faults, rng, severity)
-        if case is not None and _solvable(case):
-            return case
-    raise RuntimeError(f"no log that shows {' and '.join(faults) or 'nothing'}")
+    return draw_until(lambda _: _draw_log(faults, rng, severity), _is_solvable)
 
 
-def _one(
-    faults: tuple[str, ...], rng: "np.random.Generator", bounds: tuple[float, float]
+def _draw_log(
+    faults: tuple[str, ...], rng: np.random.Generator, bounds: tuple[float, float]
 ) -> Case | None:
-    from sim.bench.mechanisms import MECHANISMS  # noqa: PLC0415 - the same
-    from sim.bench.routine import Routine  # noqa: PLC0415 - the same
-    from sim.bench.simulate import simulate  # noqa: PLC0415 - the same
-    from sim.core.errors import Refusal  # noqa: PLC0415 - the same
-    from sim.inspect.contaminate import contaminate  # noqa: PLC0415 - numpy only where it is needed
-    from sim.inspect.faults import FAULTS  # noqa: PLC0415 - the same
-
     kinds = ("drivetrain",) if "wheel-slip" in faults else KINDS
     mechanism = MECHANISMS[str(rng.choice(kinds))].draw(rng)
     grips = mechanism.name == "drivetrain" and "wheel-slip" not in faults
@@ -148,18 +140,14 @@ def _one(
     return Case(_as_written(log), tuple(damage))
 
 
-def _as_written(log: "Log") -> "Log":
+def _as_written(log: Log) -> Log:
     """The log with the times that a file holds: what is found in it must be found in the file."""
-    import numpy as np  # noqa: PLC0415 - numpy only where it is needed
-
     runs = (replace(run, time=np.round(run.time * TICKS) / TICKS) for run in log.runs)
     return replace(log, runs=tuple(runs))
 
 
-def _solvable(case: Case) -> bool:
+def _is_solvable(case: Case) -> bool:
     """Whether the faults, no others, are found in the record, each in its place."""
-    from sim.inspect.detect_faults import inspect  # noqa: PLC0415 - numpy only where it is needed
-
     found = inspect(case.log)
     if found.is_clean and not case.damage:
         return True

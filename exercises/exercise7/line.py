@@ -8,38 +8,16 @@ Two faults of one log are joined by ``+``, or stand in a list.
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from grader.check import WrongAnswer, shorten
+from sim.core.log import Log
+from sim.core.vocabulary import FOUR_TESTS
 
-from .feedback import ACCEPTED
-
-if TYPE_CHECKING:
-    from sim.core.log import Log
-
-    from .drawn import Case
+from .drawn import Case
+from .feedback import ACTIONS, FAULTS, list_actions
 
 CLEAN = "clean"
-ACTIONS = ("rerun", "trim", "filter", "fix-config")
-FAULTS = (
-    "encoder-slip",
-    "brownout",
-    "hard-stop",
-    "loop-overrun",
-    "stale-samples",
-    "command-logged",
-    "unit-error",
-    "sign-flip",
-    "mislabelled-test",
-    "noisy-standstill",
-    "voltage-dropout",
-    "stuck-sensor",
-    "wheel-slip",
-)
-TESTS = tuple(
-    f"{kind}-{way}" for kind in ("quasistatic", "dynamic") for way in ("forward", "reverse")
-)
-PLACES = (*TESTS, "quasistatic", "dynamic", "forward", "reverse", "whole")
+PLACES = (*FOUR_TESTS, "quasistatic", "dynamic", "forward", "reverse", "whole")
 SPELLED = {"mislabeled-test": "mislabelled-test", "all": "whole"}  # what else people write
 FILLERS = {"from", "to", "until", "till", "s", "sec", "seconds", "at", "in", "the", "test", "tests"}
 FILLERS |= {"log", "run", "t", "between"}
@@ -67,12 +45,12 @@ class Claim:
 
     def _means(self, test: str) -> bool:
         """Whether a test is one of those that are named, or has all the marks that are."""
-        named = [place for place in self.places if place in TESTS]
+        named = [place for place in self.places if place in FOUR_TESTS]
         if named:
             return test in named
         return all(place in ("whole", *test.split("-")) for place in self.places)
 
-    def spans(self, log: "Log", *, whole: bool) -> list[list[Span]]:
+    def spans(self, log: Log, *, whole: bool) -> list[list[Span]]:
         """The parts of a log that may be meant; none if no place was given.
 
         Args:
@@ -103,7 +81,7 @@ class Claim:
         return ways
 
 
-def describe_case(case: "Case") -> str:
+def describe_case(case: Case) -> str:
     """The line that earns everything for a log."""
     said = []
     for one in case.damage:
@@ -111,7 +89,7 @@ def describe_case(case: "Case") -> str:
         first = one.where[0]
         begin = case.log.runs[first.run or 0].time[0]
         times = [] if one.whole else [f"{first.start - begin:.2f} to {first.end - begin:.2f}"]
-        said.append(", ".join([one.fault, tests, *times, ACCEPTED[one.fault][0]]))
+        said.append(", ".join([one.fault, tests, *times, list_actions(one.fault)[0]]))
     return " + ".join(said) or CLEAN
 
 
@@ -146,7 +124,7 @@ def _listed() -> str:
 def _claim(text: str) -> Claim:
     left = re.sub(r"[\s_]+", " ", text.lower())
     faults, left = _take(left, (CLEAN, *FAULTS))
-    actions, left = _take(left, ACTIONS)
+    actions, left = _take(left, tuple(ACTIONS))
     places, left = _take(left, PLACES)
     times = [float(number.replace(",", ".")) for number in NUMBER.findall(left)]
     unknown = [word for word in re.findall(r"[^\W\d_]+", left) if word not in FILLERS]

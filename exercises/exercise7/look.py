@@ -102,11 +102,11 @@ def drawn(log: "Log", runs: "Sequence[Run]", *, begin: float = 0.0, end: float =
 
     All tests have the same axes, so that they can be compared. The time steps begin at zero.
     """
-    per = find_unit(log.units)
+    unit = find_unit(log.units)
     names = (
         "voltage [V]",
-        f"velocity [{per.symbol}/s]",
-        f"position [{per.symbol}]",
+        f"velocity [{unit.symbol}/s]",
+        f"position [{unit.symbol}]",
         "time step [ms]",
     )
     figure, grid = make_panels(len(names), len(runs), width=3.4 * len(runs) + 1.0, height=8.4)
@@ -114,7 +114,7 @@ def drawn(log: "Log", runs: "Sequence[Run]", *, begin: float = 0.0, end: float =
     for column, run in enumerate(runs):
         since = run.time - run.time[0]
         kept = (since >= begin) & (since <= end)
-        signals = _signals(run, per.si)
+        signals = _signals(run, unit.si)
         shown.append([signal[kept] for signal in signals])
         style = "o-" if kept.sum() <= DOTS else "-"
         for row, signal in enumerate(signals):
@@ -124,7 +124,7 @@ def drawn(log: "Log", runs: "Sequence[Run]", *, begin: float = 0.0, end: float =
                 axes.set_ylabel(names[row], color=INK)
         grid[0][column].set_title(run.test, fontsize=10, color=INK)
         grid[-1][column].set_xlabel("time since the test began [s]", color=INK)
-    whole = [_signals(run, per.si) for run in log.runs]
+    whole = [_signals(run, unit.si) for run in log.runs]
     for row, axes_of_row in enumerate(grid):
         limits = _limits([one[row] for one in shown], [one[row] for one in whole])
         if row == len(grid) - 1:

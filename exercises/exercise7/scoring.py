@@ -1,10 +1,16 @@
-"""Hold what was said about one log against the truth about it."""
+"""Compare what was said about one log with the truth about it."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 from .drawn import Case, Damaged
-from .feedback import ACCEPTED, ACTS, explain_false_alarm, explain_mixed_up, explain_overlooked
+from .feedback import (
+    ACTIONS,
+    explain_false_alarm,
+    explain_mixed_up,
+    explain_overlooked,
+    list_actions,
+)
 from .line import CLEAN, Claim, Span
 
 LABEL, PLACE, ACTION = 0.5, 0.25, 0.25  # [share of a fault's points]
@@ -33,20 +39,20 @@ def score_claims(claims: Sequence[Claim], case: Case, *, points: float) -> Score
         if case.damage:
             return Score(0.0, explain_overlooked(case.damage[0].fault))
         return Score(points, "")
-    pairs, alarms = _paired(claims, case)
+    pairs, alarms = _pair_claims(claims, case)
     if not case.damage:
-        return Score(0.0, _alarm(claims[0]))
+        return Score(0.0, _explain_alarm(claims[0]))
     share, says = 0.0, []
     for damaged, claim in pairs:
-        earned, hint = _one(claim, damaged, case)
+        earned, hint = _judge_claim(claim, damaged, case)
         share += earned / len(case.damage)
         says += [hint] if hint else []
-    says += [_alarm(claim) for claim in alarms]
+    says += [_explain_alarm(claim) for claim in alarms]
     hint = " ".join(dict.fromkeys(says))
     return Score(max(points * share - FALSE_ALARM * len(alarms), 0.0), hint)
 
 
-def _paired(
+def _pair_claims(
     claims: Sequence[Claim], case: Case
 ) -> tuple[list[tuple[Damaged, Claim | None]], list[Claim]]:
     """Each damage with the claim that means it, and the claims that mean none."""
@@ -64,7 +70,7 @@ def _paired(
     return pairs, left
 
 
-def _one(claim: Claim | None, damaged: Damaged, case: Case) -> tuple[float, str]:
+def _judge_claim(claim: Claim | None, damaged: Damaged, case: Case) -> tuple[float, str]:
     """Share of a fault's points, and what to say."""
     if claim is None:
         return 0.0, explain_overlooked(damaged.fault)
@@ -75,22 +81,24 @@ def _one(claim: Claim | None, damaged: Damaged, case: Case) -> tuple[float, str]
     share += LABEL
     says = []
     if not placed:
-        says.append(_place(claim, whole=damaged.whole, lasts=_lasts(case)))
-    if claim.action in ACCEPTED[damaged.fault]:
+        says.append(_explain_place(claim, whole=damaged.whole, lasts=_find_end(case)))
+    if claim.action in list_actions(damaged.fault):
         share += ACTION
     elif claim.action:
-        says.append(f"{ACTS[claim.action]}: not here. What would prevent it from happening again?")
+        says.append(
+            f"{ACTIONS[claim.action]}: not here. What would prevent it from happening again?"
+        )
     else:
         says.append("What should you do? Add one of: rerun, trim, filter, fix-config.")
     return share, " ".join(says)
 
 
-def _lasts(case: Case) -> float:
+def _find_end(case: Case) -> float:
     """When the log ends [s]."""
     return max(float(run.time[-1]) for run in case.log.runs)
 
 
-def _place(claim: Claim, *, whole: bool, lasts: float) -> str:
+def _explain_place(claim: Claim, *, whole: bool, lasts: float) -> str:
     if claim.times is not None and claim.times[0] > lasts:
         return (
             f"The fault is right, but the log ends after {lasts:.0f} s. Are your times in "
@@ -111,7 +119,7 @@ def _place(claim: Claim, *, whole: bool, lasts: float) -> str:
     )
 
 
-def _alarm(claim: Claim) -> str:
+def _explain_alarm(claim: Claim) -> str:
     return (
         f"{explain_false_alarm(claim.fault)} Can you find that in a plot? What looks odd may be "
         "normal for a good mechanism. Does it look the same in the other direction?"

@@ -2,12 +2,12 @@
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
-from .preparation import TESTS, Preparation, fitted
+from sim.core.errors import Refusal
+from sim.core.log import FOUR_TESTS
 
-if TYPE_CHECKING:
-    from .drawn import Variant
+from .drawn import Variant
+from .preparation import Preparation, fit_prepared
 
 HELPS = 0.9  # [times the error] what leaves more than that is not to blame
 
@@ -33,7 +33,7 @@ LOW = (
 )
 
 
-def blame(gain: str, variant: "Variant", preparation: Preparation) -> Said:
+def blame(gain: str, variant: Variant, preparation: Preparation) -> Said:
     """What to say about a gain that came out wrong; nothing if no one part explains it."""
     errors = [
         (_error(gain, variant, repaired), says)
@@ -46,12 +46,10 @@ def blame(gain: str, variant: "Variant", preparation: Preparation) -> Said:
     return min(helped, key=lambda one: one[0])[1]
 
 
-def _error(gain: str, variant: "Variant", preparation: Preparation) -> float:
+def _error(gain: str, variant: Variant, preparation: Preparation) -> float:
     """How far a gain is off; infinitely, if there is no fit."""
-    from sim.core.errors import Refusal  # noqa: PLC0415 - numpy only where it is needed
-
     try:
-        found = fitted(variant.log, preparation).gains[gain]
+        found = fit_prepared(variant.log, preparation).gains[gain]
     except Refusal:
         return float("inf")
     return abs(found - variant.asked[gain].expected)
@@ -61,7 +59,7 @@ def _repairs(reference: Preparation, given: Preparation) -> Iterator[tuple[Prepa
     """The preparation with one part of it repaired, and what was wrong with that part."""
     yield replace(given, median=reference.median), _median(reference, given)
     yield replace(given, threshold=reference.threshold), _threshold(reference, given)
-    for test in TESTS:
+    for test in FOUR_TESTS:
         keep = dict(given.keep)
         if test in reference.keep:
             keep[test] = reference.keep[test]

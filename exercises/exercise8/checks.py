@@ -1,23 +1,31 @@
 """Exercise 8: what to cut from a damaged log, graded by the fit that comes of it."""
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
-from grader.answers.submission import read_answers
-from grader.check import NotReachedError, WrongAnswer, check
-from grader.student_data.student_files import format_log, write_student_files
+from grader.answers.submission import NamedAnswers, read_answers
+from grader.check import NotReachedError, WrongAnswer, check, make_check
+from grader.student_data.student_files import Made, format_log
+from sim.core.errors import Refusal
+from sim.core.log import FOUR_TESTS
+from sim.core.units import find_unit
 
 from .blame import blame
 from .coverage import Coverage, measure_coverage
 from .drawn import Variant, draw
-from .preparation import POINTS, TESTS, Preparation, earned, fitted, read_preparation
+from .preparation import (
+    POINTS,
+    Preparation,
+    fit_prepared,
+    judge_gain,
+    read_preparation,
+)
 
 FILES = ("answers.toml",)
-ANSWER_NAMES = (*(test.replace("-", "_") for test in TESTS), "threshold", "median")
+ANSWER_NAMES = (*(test.replace("-", "_") for test in FOUR_TESTS), "threshold", "median")
 LATE = 0.15  # [s] after a careful cut before a stop: who cuts by eye may be so late
-HERE = Path(__file__).resolve().parent
 
 
 @dataclass(frozen=True)
@@ -28,10 +36,9 @@ class Answers:
     variant: Variant
 
 
-def prepare(student: str, *, say: Callable[[str], None]) -> None:
-    """Make the learner's log, where it is not there as it was made."""
-    made = dict.fromkeys(("log.wpilog", "log.csv"), format_log(draw(student).log))
-    write_student_files(made, exercise=HERE, student=student, what="log", say=say)
+def make_files(student: str) -> dict[str, Made]:
+    """The learner's log."""
+    return dict.fromkeys(("log.wpilog", "log.csv"), format_log(draw(student).log))
 
 
 def read(path: Path, *, student: str) -> Answers:
@@ -40,13 +47,11 @@ def read(path: Path, *, student: str) -> Answers:
     Raises:
         UnreadableFile: the file cannot be read.
     """
-    from sim.core.units import find_unit  # noqa: PLC0415 - numpy only where it is needed
-
-    given = {name.lower(): value for name, value in read_answers(path).items()}
+    given = NamedAnswers(read_answers(path))
     variant = draw(student)
-    per = find_unit(variant.mechanism.units)
+    unit = find_unit(variant.mechanism.units)
     try:
-        return Answers(read_preparation(given, symbol=per.symbol, si=per.si), variant)
+        return Answers(read_preparation(given, symbol=unit.symbol, si=unit.si), variant)
     except WrongAnswer as wrong:
         return Answers(wrong, variant)
 
@@ -66,7 +71,7 @@ def kept(answers: Answers) -> None:
         "mechanism. A fit averages out the noise of good samples; missing samples help "
         "nobody.",
         misconception="M-TRIM-PRETTY",
-        earned=2 * (1 - len(short) / len(TESTS)),
+        earned=2 * (1 - len(short) / len(FOUR_TESTS)),
     )
 
 
@@ -88,26 +93,8 @@ def reach(answers: Answers) -> None:
         f"cut off in {tests}",
         hint=why,
         misconception="M-TRIM-PRETTY",
-        earned=2 * (1 - len(short) / len(TESTS)),
+        earned=2 * (1 - len(short) / len(FOUR_TESTS)),
     )
-
-
-@check(points=POINTS)
-def ks(answers: Answers) -> None:
-    """The fit of what you kept finds kS."""
-    _gain("kS", answers)
-
-
-@check(points=POINTS)
-def kv(answers: Answers) -> None:
-    """The fit of what you kept finds kV."""
-    _gain("kV", answers)
-
-
-@check(points=POINTS)
-def ka(answers: Answers) -> None:
-    """The fit of what you kept finds kA."""
-    _gain("kA", answers)
 
 
 def _preparation(answers: Answers) -> Preparation:
@@ -143,12 +130,10 @@ def _keeps_ends(answers: Answers) -> bool:
         return False
 
 
-def _gain(name: str, answers: Answers) -> None:
-    from sim.core.errors import Refusal  # noqa: PLC0415 - numpy only where it is needed
-
+def _judge_gain(name: str, answers: Answers) -> None:
     preparation, variant = _preparation(answers), answers.variant
     try:
-        found = fitted(variant.log, preparation)
+        found = fit_prepared(variant.log, preparation)
     except Refusal:
         raise WrongAnswer(
             "no fit: too little is left of your log",
@@ -158,7 +143,7 @@ def _gain(name: str, answers: Answers) -> None:
             misconception="M-TRIM-PRETTY",
         ) from None
     value, asked = found.gains[name], variant.asked[name]
-    score = earned(value, asked)
+    score = judge_gain(value, asked)
     kept = _keeps_ends(answers)
     if score == POINTS and kept:
         return
@@ -179,3 +164,11 @@ def _gain(name: str, answers: Answers) -> None:
         misconception=code,
         earned=score,
     )
+
+
+gains = tuple(
+    make_check(
+        name, f"The fit of what you kept finds {name}.", partial(_judge_gain, name), points=POINTS
+    )
+    for name in ("kS", "kV", "kA")
+)

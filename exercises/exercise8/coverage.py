@@ -1,15 +1,14 @@
 """Share of the valid samples that a preparation keeps, and whether it keeps the fast ends."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+
+import numpy as np
+
+from sim.core.log import Array, Log, Run
+from sim.inspect.log_features import Flags
 
 from .preparation import Preparation
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from sim.core.log import Array, Log, Run
-    from sim.inspect.log_features import Flags
 
 ENOUGH = 0.6  # [share] of a test's valid samples that has to be kept
 FAST_END = 0.9  # [share] of a ramp's fastest valid speed that has to be among them
@@ -37,11 +36,11 @@ class Coverage:
 
 
 def measure_coverage(
-    log: "Log",
+    log: Log,
     preparation: Preparation,
     *,
-    valid: "Mapping[str, Flags]",
-    clean: "Mapping[str, Array]",
+    valid: Mapping[str, Flags],
+    clean: Mapping[str, Array],
 ) -> tuple[Coverage, ...]:
     """Measure how much of each test a preparation keeps.
 
@@ -54,9 +53,7 @@ def measure_coverage(
     return tuple(_of(run, valid[run.test], clean[run.test], preparation) for run in log.runs)
 
 
-def _of(run: "Run", valid: "Flags", clean: "Array", preparation: Preparation) -> Coverage:
-    import numpy as np  # noqa: PLC0415 - numpy only where it is needed
-
+def _of(run: Run, valid: Flags, clean: Array, preparation: Preparation) -> Coverage:
     speed = np.abs(clean)
     trimmed = preparation.kept(run).time
     kept = valid & np.isin(run.time, trimmed)

@@ -1,15 +1,13 @@
 """What is done to a learner's log: two stops, and single readings that are far off."""
 
+from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
+import numpy as np
 
-    import numpy as np
-
-    from sim.core.log import Log, Run
-    from sim.inspect.log_features import Flags
+from sim.core.log import Log, Run
+from sim.inspect.contaminate import contaminate
+from sim.inspect.log_features import Flags
 
 PRESSED = (1.0, 2.0)  # [severity] of a hard stop: 0.6 to 1.2 s against it
 STOPS = {"quasistatic": (0.65, 0.92), "dynamic": (0.55, 0.85)}  # [share of the run] where it hits
@@ -20,14 +18,12 @@ QUIET = 0.4  # [s] before a stop without any: a median does not outvote the last
 MOVING, RISEN = 0.1, 0.9  # [share of a test's top speed] where it moves, where a step has risen
 
 
-def add_hard_stops(log: "Log", *, rng: "np.random.Generator") -> "tuple[Log, dict[str, float]]":
+def add_hard_stops(log: Log, *, rng: np.random.Generator) -> tuple[Log, dict[str, float]]:
     """Make one ramp and one step hit a hard stop.
 
     Returns:
         The log, and where it hits: test -> [s] since it began.
     """
-    from sim.inspect.contaminate import contaminate  # noqa: PLC0415 - numpy only where it is needed
-
     impacts = {}
     for kind, share in STOPS.items():
         test = f"{kind}-{rng.choice(('forward', 'reverse'))}"
@@ -39,10 +35,8 @@ def add_hard_stops(log: "Log", *, rng: "np.random.Generator") -> "tuple[Log, dic
     return log, impacts
 
 
-def find_valid_samples(run: "Run", impacts: dict[str, float], rests: dict[str, float]) -> "Flags":
+def find_valid_samples(run: Run, impacts: dict[str, float], rests: dict[str, float]) -> Flags:
     """Whether each sample tells of the mechanism: it moves, or, in a step, gets up to speed."""
-    import numpy as np  # noqa: PLC0415 - numpy only where it is needed
-
     since = run.time - run.time[0]
     before = since < impacts.get(run.test, np.inf)
     speed = np.abs(run.velocity)
@@ -52,23 +46,19 @@ def find_valid_samples(run: "Run", impacts: dict[str, float], rests: dict[str, f
     return (since <= since[risen]) & (np.abs(run.voltage) > 0.0)
 
 
-def measure_noise_at_rest(runs: "Sequence[Run]", rests: dict[str, float]) -> float:
+def measure_noise_at_rest(runs: Sequence[Run], rests: dict[str, float]) -> float:
     """[m/s or rad/s] the largest standard deviation of a velocity up to when its test moves [s]."""
-    import numpy as np  # noqa: PLC0415 - numpy only where it is needed
-
     still = (run.velocity[run.time <= rests[run.test]] for run in runs if run.test in rests)
     return max(float(np.std(velocity)) for velocity in still)
 
 
 def add_spikes(
-    run: "Run",
-    valid: "Flags",
+    run: Run,
+    valid: Flags,
     impact: float | None,
-    rng: "np.random.Generator",
-) -> "Run":
+    rng: np.random.Generator,
+) -> Run:
     """The run with single readings that are far off."""
-    import numpy as np  # noqa: PLC0415 - numpy only where it is needed
-
     velocity = run.velocity.copy()
     top = float(np.abs(velocity[valid]).max())
     first = int(np.argmax(valid))

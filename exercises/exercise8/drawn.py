@@ -1,22 +1,26 @@
 """A log for each learner, damaged so that it can be mended, and in no other way than by looking."""
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+import numpy as np
 
 from grader.answers.number_answer import AskedNumber, ask_gains
 from grader.student_data.draw_cache import cache_generated_data
-from grader.student_data.variant import cache_draws, make_student_rng
+from grader.student_data.variant import cache_draws, draw_until, make_student_rng
+from sim.bench.mechanism import Mechanism
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
+from sim.core.errors import Refusal
+from sim.core.log import Array, Log
+from sim.core.units import convert_gains, find_unit
+from sim.inspect.contaminate import contaminate
+from sim.inspect.log_features import Flags
 
 from .coverage import measure_coverage
 from .damage import add_hard_stops, add_spikes, find_valid_samples, measure_noise_at_rest
-from .preparation import LONGEST, POINTS, Preparation, points
-
-if TYPE_CHECKING:
-    import numpy as np
-
-    from sim.bench.mechanism import Mechanism
-    from sim.core.log import Array, Log
-    from sim.inspect.log_features import Flags
+from .preparation import LONGEST, POINTS, Preparation, sum_points
 
 RAMP, STEP, TIMEOUT, PERIOD = 0.5, 4.0, 8.0, 0.02  # [V/s], [V], [s], [s]
 STEPS = {"drivetrain": 1.8}  # [V] other than usual: four Krakens spin the wheels above 2.2 V
@@ -41,7 +45,6 @@ LACKING: tuple[tuple[str, dict[str, Any]], ...] = (  # what must cost a gain to 
 SURELY = 1.3  # [times the bands] even if they were this much wider
 SNUG = 0.9  # [times the bands] what is right must be so even if they were this much narrower
 NEARLY = 0.98  # [times the bands] the same, for thresholds between two that were tried
-MOST_DRAWS = 300  # so many in a row that cannot be solved would be our fault
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,11 +60,11 @@ class Variant:
         reference: a preparation that earns everything.
     """
 
-    mechanism: "Mechanism"
-    log: "Log"
+    mechanism: Mechanism
+    log: Log
     asked: dict[str, AskedNumber]
-    valid: "dict[str, Flags]"
-    clean: "dict[str, Array]"
+    valid: dict[str, Flags]
+    clean: dict[str, Array]
     reference: Preparation
 
 
@@ -71,21 +74,10 @@ def draw(student: str) -> Variant:
     """A learner's log, always the same one."""
     rng = make_student_rng(student, "exercise8")
     kind = str(rng.choice(tuple(TREMBLES)))
-    for _ in range(MOST_DRAWS):
-        variant = _one(kind, rng)
-        if variant is not None and _solvable(variant):
-            return variant
-    raise RuntimeError(f"no log that can be mended for {student!r}")
+    return draw_until(lambda _: _draw_variant(kind, rng), _is_solvable)
 
 
-def _one(kind: str, rng: "np.random.Generator") -> Variant | None:
-    from sim.bench.mechanisms import MECHANISMS  # noqa: PLC0415 - the same
-    from sim.bench.routine import Routine  # noqa: PLC0415 - the same
-    from sim.bench.simulate import simulate  # noqa: PLC0415 - the same
-    from sim.core.errors import Refusal  # noqa: PLC0415 - the same
-    from sim.core.units import convert_gains, find_unit  # noqa: PLC0415 - the same
-    from sim.inspect.contaminate import contaminate  # noqa: PLC0415 - numpy only where it is needed
-
+def _draw_variant(kind: str, rng: np.random.Generator) -> Variant | None:
     mechanism = MECHANISMS[kind].draw(rng)
     routine = Routine(ramp=RAMP, step=STEPS.get(kind, STEP), timeout=TIMEOUT)
     severity = float(rng.uniform(*TREMBLES[kind]))
@@ -102,11 +94,11 @@ def _one(kind: str, rng: "np.random.Generator") -> Variant | None:
     spiky = tuple(
         add_spikes(run, valid[run.test], impacts.get(run.test), rng) for run in trembles.log.runs
     )
-    per = find_unit(mechanism.units)
+    unit = find_unit(mechanism.units)
     return Variant(
         mechanism,
         replace(log, runs=spiky),
-        ask_gains(convert_gains(mechanism.gains, factor=per.si), position=per.symbol),
+        ask_gains(convert_gains(mechanism.gains, factor=unit.si), position=unit.symbol),
         valid,
         clean,
         Preparation(
@@ -117,28 +109,31 @@ def _one(kind: str, rng: "np.random.Generator") -> Variant | None:
     )
 
 
-def _solvable(variant: Variant) -> bool:
+def _is_solvable(variant: Variant) -> bool:
     """Whether who cuts by eye earns all, and who leaves anything out does not."""
     log, asked, reference = variant.log, variant.asked, variant.reference
     full = POINTS * len(asked)
-    if points(log, reference, asked, wider=SNUG) < full or points(log, NOTHING, asked) >= full / 2:
+    if (
+        sum_points(log, reference, asked, wider=SNUG) < full
+        or sum_points(log, NOTHING, asked) >= full / 2
+    ):
         return False
     by_eye = [_cut(reference, early, times) for early in EARLIER for times in ROUGHLY]
     remaining = measure_coverage(log, by_eye[-1], valid=variant.valid, clean=variant.clean)
     return (
         all(part.enough and part.reaches for part in remaining)
-        and all(points(log, one, asked) == full for one in by_eye)
+        and all(sum_points(log, one, asked) == full for one in by_eye)
         and all(
-            points(log, _cut(reference, EARLIER[1] / 2, times), asked, wider=NEARLY) == full
+            sum_points(log, _cut(reference, EARLIER[1] / 2, times), asked, wider=NEARLY) == full
             for times in BETWEEN
         )
         and all(
-            points(log, replace(one, **part), {gain: asked[gain]}, wider=SURELY) < POINTS
+            sum_points(log, replace(one, **part), {gain: asked[gain]}, wider=SURELY) < POINTS
             for one in by_eye
             for gain, part in LACKING
         )
         and all(
-            points(log, Preparation({}, threshold, median), asked) < full
+            sum_points(log, Preparation({}, threshold, median), asked) < full
             for threshold in (0.0, reference.threshold)
             for median in range(1, LONGEST + 1, 2)  # a filter alone never is enough
         )

@@ -3,16 +3,15 @@
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+
+import numpy as np
 
 from grader.answers.number_answer import HALF, AskedNumber, Band, read_answer_number
 from grader.check import WrongAnswer
+from sim.core.errors import Refusal
+from sim.core.log import FOUR_TESTS, Log, Run
+from sim.fit import Fit, fit
 
-if TYPE_CHECKING:
-    from sim.core.log import Log, Run
-    from sim.fit import Fit
-
-TESTS = ("quasistatic-forward", "quasistatic-reverse", "dynamic-forward", "dynamic-reverse")
 POINTS = 2.0  # for each gain
 LONGEST = 15  # [samples] of a median window, as SysId's
 EVERYTHING = ("all", "everything", "whole")
@@ -36,7 +35,7 @@ class Preparation:
     threshold: float
     median: int
 
-    def kept(self, run: "Run") -> "Run":
+    def kept(self, run: Run) -> Run:
         """What is left of a run once it is trimmed."""
         first, last = self.keep.get(run.test, (0.0, float("inf")))
         since = run.time - run.time[0]
@@ -54,7 +53,7 @@ def read_preparation(given: Mapping[str, object], *, symbol: str, si: float) -> 
     Raises:
         WrongAnswer: one of them is missing or makes no sense; the message names it.
     """
-    keep = {test: _window(test, given.get(test.replace("-", "_"))) for test in TESTS}
+    keep = {test: _window(test, given.get(test.replace("-", "_"))) for test in FOUR_TESTS}
     asked = AskedNumber("threshold", 0.0, f"{symbol}/s", ANY)
     threshold = _number(given.get("threshold"), asked)
     if threshold < 0.0:
@@ -112,14 +111,12 @@ def _window(test: str, raw: object) -> tuple[float, float] | None:
     return times[0], times[1]
 
 
-def prepared(log: "Log", preparation: Preparation) -> "Log":
+def prepare_log(log: Log, preparation: Preparation) -> Log:
     """The log as the regression is to see it.
 
     A slow sample loses its voltage, by which SysId's recipe leaves it out: its time stays in the
     log, so that the period of the samples beside it is what it was.
     """
-    import numpy as np  # noqa: PLC0415 - numpy only where it is needed
-
     runs = []
     for run in map(preparation.kept, log.runs):
         slow = np.abs(run.velocity) < preparation.threshold
@@ -128,19 +125,17 @@ def prepared(log: "Log", preparation: Preparation) -> "Log":
     return replace(log, runs=tuple(runs))
 
 
-def fitted(log: "Log", preparation: Preparation) -> "Fit":
+def fit_prepared(log: Log, preparation: Preparation) -> Fit:
     """What SysId's recipe finds in the log, so prepared, in the unit of the log.
 
     Raises:
         NotIdentifiable: too little is left.
     """
-    from sim.fit import fit  # noqa: PLC0415 - numpy only where it is needed
-
-    ready = prepared(log, preparation)
+    ready = prepare_log(log, preparation)
     return fit(ready, type="simple", method="sysid", median=preparation.median).in_log_units()
 
 
-def earned(value: float, asked: AskedNumber) -> float:
+def judge_gain(value: float, asked: AskedNumber) -> float:
     """Points for one gain: all of them, half, or none."""
     if asked.is_right(value):
         return POINTS
@@ -148,17 +143,15 @@ def earned(value: float, asked: AskedNumber) -> float:
     return HALF * POINTS if near else 0.0
 
 
-def points(
-    log: "Log", preparation: Preparation, asked: Mapping[str, AskedNumber], *, wider: float = 1.0
+def sum_points(
+    log: Log, preparation: Preparation, asked: Mapping[str, AskedNumber], *, wider: float = 1.0
 ) -> float:
     """What the fit of a log, so prepared, earns; were the bands this many times as wide."""
-    from sim.core.errors import Refusal  # noqa: PLC0415 - numpy only where it is needed
-
     try:
-        gains = fitted(log, preparation).gains
+        gains = fit_prepared(log, preparation).gains
     except Refusal:
         return 0.0
     return sum(
-        earned(one.expected + (gains[name] - one.expected) / wider, one)
+        judge_gain(one.expected + (gains[name] - one.expected) / wider, one)
         for name, one in asked.items()
     )

@@ -2,9 +2,11 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import partial
+from itertools import permutations
 from pathlib import Path
-from typing import TYPE_CHECKING
+
+import numpy as np
 
 from grader.answers.number_answer import (
     AnswerKey,
@@ -14,32 +16,27 @@ from grader.answers.number_answer import (
     judge_number,
     read_answer_number,
 )
-from grader.answers.submission import read_answers
-from grader.check import WrongAnswer, check
+from grader.answers.submission import NamedAnswers, read_answers
+from grader.check import WrongAnswer, check, make_check
 from grader.consequence import Consequence
-from grader.student_data.student_files import format_log, write_student_files
-from grader.student_data.variant import derive_student_seed, make_student_rng
+from grader.student_data.student_files import Made, format_log
+from grader.student_data.variant import cache_draws, choose, draw_until, make_student_rng
+from sim.bench.mechanism import Mechanism
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
+from sim.core.log import Log
+from sim.core.units import convert_gains, find_unit
+from sim.fit import Fit, fit
 
-from .outcome import outcome
-from .scene import columns, scene
+from .outcome import find_outcome
+from .scene import make_columns, make_scene
 from .unseen import NAME, RAMP, STEPS, TIMEOUT, USUAL_STEP, judge_function
-
-if TYPE_CHECKING:
-    import numpy as np
-
-    from sim.bench.mechanism import Mechanism
-    from sim.core.log import Log
-    from sim.fit import Fit
 
 FILES = ("answers.toml",)
 BESIDE = (NAME,)
-FILES_MADE = ("log.wpilog", "log.csv")
-HERE = Path(__file__).resolve().parent
-
 KINDS = ("drivetrain", "shooter")
 PERIOD = 0.02  # [s]
-REMEMBERED = 32  # learners whose logs are kept while this runs: it takes time to draw one
-MOST_DRAWS = 100  # so many mechanisms in a row that cannot be fitted would be our fault
 
 METRICS = ("acceleration_r2", "simulated_velocity_r2")
 ANSWER_NAMES = ("kS", "kV", "kA", *METRICS)
@@ -51,9 +48,9 @@ METRIC_BANDS = {"acceleration_r2": 0.05, "simulated_velocity_r2": 0.02}  # one w
 class Variant:
     """One learner's mechanism: the truth about it, its log, and a fit that shows it is solvable."""
 
-    mechanism: "Mechanism"
-    log: "Log"
-    fit: "Fit"
+    mechanism: Mechanism
+    log: Log
+    fit: Fit
     asked: Mapping[str, AskedNumber]
 
 
@@ -69,26 +66,20 @@ class Answers:
     run: bool = True
 
 
+@cache_draws
 def draw(student: str) -> Variant:
     """A learner's mechanism, always the same one; drawn again until SysId's own recipe finds it."""
-    return _drawn(student, derive_student_seed(student, "exercise9"))
-
-
-@lru_cache(maxsize=REMEMBERED)
-def _drawn(student: str, _seed: int) -> Variant:
     return draw_solvable(student, "exercise9", _draw_mechanism)
 
 
-def _draw_mechanism(rng: "np.random.Generator") -> "Mechanism":
-    from sim.bench.mechanisms import MECHANISMS  # noqa: PLC0415 - numpy only where it is needed
-
-    return MECHANISMS[KINDS[int(rng.integers(len(KINDS)))]].draw(rng)
+def _draw_mechanism(rng: np.random.Generator) -> Mechanism:
+    return MECHANISMS[choose(KINDS, rng)].draw(rng)
 
 
 def draw_solvable(
     student: str,
     exercise: str,
-    draw_mechanism: "Callable[[np.random.Generator], Mechanism]",
+    draw_mechanism: Callable[[np.random.Generator], Mechanism],
     *,
     step: float | None = None,
 ) -> Variant:
@@ -100,41 +91,32 @@ def draw_solvable(
         draw_mechanism: draws one.
         step: [V] of the dynamic tests; None takes what is usual for the mechanism.
     """
-    from sim.bench.routine import Routine  # noqa: PLC0415 - the same
-    from sim.bench.simulate import simulate  # noqa: PLC0415 - the same
-    from sim.core.units import convert_gains, find_unit  # noqa: PLC0415 - the same
-    from sim.fit import fit  # noqa: PLC0415 - numpy only where it is needed
 
-    for attempt in range(MOST_DRAWS):
+    def draw_variant(attempt: int) -> Variant:
         rng = make_student_rng(student, exercise, draw=attempt)
         mechanism = draw_mechanism(rng)
         volts = step or STEPS.get(mechanism.name, USUAL_STEP)
         routine = Routine(ramp=RAMP, step=volts, timeout=TIMEOUT)
         log = simulate(mechanism, routine, rng=rng, period=PERIOD)
         found = fit(log, type=mechanism.type, method="sysid").in_units(mechanism.units)
-        per = find_unit(mechanism.units)
-        gains = convert_gains(mechanism.gains, factor=per.si)
-        asked = ask_gains(gains, position=per.symbol)
-        found_all = all(one.is_right(found.gains[name]) for name, one in asked.items())
-        if found_all and not _alike(asked):
-            return Variant(mechanism, log, found, asked)
-    raise RuntimeError(f"no solvable mechanism for {student!r}")
+        unit = find_unit(mechanism.units)
+        gains = convert_gains(mechanism.gains, factor=unit.si)
+        return Variant(mechanism, log, found, ask_gains(gains, position=unit.symbol))
+
+    return draw_until(draw_variant, _is_solvable, most=100)
 
 
-def _alike(asked: Mapping[str, AskedNumber]) -> bool:
-    """Whether two gains could change places unseen."""
-    return any(
-        one.is_right(other.expected)
-        for one in asked.values()
-        for other in asked.values()
-        if one is not other
+def _is_solvable(variant: Variant) -> bool:
+    """Whether the fit finds all gains, and no two of them could change places unseen."""
+    asked, found = variant.asked, variant.fit.gains
+    return all(one.is_right(found[name]) for name, one in asked.items()) and not any(
+        one.is_right(other.expected) for one, other in permutations(asked.values(), 2)
     )
 
 
-def prepare(student: str, *, say: Callable[[str], None]) -> None:
-    """Make the learner's log, where it is not there as it was made."""
-    made = dict.fromkeys(FILES_MADE, format_log(draw(student).log))
-    write_student_files(made, exercise=HERE, student=student, what="log", say=say)
+def make_files(student: str) -> dict[str, Made]:
+    """The learner's log."""
+    return dict.fromkeys(("log.wpilog", "log.csv"), format_log(draw(student).log))
 
 
 def read(path: Path, *, student: str, run: bool = True) -> Answers:
@@ -148,13 +130,11 @@ def read(path: Path, *, student: str, run: bool = True) -> Answers:
     Raises:
         UnreadableFile: the file cannot be read.
     """
-    given = {name.lower(): value for name, value in read_answers(path).items()}
     variant = draw(student)
-    names = (*variant.asked, *METRICS)
-    around = scene(variant.mechanism, variant.log, variant.asked, ramp=RAMP, period=PERIOD)
+    scene = make_scene(variant.mechanism, variant.log, variant.asked, ramp=RAMP, period=PERIOD)
     return Answers(
-        {name: given.get(name.lower()) for name in names},
-        AnswerKey(variant.asked, around),
+        NamedAnswers(read_answers(path)),
+        AnswerKey(variant.asked, scene),
         variant,
         student,
         path.with_name(NAME),
@@ -164,29 +144,29 @@ def read(path: Path, *, student: str, run: bool = True) -> Answers:
 
 def consequence(answers: Answers) -> Consequence | None:
     """What the learner's gains would do on their mechanism."""
-    from sim.core.units import find_unit  # noqa: PLC0415 - numpy only where it is needed
-
     of = answers.variant.mechanism
     symbol = find_unit(of.units).symbol
-    return outcome(answers.given, answers.key.asked, kind=of.name, symbol=symbol)
+    return find_outcome(answers.given, answers.key.asked, kind=of.name, symbol=symbol)
 
 
-@check(points=1)
-def ks(answers: Answers) -> str | None:
-    """kS, the voltage that friction takes."""
-    return _gain("kS", answers, points=1)
+def _judge_gain(name: str, points: float, answers: Answers) -> str | None:
+    """Judge one gain; where no slip explains it, say how far the three miss the log."""
+    try:
+        return judge_number(name, answers.given, answers.key, points=points)
+    except WrongAnswer as wrong:
+        if "outside" in wrong.hint:
+            wrong.hint += _missed(answers)
+        raise
 
 
-@check(points=1.5)
-def kv(answers: Answers) -> str | None:
-    """kV, volts for each unit of velocity."""
-    return _gain("kV", answers, points=1.5)
-
-
-@check(points=1.5)
-def ka(answers: Answers) -> str | None:
-    """kA, volts for each unit of acceleration."""
-    return _gain("kA", answers, points=1.5)
+gain_checks = tuple(
+    make_check(name, description, partial(_judge_gain, name, points), points=points)
+    for name, description, points in (
+        ("kS", "kS, the voltage that friction takes.", 1.0),
+        ("kV", "kV, volts for each unit of velocity.", 1.5),
+        ("kA", "kA, volts for each unit of acceleration.", 1.5),
+    )
+)
 
 
 @check(points=1)
@@ -221,7 +201,7 @@ def _metric(name: str, answers: Answers) -> None:
         one: AskedNumber(one, expected[one], "", Band(0, 0, METRIC_BANDS[one], METRIC_BANDS[one]))
         for one in METRICS
     }
-    value = read_answer_number(answers.given[name], asked[name])
+    value = read_answer_number(answers.given.get(name), asked[name])
     if is_measured_r2(value, asked[name]):
         return
     (other,) = set(METRICS) - {name}
@@ -236,30 +216,15 @@ def _metric(name: str, answers: Answers) -> None:
     raise WrongAnswer(f"{value:.4g}", hint=hint, misconception="M-R2")
 
 
-def _gain(name: str, answers: Answers, *, points: float) -> str | None:
-    """Judge one gain; where no slip explains it, say how far the three miss the log."""
-    try:
-        return judge_number(name, answers.given, answers.key, points=points)
-    except WrongAnswer as wrong:
-        if "outside" in wrong.hint:
-            wrong.hint += _missed(answers)
-        raise
-
-
 def _missed(answers: Answers) -> str:
     """How far the learner's model misses the voltage in the log, beside how far a good one does."""
-    import numpy as np  # noqa: PLC0415 - numpy only where it is needed
-
-    from sim.core.units import find_unit  # noqa: PLC0415 - the same
-
+    variant, asked = answers.variant, answers.key.asked
     try:
-        gains = [
-            read_answer_number(answers.given[name], one) for name, one in answers.key.asked.items()
-        ]
+        gains = [read_answer_number(answers.given.get(name), one) for name, one in asked.items()]
     except WrongAnswer:
         return ""
-    known, voltage = columns(answers.variant.log, si=find_unit(answers.variant.mechanism.units).si)
-    good = [answers.variant.fit.gains[name] for name in answers.key.asked]
+    known, voltage = make_columns(variant.log, si=find_unit(variant.mechanism.units).si)
+    good = [variant.fit.gains[name] for name in asked]
     with np.errstate(over="ignore"):  # a number may be as large as a file can hold
         mine, best = (
             float(np.sqrt(np.mean((voltage - known @ np.array(g)) ** 2))) for g in (gains, good)

@@ -2,14 +2,16 @@
 
 from collections.abc import Mapping
 
-from grader.answers.number_answer import AskedNumber, read_answer_number
-from grader.check import WrongAnswer
+from grader.answers.number_answer import AskedNumber, read_wrong_numbers
 from grader.consequence import Consequence, follow_profiles
+from sim.feedback import Plant
+from sim.feedback.following import follow_profile
+from sim.feedback.profile import make_brisk_profile
 
 SPINS = {"shooter"}  # mechanisms whose place does not matter
 
 
-def outcome(
+def find_outcome(
     given: Mapping[str, object], asked: Mapping[str, AskedNumber], *, kind: str, symbol: str
 ) -> Consequence | None:
     """What the gains would do; None where one is missing, or all are right.
@@ -20,23 +22,12 @@ def outcome(
         kind: the mechanism: ``drivetrain``.
         symbol: of its unit of position.
     """
-    from sim.feedback import Plant  # noqa: PLC0415 - numpy only where it is needed
-    from sim.feedback.following import follow_profile  # noqa: PLC0415 - the same
-    from sim.feedback.profile import make_brisk_profile  # noqa: PLC0415 - the same
-
-    try:
-        gains = {name: read_answer_number(given.get(name), one) for name, one in asked.items()}
-    except WrongAnswer:
-        return None
-    if all(one.is_right(gains[name]) for name, one in asked.items()):
+    gains = read_wrong_numbers(given, asked)
+    if gains is None:
         return None
     plant = Plant("simple", {name: one.expected for name, one in asked.items()})
     place = "" if kind in SPINS else "way"
-    believed = Plant("simple", gains)
+    wanted, believed = make_brisk_profile(plant), Plant("simple", gains)
     return follow_profiles(
-        [
-            follow_profile(
-                plant, believed, make_brisk_profile(plant), name=kind, symbol=symbol, place=place
-            )
-        ]
+        [follow_profile(plant, believed, wanted, name=kind, symbol=symbol, place=place)]
     )

@@ -1,40 +1,30 @@
 """What wrong numbers are recognized by: the mechanism, its tests, and what wrong recipes give."""
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from pathlib import Path
+
+import numpy as np
 
 from grader.answers.number_answer import AskedNumber
-from grader.answers.wrong_number import Lookalike, Scene, WrongNumber
-
-if TYPE_CHECKING:
-    from sim.bench.mechanism import Mechanism
-    from sim.core.log import Array, Log
+from grader.answers.wrong_number import Scene, Slips
+from sim.bench.mechanism import Mechanism
+from sim.core.log import Array, Log
+from sim.core.units import find_unit
 
 STANDSTILL = 0.02  # [share of the top speed] slower rows say nothing about a gain
 USUAL = 0.02  # [s] between two samples of a robot program, and of the learner's own log
 
-EXPLAINED = WrongNumber(
-    "voltage-explained",
-    "this is the result with the voltage on the left side of the fit. Put the acceleration on"
-    " the left side instead",
-    "M-NOISE-AVERAGES",
-)
-ASSUMED = WrongNumber(
-    "period-assumed",
-    "this is the result if you assume 0.02 s between samples. Here the time step differs: "
-    "divide by the difference of the times",
-)
+SLIPS = Slips(Path(__file__).with_name("slips.toml"))
+ASSUMED = SLIPS.name("period-assumed")
 
 
-def columns(log: "Log", *, si: float) -> "tuple[Array, Array]":
+def make_columns(log: Log, *, si: float) -> tuple[Array, Array]:
     """Columns (n, 3) for kS, kV and kA, and the voltage (n,), of every row that moves.
 
     Args:
         log: the tests.
         si: [m or rad] of the unit that gains are asked in.
     """
-    import numpy as np  # noqa: PLC0415 - numpy only where it is needed
-
     rows, voltage = [], []
     for run in log.runs:
         v = run.velocity / si
@@ -45,9 +35,9 @@ def columns(log: "Log", *, si: float) -> "tuple[Array, Array]":
     return np.vstack(rows), np.concatenate(voltage)
 
 
-def scene(
-    mechanism: "Mechanism",
-    log: "Log",
+def make_scene(
+    mechanism: Mechanism,
+    log: Log,
     asked: Mapping[str, AskedNumber],
     *,
     ramp: float,
@@ -62,13 +52,11 @@ def scene(
         ramp: [V/s] of the quasistatic tests.
         period: [s] between two samples.
     """
-    import numpy as np  # noqa: PLC0415 - numpy only where it is needed
-
-    from sim.core.units import find_unit  # noqa: PLC0415 - the same
-
-    explained, *_ = np.linalg.lstsq(*columns(log, si=find_unit(mechanism.units).si), rcond=None)
+    explained, *_ = np.linalg.lstsq(
+        *make_columns(log, si=find_unit(mechanism.units).si), rcond=None
+    )
     looks = {
-        name: (Lookalike(float(value), EXPLAINED),)
+        name: SLIPS.list_lookalikes([("voltage-explained", float(value))])
         for name, value in zip(asked, explained, strict=True)
     }
     return Scene(

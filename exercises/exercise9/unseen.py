@@ -3,12 +3,14 @@
 It runs apart (``grader.isolation``): it gets the columns of each log, and returns three numbers.
 """
 
+import tempfile
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING
+
+import numpy as np
 
 from grader.answers.number_answer import (
     UNIT_ASSUMED,
@@ -18,21 +20,29 @@ from grader.answers.number_answer import (
     diagnose_number,
     judge_number,
 )
+from grader.answers.submission import read_text
 from grader.check import NotReachedError, NotRunError, WrongAnswer
-from grader.student_data.variant import derive_student_seed, make_student_rng
+from grader.isolation import CallResult, FunctionCall, Limits, SandboxOutcome, run_functions
+from grader.student_data.variant import (
+    cache_draws,
+    derive_student_seed,
+    draw_until,
+    make_student_rng,
+)
+from sim.bench.mechanism import Mechanism
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
+from sim.core.log import Array, Log
+from sim.core.units import convert_gains, find_unit
 
-from .scene import ASSUMED, USUAL, columns, scene
-
-if TYPE_CHECKING:
-    from grader.isolation import CallResult, SandboxOutcome
-    from sim.core.log import Array, Log
+from .scene import ASSUMED, USUAL, make_columns, make_scene
 
 NAME, FUNCTION = "fit.py", "fit"
 RAMP, TIMEOUT = 0.5, 10.0  # [V/s], [s]
 USUAL_STEP = 3.5  # [V]
 STEPS = {"drivetrain": 1.8}  # [V] other than usual: four Krakens spin the wheels above 2.2 V
 SECONDS = 10.0  # for all five; the solution takes a tenth of one
-MOST_DRAWS = 100
 ROOM = 0.6  # [share of the band] an honest fit stays within: there are many honest ways to fit
 FOUR_STEPS = (
     "Check four steps: take the tests one by one, divide by the difference of the times, leave out "
@@ -100,44 +110,41 @@ class Hidden:
     """One hidden log, and what is right for it."""
 
     recipe: Recipe
-    data: Mapping[str, "Array"]
+    data: Mapping[str, Array]
     key: AnswerKey
 
 
-@lru_cache(maxsize=REMEMBERED)
-def hidden(student: str, _seed: int) -> tuple[Hidden, ...]:
-    """The five logs of a learner; the seed is the student's, and a class has seeds of its own."""
-    return tuple(_draw(student, number, one) for number, one in enumerate(RECIPES, start=1))
+@cache_draws
+def draw_hidden(student: str) -> tuple[Hidden, ...]:
+    """The five logs of a learner."""
+    return tuple(_draw_log(student, number, one) for number, one in enumerate(RECIPES, start=1))
 
 
-def _draw(student: str, number: int, recipe: Recipe) -> Hidden:
-    from sim.bench.mechanisms import MECHANISMS  # noqa: PLC0415 - numpy only where it is needed
-    from sim.bench.routine import Routine  # noqa: PLC0415 - the same
-    from sim.bench.simulate import simulate  # noqa: PLC0415 - the same
-    from sim.core.units import convert_gains, find_unit  # noqa: PLC0415 - the same
-
+def _draw_log(student: str, number: int, recipe: Recipe) -> Hidden:
+    unit = find_unit(MECHANISMS[recipe.kind].units)
     routine = Routine(ramp=RAMP, step=STEPS.get(recipe.kind, USUAL_STEP), timeout=TIMEOUT)
-    for attempt in range(MOST_DRAWS):
+
+    def draw(attempt: int) -> tuple[Mechanism, Log, dict[str, AskedNumber]]:
         rng = make_student_rng(student, f"exercise9, log {number}", draw=attempt)
         built = MECHANISMS[recipe.kind].draw(rng)
         noise = built.sensor.velocity_noise * recipe.noise
         built = replace(built, sensor=replace(built.sensor, velocity_noise=noise))
         log = simulate(built, routine, rng=rng, period=recipe.period)
         log = replace(log, runs=tuple(run for run in log.runs if run.test != recipe.without))
-        per = find_unit(built.units)
-        asked = ask_gains(convert_gains(built.gains, factor=per.si), position=per.symbol)
-        if _fair(log, asked, si=per.si, noisy=recipe.noisy):
-            around = scene(built, log, asked, ramp=RAMP, period=recipe.period)
-            around = replace(around, computed=True)  # a function knows only the log
-            return Hidden(recipe, _table(log, si=per.si), AnswerKey(asked, around))
-    raise RuntimeError(f"no solvable log {number} for {student!r}")
+        gains = convert_gains(built.gains, factor=unit.si)
+        return built, log, ask_gains(gains, position=unit.symbol)
+
+    built, log, asked = draw_until(
+        draw, lambda drawn: _is_fair(*drawn[1:], si=unit.si, noisy=recipe.noisy), most=100
+    )
+    scene = make_scene(built, log, asked, ramp=RAMP, period=recipe.period)
+    scene = replace(scene, computed=True)  # a function knows only the log
+    return Hidden(recipe, _make_table(log, si=unit.si), AnswerKey(asked, scene))
 
 
-def _fair(log: "Log", asked: Mapping[str, AskedNumber], *, si: float, noisy: bool) -> bool:
+def _is_fair(log: Log, asked: Mapping[str, AskedNumber], *, si: float, noisy: bool) -> bool:
     """Whether an honest fit finds the gains with room to spare, and the naive one does not."""
-    import numpy as np  # noqa: PLC0415 - numpy only where it is needed
-
-    known, voltage = columns(log, si=si)
+    known, voltage = make_columns(log, si=si)
     naive, *_ = np.linalg.lstsq(known, voltage, rcond=None)
     sign, v, a = known.T
     (alpha, beta, gamma), *_ = np.linalg.lstsq(np.column_stack((v, voltage, sign)), a, rcond=None)
@@ -150,10 +157,8 @@ def _fair(log: "Log", asked: Mapping[str, AskedNumber], *, si: float, noisy: boo
     return room and (caught or not noisy)
 
 
-def _table(log: "Log", *, si: float) -> dict[str, "Array"]:
+def _make_table(log: Log, *, si: float) -> dict[str, Array]:
     """The columns of ``log.csv``, all tests one after another."""
-    import numpy as np  # noqa: PLC0415 - numpy only where it is needed
-
     runs = log.runs
     return {
         "time": np.concatenate([run.time for run in runs]),
@@ -165,13 +170,9 @@ def _table(log: "Log", *, si: float) -> dict[str, "Array"]:
 
 
 @lru_cache(maxsize=REMEMBERED)
-def _outcome(text: bytes, student: str, of: int) -> "SandboxOutcome":
+def _run_function(text: bytes, student: str, _seed: int) -> SandboxOutcome:
     """Run a function on all five logs; the same text gives the same numbers."""
-    import tempfile  # noqa: PLC0415 - only where there is something to run
-
-    from grader.isolation import FunctionCall, Limits, run_functions  # noqa: PLC0415 - the same
-
-    calls = [FunctionCall(FUNCTION, one.data) for one in hidden(student, of)]
+    calls = [FunctionCall(FUNCTION, one.data) for one in draw_hidden(student)]
     with tempfile.TemporaryDirectory() as folder:
         source = Path(folder, NAME)
         source.write_bytes(text)
@@ -195,8 +196,6 @@ def judge_function(path: Path, *, student: str, points: float, run: bool) -> str
         NotReachedError: there is no file.
         NotRunError: there is one, and it may not be run.
     """
-    from grader.answers.submission import read_text  # noqa: PLC0415 - beside its only use
-
     if not path.is_file():
         raise NotReachedError(
             f"there is no {NAME} next to your answers; copy it from the exercise's folder"
@@ -208,13 +207,13 @@ def judge_function(path: Path, *, student: str, points: float, run: bool) -> str
             "by reading it"
         )
     of = derive_student_seed(student, "exercise9")
-    logs, outcome = hidden(student, of), _outcome(text, student, of)
+    logs, outcome = draw_hidden(student), _run_function(text, student, of)
     wrong = [found for found in map(_judge_log, logs, outcome.answers) if found]
-    same = _same_for_all([answer.numbers for answer in outcome.answers])
-    printed = _printed(outcome.printed)
+    same = _explain_same_gains([answer.numbers for answer in outcome.answers])
+    printed = _format_print(outcome.printed)
     if not wrong:
         return printed or None
-    told = same or _telling(wrong)
+    told = same or _choose_feedback(wrong)
     right = len(logs) - len(wrong)
     told.seen = f"{right} of {len(logs)} logs right; {told.seen}"
     told.hint += f". {printed}" if printed else ""
@@ -222,7 +221,7 @@ def judge_function(path: Path, *, student: str, points: float, run: bool) -> str
     raise told
 
 
-def _same_for_all(returned: Sequence[Mapping[str, float]]) -> WrongAnswer | None:
+def _explain_same_gains(returned: Sequence[Mapping[str, float]]) -> WrongAnswer | None:
     """What to say of a function that returns the same gains for every log, if it does."""
     if not returned[0] or any(numbers != returned[0] for numbers in returned):
         return None
@@ -250,7 +249,7 @@ class Miss:
     slips: frozenset[str] = frozenset()
 
 
-def _telling(wrong: Sequence[Sequence[Miss]]) -> WrongAnswer:
+def _choose_feedback(wrong: Sequence[Sequence[Miss]]) -> WrongAnswer:
     """Of all that is wrong, what to tell: the slip that explains most logs, else the first."""
     logs = Counter(slip for log in wrong for slip in {slip for one in log for slip in one.slips})
     misses = [miss for log in wrong for miss in log]
@@ -269,7 +268,7 @@ def _telling(wrong: Sequence[Sequence[Miss]]) -> WrongAnswer:
     return told.why
 
 
-def _judge_log(log: Hidden, answer: "CallResult") -> list[Miss]:
+def _judge_log(log: Hidden, answer: CallResult) -> list[Miss]:
     """What is wrong with the numbers for one log."""
     where = f"{log.recipe.kind}, every {log.recipe.period:g} s"
     if answer.reason:
@@ -282,7 +281,7 @@ def _judge_log(log: Hidden, answer: "CallResult") -> list[Miss]:
     return found
 
 
-def _judge_gain(name: str, log: Hidden, answer: "CallResult") -> Miss | None:
+def _judge_gain(name: str, log: Hidden, answer: CallResult) -> Miss | None:
     if name in answer.refused:
         hint = f"Return one number for {name}: float(...) makes one of a single value"
         if answer.refused[name] == "None":
@@ -307,7 +306,7 @@ def _judge_gain(name: str, log: Hidden, answer: "CallResult") -> Miss | None:
     return None
 
 
-def _printed(text: str) -> str:
+def _format_print(text: str) -> str:
     """What was printed, in one line."""
     line = " ".join(text.split())
     short = line if len(line) <= PRINTED else f"{line[:PRINTED]}…"

@@ -3,30 +3,31 @@
 import math
 import re
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import cached_property
 from pathlib import Path
 from types import ModuleType
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+import numpy as np
 
 from grader.answers.choice_answer import read_choice
 from grader.answers.number_answer import AskedNumber, Band, judge_number, read_answer_number
-from grader.answers.submission import read_answers, read_text
-from grader.check import Check, NotReachedError, WrongAnswer, check
+from grader.answers.submission import NamedAnswers, StudentAnswers, read_answers, read_text
+from grader.check import Check, NotReachedError, WrongAnswer, check, make_check
 from grader.course import find_course
-from grader.exercise import Exercise
+from grader.exercise import Exercise, find_checks
 from grader.robotcode.bench.facts import RoutineFacts
-from grader.student_data.student_files import format_log, write_student_files
-from grader.student_data.variant import derive_student_seed
+from grader.student_data.student_files import Made, format_log
+from grader.student_data.variant import cache_draws, choose
+from sim.bench.mechanism import Mechanism
+from sim.bench.mechanisms import MECHANISMS
 from sim.core.errors import Refusal
+from sim.inspect.faults import FAULTS
+from sim.physics.motors import find_motor
 
 from .measured import ANALYSES, Measured, noted, of_bench, of_robot, team_of
-
-if TYPE_CHECKING:
-    import numpy as np
-
-    from sim.bench.mechanism import Mechanism
 
 HERE = Path(__file__).resolve().parent
 FILES = ("answers.toml",)
@@ -45,7 +46,6 @@ STEP, SIDES = 3.5, 2  # [V] of the dynamic tests, and motors, as the files to fi
 METERS_PER_ROTATION = 0.0472  # of the motor, the same
 MOTORS = ("krakenX60", "falcon500", "krakenX44")  # a TalonFX drives each of them
 SPREAD = {"load": (30.0, 65.0), "friction": (0.10, 0.45)}  # [kg], [V] light to heavy, new to worn
-REMEMBERED = 32  # learners whose logs are kept while this runs
 GOOD = 0.9  # simulated velocity R² below which something is wrong with the data
 COMMENT = re.compile(r"//[^\n]*|#[^\n]*|/\*.*?\*/", re.DOTALL)
 LITTLE = 12  # [characters] shorter than which nothing is said
@@ -57,14 +57,16 @@ OWN_LOG = (
 BELOW = -3.0  # [%] under theory that a good motor may still be
 
 
-def _room(name: str) -> ModuleType:
+def _load_checks(name: str) -> ModuleType:
     """The checks of another exercise: the one beside this, else the installed course's."""
     beside = HERE.parent / name
     folder = beside if beside.is_dir() else find_course(HERE) / "exercises" / name
     return Exercise(name, folder).module
 
 
-FOURTH, FIFTH, NINTH, TENTH, SECOND = (_room(f"exercise{number}") for number in (4, 5, 9, 10, 2))
+FOURTH, FIFTH, NINTH, TENTH, SECOND = (
+    _load_checks(f"exercise{number}") for number in (4, 5, 9, 10, 2)
+)
 TEAM = sys.modules[f"{SECOND.__name__}.team"]
 
 
@@ -134,36 +136,29 @@ class Answers:
     @cached_property
     def theory(self) -> Any:  # noqa: ANN401 - of a module that is loaded by path
         """As exercise 2 looks at it."""
-        return SECOND.Answers(self.given, team_of(self.measured, self.given, TEAM))
+        return StudentAnswers(self.given, team_of(self.measured, self.given, TEAM), self.student)
 
 
+@cache_draws
 def draw(student: str) -> Any:  # noqa: ANN401 - of a module that is loaded by path
     """A learner's drivetrain, always the same one: its code is the file to fill in."""
-    return _drawn(student, derive_student_seed(student, "practice"))
-
-
-@lru_cache(maxsize=REMEMBERED)
-def _drawn(student: str, _seed: int) -> Any:  # noqa: ANN401 - the same
     return NINTH.draw_solvable(student, "practice", _draw_drivetrain, step=STEP)
 
 
-def _draw_drivetrain(rng: "np.random.Generator") -> "Mechanism":
+def _draw_drivetrain(rng: np.random.Generator) -> Mechanism:
     """A drivetrain with one motor on each side, and the gears and wheels of the file to fill in.
 
     The file fixes what one turn of the motor is in meters, so the motor makes kV differ.
     """
-    from sim.bench.mechanisms import MECHANISMS  # noqa: PLC0415 - numpy only where it is needed
-    from sim.physics.motors import find_motor  # noqa: PLC0415 - the same
-
     plain = MECHANISMS["drivetrain"]
-    motor = find_motor(MOTORS[int(rng.integers(len(MOTORS)))])
+    motor = find_motor(choose(MOTORS, rng))
     drawn = replace(plain, motor=motor, spread={**plain.spread, **SPREAD}).draw(rng)
     ratio = 2.0 * math.pi * drawn.radius / METERS_PER_ROTATION
     return replace(drawn, motor_count=SIDES, ratio=ratio)
 
 
-def prepare(student: str, *, say: Callable[[str], None]) -> None:
-    """Make the log of a drivetrain, and write down its parts."""
+def make_files(student: str) -> dict[str, Made]:
+    """The log of a drivetrain, and its parts."""
     variant = draw(student)
     parts = of_bench(variant).parts
     if parts is None:
@@ -177,8 +172,7 @@ motor = "{parts.motor.name}"
 free_speed = {rpm:.0f}  # [rpm] of the motor at 12 V, by its data sheet
 ratio = {parts.ratio:.6g}  # turns of the motor for one of the mechanism
 {wheel}"""
-    made = {"given.toml": told, "log.wpilog": format_log(variant.log)}
-    write_student_files(made, exercise=HERE, student=student, what="log", say=say)
+    return {"given.toml": told, "log.wpilog": format_log(variant.log)}
 
 
 def read(path: Path, *, student: str, run: bool = True) -> Answers:
@@ -192,14 +186,15 @@ def read(path: Path, *, student: str, run: bool = True) -> Answers:
     Raises:
         UnreadableFile: the file cannot be read.
     """
-    given = {name.lower(): value for name, value in read_answers(path).items()}
-    return Answers(given, path.resolve().parent, student, run)
+    return Answers(NamedAnswers(read_answers(path)), path.resolve().parent, student, run)
 
 
-def _borrowed(room: ModuleType, part: str, *, step: str, leave: tuple[str, ...] = ()) -> None:
+def _borrow_checks(
+    room: ModuleType, part: str, *, step: str, leave: tuple[str, ...] = ()
+) -> tuple[Check[Answers], ...]:
     """Let the checks of another exercise look at a part of the answers."""
     ours: dict[str, Check[Answers]] = {}
-    for one in [value for value in vars(room).values() if isinstance(value, Check)]:
+    for one in find_checks(room):
         if one.id in leave:
             continue
 
@@ -209,9 +204,10 @@ def _borrowed(room: ModuleType, part: str, *, step: str, leave: tuple[str, ...] 
             return theirs.judge(getattr(answers, part))
 
         before = tuple(ours[first.id] for first in one.after)
-        name = f"{step}-{one.id}"
-        ours[one.id] = Check(name, one.description, one.points, before, look)
-        globals()[name.replace("-", "_")] = ours[one.id]
+        ours[one.id] = make_check(
+            f"{step}-{one.id}", one.description, look, points=one.points, after=before
+        )
+    return tuple(ours.values())
 
 
 def _logs_by_itself(answers: Answers) -> bool:
@@ -219,26 +215,23 @@ def _logs_by_itself(answers: Answers) -> bool:
     return bool(answers.log) and all(one.own_log and not one.log for one in answers.routine)
 
 
-_borrowed(FOURTH, "routine", step="routine")
-_borrowed(FIFTH, "bindings", step="buttons")
+routine_checks = _borrow_checks(FOURTH, "routine", step="routine")
+button_checks = _borrow_checks(FIFTH, "bindings", step="buttons")
 
 
-def _gain(name: str, *, points: float) -> None:
+def _make_gain_check(name: str, *, points: float) -> Check[Answers]:
     """A check of a gain that was written down."""
 
     def look(answers: Answers) -> str | None:
         key = answers.measured.key
         if name not in key.asked:
             raise NotReachedError(f"your fit suggests no {name}")
-        given = {one: answers.given.get(one.lower()) for one in key.asked}
-        return judge_number(name, given, key, points=points)
+        return judge_number(name, answers.given, key, points=points)
 
-    look.__name__, look.__doc__ = f"gains_{name.lower()}", f"{name}, as your log has it."
-    globals()[look.__name__] = check(points=points)(look)
+    return make_check(f"gains_{name}", f"{name}, as your log has it.", look, points=points)
 
 
-for _name in ("kS", "kV", "kA", "kP"):
-    _gain(_name, points=1.0)
+gain_checks = tuple(_make_gain_check(name, points=1.0) for name in ("kS", "kV", "kA", "kP"))
 
 
 @check(points=1)
@@ -257,8 +250,6 @@ def r2(answers: Answers) -> None:
 @check(points=1, after=r2)
 def hypothesis(answers: Answers) -> str | None:
     """What you suspect if R² is below 0.9, and what you would check first."""
-    from sim.inspect.faults import FAULTS  # noqa: PLC0415 - numpy only where it is needed
-
     if float(answers.measured.fit.simulated_velocity_r2) >= GOOD:
         return "Your R² is at least 0.9, so you need no suspicion."
     read_choice(answers.given.get("hypothesis"), tuple(FAULTS))
@@ -268,7 +259,7 @@ def hypothesis(answers: Answers) -> str | None:
     return None
 
 
-_borrowed(TENTH, "constants", step="constants")
+constant_checks = _borrow_checks(TENTH, "constants", step="constants")
 
 
 @check(points=2)
@@ -320,7 +311,9 @@ def _check_same_motion(measured: Measured, facts: RoutineFacts) -> None:
         )
 
 
-_borrowed(SECOND, "theory", step="theory", leave=("verdict", "inspection", "ks-flag"))
+theory_checks = _borrow_checks(
+    SECOND, "theory", step="theory", leave=("verdict", "inspection", "ks-flag")
+)
 
 
 @check(points=2)
@@ -328,7 +321,7 @@ def theory_verdict(answers: Answers) -> None:
     """Your kV, compared with theory."""
     variant = answers.theory.variant
     percents = [variant.percent(one) for one in variant.theories]
-    right = {TEAM.verdict(one + off) for one in percents for off in (-NEAR_BOUND, NEAR_BOUND)}
+    right = {TEAM.find_verdict(one + off) for one in percents for off in (-NEAR_BOUND, NEAR_BOUND)}
     if BELOW < max(percents) <= 0.0:
         right.add("ok")
     found = read_choice(answers.given.get("verdict"), TEAM.VERDICTS)

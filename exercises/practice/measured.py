@@ -4,19 +4,17 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from types import ModuleType
 
 from grader.answers.choice_answer import normalize_choice
 from grader.answers.number_answer import AnswerKey, AskedNumber, Band, ask_gains, read_answer_number
 from grader.answers.wrong_number import Lookalike, Scene, WrongNumber
 from grader.check import NotReachedError, WrongAnswer, shorten
 from sim.core.errors import Refusal
-
-if TYPE_CHECKING:
-    from types import ModuleType
-
-    from sim.fit import Fit
-    from sim.physics.motors import Motor
+from sim.core.units import find_unit
+from sim.fit import Fit, fit
+from sim.io import read
+from sim.physics.motors import MOTORS, Motor
 
 UNITS = {"Meters": "m", "Rotations": "rot", "Radians": "rad"}
 ANALYSES = {"simple": "Simple", "elevator": "Elevator", "arm": "Arm"}
@@ -30,7 +28,7 @@ POSITION = WrongNumber(
 class Parts:
     """What is built in: motor, how many, turns of it for one of the output, [m] of the wheel."""
 
-    motor: "Motor"
+    motor: Motor
     motors: int
     ratio: float
     diameter: float
@@ -40,7 +38,7 @@ class Parts:
 class Measured:
     """A mechanism's fit, what it is asked for, and its parts; ``why`` says what is missing."""
 
-    fit: "Fit"
+    fit: Fit
     key: AnswerKey
     units: str
     parts: Parts | None
@@ -66,10 +64,6 @@ def of_robot(path: Path, given: Mapping[str, object]) -> Measured:
     Raises:
         NotReachedError: the log cannot be read or fitted.
     """
-    from sim.core.units import find_unit  # noqa: PLC0415 - the same
-    from sim.fit import fit  # noqa: PLC0415 - numpy only where it is needed
-    from sim.io import read  # noqa: PLC0415 - the same
-
     if not _is_file(path):
         raise NotReachedError(f"there is no {shorten(path.name)} next to your answers.toml")
     try:
@@ -94,7 +88,7 @@ def _is_file(path: Path) -> bool:
         return False
 
 
-def _measured(found: "Fit", units: str, parts: Parts | None, why: str) -> Measured:
+def _measured(found: Fit, units: str, parts: Parts | None, why: str) -> Measured:
     symbol = UNITS[units]
     names = [name for name in ("kS", "kV", "kA", "kG") if name in found.gains]
     asked = ask_gains({name: found.gains[name] for name in names}, position=symbol)
@@ -109,8 +103,6 @@ def _measured(found: "Fit", units: str, parts: Parts | None, why: str) -> Measur
 
 
 def _parts(given: Mapping[str, object], units: str) -> Parts:
-    from sim.physics.motors import MOTORS  # noqa: PLC0415 - only where it is needed
-
     named = given.get("motor")
     known = {normalize_choice(name): motor for name, motor in MOTORS.items()}
     motor = known.get(normalize_choice(named)) if isinstance(named, str) else None
@@ -127,7 +119,7 @@ def _parts(given: Mapping[str, object], units: str) -> Parts:
     return Parts(motor, 1, ratio, diameter)
 
 
-def team_of(measured: Measured, given: Mapping[str, object], team: "ModuleType") -> object:
+def team_of(measured: Measured, given: Mapping[str, object], team: ModuleType) -> object:
     """This mechanism as exercise 2 looks at one.
 
     Args:
@@ -152,7 +144,7 @@ def noted(name: str, given: Mapping[str, object], measured: Measured) -> float:
     """A gain as the learner wrote it down, where it is right; else as the fit has it."""
     asked = measured.key.asked[name]
     try:
-        value = read_answer_number(given.get(name.lower()), asked)
+        value = read_answer_number(given.get(name), asked)
     except WrongAnswer:
         return asked.expected
     return value if asked.is_right(value) else asked.expected

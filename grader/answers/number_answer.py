@@ -11,7 +11,7 @@ from typing import Any, Protocol
 
 from grader.answers.quantity import NotAUnitError, read_number, read_unit
 from grader.answers.wrong_number import MANY, Scene, WrongNumber, explain_wrong_number
-from grader.check import Check, WrongAnswer, check, shorten
+from grader.check import Check, WrongAnswer, make_check, shorten
 
 LARGEST = 1e300  # beyond it a number is infinite, or soon will be
 HALF = 0.5  # [share] of the points inside the wider band
@@ -166,6 +166,17 @@ def _find_scale(unit: str, asked: AskedNumber) -> float:
     return given.factor / wanted.factor
 
 
+def read_wrong_numbers(
+    given: Mapping[str, object], asked: Mapping[str, AskedNumber]
+) -> dict[str, float] | None:
+    """The numbers of an answer, if all of them are there, and not all of them right."""
+    try:
+        values = {name: read_answer_number(given.get(name), one) for name, one in asked.items()}
+    except WrongAnswer:
+        return None
+    return None if all(one.is_right(values[name]) for name, one in asked.items()) else values
+
+
 def judge_number(
     name: str, given: Mapping[str, object], key: AnswerKey, *, points: float
 ) -> str | None:
@@ -238,8 +249,7 @@ def make_number_check(name: str, description: str, *, points: float) -> Check[An
     def judge(answers: NumberAnswers) -> str | None:
         return judge_number(name, answers.given, answers.key, points=points)
 
-    judge.__name__, judge.__doc__ = name.lower(), description
-    return check(points=points)(judge)
+    return make_check(name, description, judge, points=points)
 
 
 def diagnose_number(

@@ -2,9 +2,12 @@
 
 import re
 import tomllib
-from collections.abc import Sequence
+from collections import UserDict
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from itertools import accumulate
 from pathlib import Path
+from typing import Any
 
 from sim.core.errors import UnreadableFile
 
@@ -14,7 +17,38 @@ DEEPEST = 50  # [lists in lists] of it; the parser needs a call of Python for ea
 LONGEST_LINE = 2_000  # [characters] of it: reading a key takes the square of its length
 SHOWN = 3  # names of files in a message
 _BARE_WORDS = re.compile(r"[\w.]+\s*=\s*\[?\s*[A-Za-z][\w\s,-]*\]?\s*(#.*)?")  # no quotes
-NOT_ANSWERS = {"hints.toml", "starters.toml", "pyproject.toml", "class.toml", "progress.toml"}
+NOT_ANSWERS = {
+    "answer_key.toml", "class.toml", "faults.toml", "hints.toml", "progress.toml", "pyproject.toml",
+    "slips.toml", "starters.toml",
+}  # fmt: skip
+
+
+class NamedAnswers(UserDict[str, object]):
+    """Name -> answer as it stands in the file; a name may be in upper or lower case."""
+
+    def __init__(self, answers: Mapping[str, object]) -> None:
+        super().__init__({name.lower(): answer for name, answer in answers.items()})
+
+    def __getitem__(self, name: str) -> object:
+        return self.data[name.lower()]
+
+    def __contains__(self, name: object) -> bool:
+        return isinstance(name, str) and name.lower() in self.data
+
+
+@dataclass(frozen=True)
+class StudentAnswers:
+    """What the checks of an exercise look at.
+
+    Args:
+        given: the answers.
+        variant: what is the student's own, as the exercise's ``draw`` gives it.
+        student: who.
+    """
+
+    given: Mapping[str, object]
+    variant: Any
+    student: str
 
 
 def find_files(given: Path | None, *, folder: Path, names: Sequence[str]) -> tuple[Path, ...]:

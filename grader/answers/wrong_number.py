@@ -5,8 +5,12 @@ named, two or three are named side by side, and more say nothing.
 """
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import combinations
+from pathlib import Path
+
+from grader.texts import read_texts
 
 MANY = 3  # more suspects than this tell the learner nothing
 NOTICED = 1.2  # a gear ratio nearer to 1 would explain any number that is a little off
@@ -35,6 +39,65 @@ class Lookalike:
 
     value: float
     slip: WrongNumber
+
+
+class Slips:
+    """The slips of an exercise: its file ``slips.toml`` says of each what a learner reads.
+
+    A name comes before its sentence. A slip stands in the table of its misconception, or above all
+    tables if it has none::
+
+        measured = "this is the measured kV. Compute the theoretical one"
+        [M-UNITS]
+        rpm = "60 seconds are a minute. Did you divide by rpm?"
+
+    Args:
+        path: of the file.
+    """
+
+    def __init__(self, path: Path) -> None:
+        found = read_texts(path)
+        self._says = {code: (one, "") for code, one in found.items() if isinstance(one, str)}
+        for misconception, table in found.items():
+            if isinstance(table, dict):
+                self._says |= {code: (says, misconception) for code, says in table.items()}
+
+    def name(self, code: str, **fields: object) -> WrongNumber:
+        """A slip in words.
+
+        Args:
+            code: its name in the file.
+            fields: what stands for the ``{}`` of its sentence.
+        """
+        says, misconception = self._says[code]
+        return WrongNumber(code, says.format(**fields) if fields else says, misconception)
+
+    def list_lookalikes(
+        self, numbers: Iterable[tuple[str, float]], **fields: object
+    ) -> tuple[Lookalike, ...]:
+        """The numbers that slips give, each with its words.
+
+        Args:
+            numbers: the slip's name, and the number that it gives.
+            fields: what stands for the ``{}`` of their sentences.
+        """
+        return tuple(Lookalike(value, self.name(code, **fields)) for code, value in numbers)
+
+
+def are_distinguishable(
+    lookalikes: Sequence[Lookalike], *, apart: float, by: Callable[[WrongNumber], str]
+) -> bool:
+    """Whether no slip's number passes for that of a slip with other advice.
+
+    Args:
+        lookalikes: the numbers of slips.
+        apart: [share] by which two of them differ at least.
+        by: what is said of a slip: two with the same advice may look alike.
+    """
+    return all(
+        by(one.slip) == by(other.slip) or abs(one.value / other.value - 1.0) >= apart
+        for one, other in combinations(lookalikes, 2)
+    )
 
 
 @dataclass(frozen=True)

@@ -29,7 +29,16 @@ if TYPE_CHECKING:
     from grader.exercise import Exercise
 
 
-OWN_MODULE = ("class", "doctor", "edition", "export", "mystery", "release", "watch")
+OWN_MODULE = {  # each is imported when it is asked for; the list of commands imports none of them
+    "check-course": "Check exercises that you wrote or changed.",
+    "class": "Grade what a class handed in.",
+    "doctor": "Check what is installed on this computer, and what is missing.",
+    "edition": "Run all lessons, and write each as a page and as slides.",
+    "export": "Make an autograder, or a configuration of JupyterHub.",
+    "mystery": "Make a log with a hidden problem, or grade your ANSWER to it.",
+    "release": "Make the students' package.",
+    "watch": "Grade an exercise each time you save its file.",
+}
 SIMILAR = 0.75  # [1] a word as similar to a command is a typing error, and no exercise
 COURSE_PACKAGES = ("tomlkit", "tree_sitter", "tree_sitter_java")  # of the extra `course`
 
@@ -45,7 +54,7 @@ class ExerciseOrCommand(click.Group):
         """The command of this name, or None."""
         if cmd_name not in OWN_MODULE:
             return super().get_command(ctx, cmd_name)
-        module = cmd_name.replace("class", "classroom")
+        module = {"class": "classroom"}.get(cmd_name, cmd_name.replace("-", "_"))
         return cast("click.Command", import_module(f"{__name__}.{module}").COMMAND)
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
@@ -63,11 +72,13 @@ class ExerciseOrCommand(click.Group):
         formatter.write_usage("grade", "start [FOLDER] [--no-lab] [--student NAME]")
         formatter.write_usage(
             "grade",
-            "watch | mystery | doctor | class FOLDER | release | export  [--help]",
+            "watch | mystery | doctor | class FOLDER | release | export | check-course  [--help]",
         )
         self.format_help_text(ctx, formatter)
         self.commands["exercise"].format_options(ctx, formatter)
-        self.format_commands(ctx, formatter)
+        with formatter.section("Commands"):
+            own = {"start": self.commands["start"].get_short_help_str(limit=80), **OWN_MODULE}
+            formatter.write_dl(sorted(own.items()))
         self.format_epilog(ctx, formatter)
 
 
@@ -106,7 +117,7 @@ def _refuse_bare_installation() -> None:
 def complete_exercise(
     context: click.Context, _parameter: click.Parameter, begun: str
 ) -> list[CompletionItem]:
-    """Names of exercises in the course that one stands in; and of commands, where one may stand."""
+    """Exercise names of the current course, and command names where one may stand."""
     from grader.course import find_course  # noqa: PLC0415 - --help has to start at once
 
     try:

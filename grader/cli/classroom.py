@@ -1,28 +1,40 @@
 """``grade class``: everything a class handed in, graded at one go."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
+from grader.classroom.class_grading import GradedClass, grade_class, plan_grading
+from grader.classroom.container import grade_in_container
+from grader.classroom.exports import ExportFormat, choose_exports
+from grader.classroom.grading import GradedStudent
+from grader.classroom.identity import check_identities
+from grader.classroom.likeness import find_foreign_logs, find_likenesses
+from grader.classroom.overrides import Override, apply_overrides, read_overrides
+from grader.classroom.result_pages import list_pages, summarize_class, write_pages
+from grader.classroom.results import ClassResults, collect_results, list_ungraded
+from grader.classroom.roster import Roster, read_class_roster
+from grader.classroom.secret import describe_numbers
+from grader.classroom.store import ResultStore
+from grader.classroom.submissions import (
+    Submission,
+    find_stray_files,
+    find_submissions,
+    read_submission,
+)
 from grader.cli.course_here import choose_exercises, find_course_here
+from grader.exercise import Exercise, list_exercises
+from grader.isolation import find_isolation_level
 from grader.terminal import print_error, print_lines, style_line, wrap_text
 from sim.support.command_line import DONE, INTERRUPTED, NOT_RIGHT
 from sim.support.os_errors import refuse_os_errors
 from sim.support.printable import list_first
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from grader.classroom.class_grading import GradedClass
-    from grader.classroom.exports import ExportFormat
-    from grader.classroom.grading import GradedStudent
-    from grader.classroom.overrides import Override
-    from grader.classroom.results import ClassResults
-    from grader.classroom.roster import Roster
-    from grader.classroom.submissions import Submission
-    from grader.exercise import Exercise
+from sim.support.secret import find_secret
+from sim.support.work.executor import count_available_cores
+from sim.support.work.interrupt import deferred_interrupt
+from sim.support.work.progress_bar import progress_bar
 
 PATH = click.Path(path_type=Path)
 SHOWN = 5  # names in one line
@@ -88,15 +100,6 @@ def class_(  # noqa: PLR0917 - click passes options by name
 
     Exit codes: 0 all answers were graded, 1 some could not be graded, 2 could not do it.
     """
-    from grader.classroom.class_grading import GradedClass  # noqa: PLC0415 - the same
-    from grader.classroom.container import grade_in_container  # noqa: PLC0415 - the same
-    from grader.classroom.exports import choose_exports  # noqa: PLC0415 - --help must not wait for it
-    from grader.classroom.overrides import apply_overrides  # noqa: PLC0415 - the same
-    from grader.classroom.results import collect_results  # noqa: PLC0415 - the same
-    from grader.classroom.roster import read_class_roster  # noqa: PLC0415 - the same
-    from grader.classroom.secret import describe_numbers  # noqa: PLC0415 - the same
-    from sim.support.secret import find_secret  # noqa: PLC0415 - the same
-
     known = read_class_roster(roster) if roster else None
     formats = choose_exports(wanted, roster=known)
     course = find_course_here()
@@ -125,13 +128,11 @@ COMMAND = class_
 
 def _read_marks(
     path: Path | None,
-    there: "Sequence[Submission]",
-    asked: "Sequence[Exercise]",
-    known: "Roster | None",
-) -> "tuple[Override, ...]":
+    there: Sequence[Submission],
+    asked: Sequence[Exercise],
+    known: Roster | None,
+) -> tuple[Override, ...]:
     """The marks set by hand, checked before an hour of grading; none if no file is named."""
-    from grader.classroom.overrides import read_overrides  # noqa: PLC0415 - --help must not wait for it
-
     if path is None:
         return ()
     graded = [one.student for one in there if known is None or not one.problem]
@@ -140,14 +141,12 @@ def _read_marks(
 
 
 def _find_alike(
-    there: "Sequence[Submission]",
-    asked: "Sequence[Exercise]",
+    there: Sequence[Submission],
+    asked: Sequence[Exercise],
     packages: Path | None,
-    graded: "Sequence[GradedStudent]",
+    graded: Sequence[GradedStudent],
 ) -> tuple[str, ...]:
     """What is alike in the work of two students, one line each."""
-    from grader.classroom.likeness import find_foreign_logs, find_likenesses  # noqa: PLC0415 - the same
-
     foreign = find_foreign_logs(there, packages) if packages else ()
     return (*foreign, *find_likenesses(there, asked, graded))
 
@@ -155,15 +154,12 @@ def _find_alike(
 def _find_submissions(
     folder: Path,
     course: Path,
-    asked: "Sequence[Exercise]",
-    known: "Roster | None",
+    asked: Sequence[Exercise],
+    known: Roster | None,
     *,
     student: str | None,
-) -> "tuple[Submission, ...]":
+) -> tuple[Submission, ...]:
     """What was handed in: by one student, or by everybody in the folder."""
-    from grader.classroom.submissions import find_stray_files, find_submissions, read_submission  # noqa: PLC0415 - --help
-    from grader.exercise import list_exercises  # noqa: PLC0415 - must not wait for any of these
-
     everything = list_exercises(course)
     if student:
         named = folder.resolve()  # whoever names a link means what it leads to
@@ -179,23 +175,21 @@ def _find_submissions(
 
 
 def _check_submissions(
-    there: "Sequence[Submission]",
-    asked: "Sequence[Exercise]",
-    known: "Roster | None",
+    there: Sequence[Submission],
+    asked: Sequence[Exercise],
+    known: Roster | None,
     *,
     secret: bytes | None,
     self_study: bool,
-) -> "tuple[Submission, ...]":
+) -> tuple[Submission, ...]:
     """The submissions, with whose numbers they are about; prints what is not as it should be."""
-    from grader.classroom.identity import check_identities  # noqa: PLC0415 - --help must not wait for it
-
     partners = known.partners if known else {}
     found = check_identities(there, asked, secret=secret, self_study=self_study, partners=partners)
     _tell_problems(found)
     return found
 
 
-def _tell_problems(there: "Sequence[Submission]") -> None:
+def _tell_problems(there: Sequence[Submission]) -> None:
     """Say before the grading who is graded otherwise than their folder's name says."""
     for one in there:
         if one.problem:
@@ -217,10 +211,8 @@ def _tell_problems(there: "Sequence[Submission]") -> None:
         print_error(f"found on the roster: {list_first(matched, most=SHOWN, separator='; ')}")
 
 
-def _decide_running(asked: "Sequence[Exercise]", run: bool | None, cluster: str | None) -> bool:  # noqa: FBT001 - as the option
+def _decide_running(asked: Sequence[Exercise], run: bool | None, cluster: str | None) -> bool:  # noqa: FBT001 - as the option
     """Whether students' code is run: as chosen, else where it is safe; prints what that means."""
-    from grader.isolation import find_isolation_level  # noqa: PLC0415 - --help must not wait for it
-
     if run is False or not any(one.runs_code for one in asked):
         return False
     found = "one of a cluster, and the others are not known" if cluster else find_isolation_level()
@@ -241,15 +233,9 @@ def _decide_running(asked: "Sequence[Exercise]", run: bool | None, cluster: str 
 
 
 def _run(
-    work: "GradedClass", out: Path, *, processes: int | None, cluster: str | None, again: bool
-) -> "tuple[GradedStudent, ...] | None":
+    work: GradedClass, out: Path, *, processes: int | None, cluster: str | None, again: bool
+) -> tuple[GradedStudent, ...] | None:
     """Grade what is left; None where it was stopped."""
-    from grader.classroom.class_grading import grade_class, plan_grading  # noqa: PLC0415 - --help must not wait
-    from grader.classroom.store import ResultStore  # noqa: PLC0415 - the same
-    from sim.support.work.executor import count_available_cores  # noqa: PLC0415 - the same
-    from sim.support.work.interrupt import deferred_interrupt  # noqa: PLC0415 - the same
-    from sim.support.work.progress_bar import progress_bar  # noqa: PLC0415 - the same
-
     store = ResultStore(out)
     left = plan_grading(work, store, travel=cluster is not None, again=again)
     total = len(left.kept) + len(left.jobs)
@@ -276,11 +262,7 @@ def _run(
     return None
 
 
-def _write_results(results: "ClassResults", out: Path, formats: "Sequence[ExportFormat]") -> int:
-    from grader.classroom.result_pages import list_pages, summarize_class, write_pages  # noqa: PLC0415 - --help
-    from grader.classroom.results import list_ungraded  # noqa: PLC0415 - must not wait for any of these
-    from grader.classroom.store import ResultStore  # noqa: PLC0415 - the same
-
+def _write_results(results: ClassResults, out: Path, formats: Sequence[ExportFormat]) -> int:
     page = write_pages(results, out)
     files = [path for one in formats for path in one.write(results, out)]
     ResultStore(out).remove_outdated(

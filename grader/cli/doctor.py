@@ -4,6 +4,8 @@ from pathlib import Path
 
 import click
 
+from grader.course import find_course
+from grader.doctor import examine_machine
 from grader.terminal import StyledText, print_lines, wrap_text
 from sim.support.command_line import DONE, NOT_RIGHT
 
@@ -16,9 +18,6 @@ def doctor() -> int:
 
     Exit codes: 0 everything needed is there, 1 something needed is missing.
     """
-    from grader.course import find_course  # noqa: PLC0415 - --help has to start at once
-    from grader.doctor import examine_machine  # noqa: PLC0415 - the same
-
     bad = False
     for one in examine_machine(find_course(Path.cwd())):
         mark, style = ("✓", "green") if one.right else ("✗", "red") if one.needed else ("–", "dim")

@@ -4,6 +4,8 @@ from pathlib import Path
 
 import click
 
+from grader.course import find_course
+from grader.edition import build_pages
 from grader.terminal import print_error, print_lines, style_line
 from sim.support.command_line import DONE
 
@@ -20,9 +22,6 @@ def edition(output: Path, only: tuple[str, ...]) -> int:
 
     The pages can be read without installing anything and without a network; slides need a network.
     """
-    from grader.course import find_course  # noqa: PLC0415 - --help must not wait for it
-    from grader.edition import build_pages  # noqa: PLC0415 - the same
-
     notebooks = sorted((find_course(Path.cwd()) / "lessons").glob("*.ipynb"))
     asked = tuple(one.zfill(2) for one in only)
     chosen = [path for path in notebooks if not asked or path.name.startswith(asked)]

@@ -1,18 +1,19 @@
 """``grade export``: what other people's systems need to grade with this course."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
+from grader.autograder import AutograderContents, make_workflow, pack_gradescope
 from grader.classroom.atomic_files import write_private_file
+from grader.classroom.roster import read_class_roster
 from grader.cli.course_here import choose_exercises, find_course_here
 from grader.cli.release import PATH, refuse_secret_inside, report_left_out
+from grader.exercise import Exercise
+from grader.package_files import select_package_files
 from grader.terminal import print_error, print_lines, style_line
 from sim.support.command_line import DONE
-
-if TYPE_CHECKING:
-    from grader.exercise import Exercise
+from sim.support.secret import find_secret
 
 ONLY = click.option(
     "--exercise", "only", multiple=True, help="Only this exercise; may be repeated."
@@ -51,11 +52,6 @@ def gradescope(
     It contains the course without solutions. Make one for each assignment: Gradescope puts all
     uploaded files into one folder, and each exercise has its own answers.toml.
     """
-    from grader.autograder import AutograderContents, pack_gradescope  # noqa: PLC0415 - --help must not wait
-    from grader.classroom.roster import read_class_roster  # noqa: PLC0415 - the same
-    from grader.package_files import select_package_files  # noqa: PLC0415 - the same
-    from sim.support.secret import find_secret  # noqa: PLC0415 - the same
-
     course = find_course_here()
     asked = choose_exercises(only, course)
     if secret is not None:
@@ -77,7 +73,7 @@ def gradescope(
     return DONE
 
 
-def _tell_gradescope(asked: "tuple[Exercise, ...]", output: Path, *, with_secret: bool) -> None:
+def _tell_gradescope(asked: tuple[Exercise, ...], output: Path, *, with_secret: bool) -> None:
     if with_secret:
         print_error(
             f"{output} contains your class's secret. Code of students runs in Gradescope's "
@@ -107,8 +103,6 @@ def github(output: Path, only: tuple[str, ...]) -> int:
     Put it into the repository that students start from, next to the unpacked course.zip. The
     numbers of a student depend only on their GitHub name: grade start --student GITHUB-NAME.
     """
-    from grader.autograder import make_workflow  # noqa: PLC0415 - --help must not wait for it
-
     asked = choose_exercises(only, find_course_here())
     write_private_file(output, make_workflow([one.name for one in asked]).encode())
     print_lines([style_line(f"{output}: for the repository that students start from")])

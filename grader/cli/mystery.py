@@ -1,16 +1,25 @@
 """``grade mystery``."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
+from grader.cli import locate_course
+from grader.mystery import (
+    HIGHEST,
+    Mystery,
+    MysteryState,
+    draw_mystery,
+    find_mystery_folder,
+    grade_mystery_answer,
+    load_state,
+    open_mystery,
+    save_state,
+)
+from grader.report import format_checks
 from grader.terminal import Line, print_lines, style_line, wrap_text
 from sim.core.errors import BadRequest
 from sim.support.command_line import DONE, NOT_RIGHT
-
-if TYPE_CHECKING:
-    from grader.mystery import Mystery, MysteryState
 
 
 @click.command()
@@ -27,17 +36,6 @@ def mystery(answer: tuple[str, ...], student: str | None, *, give_up: bool, plai
 
     For example: grade mystery "hard-stop, dynamic-forward, 1.20 to 1.66, trim"
     """
-    from grader.cli import locate_course  # noqa: PLC0415 - which imports this module
-    from grader.mystery import (  # noqa: PLC0415 - --help has to start at once
-        draw_mystery,
-        find_mystery_folder,
-        grade_mystery_answer,
-        load_state,
-        open_mystery,
-        save_state,
-    )
-    from grader.report import format_checks  # noqa: PLC0415 - the same
-
     course, _, who = locate_course(student)
     folder = find_mystery_folder(course, who)
     state = load_state(folder)
@@ -72,10 +70,8 @@ def mystery(answer: tuple[str, ...], student: str | None, *, give_up: bool, plai
     return DONE
 
 
-def _format_task(state: "MysteryState", one: "Mystery", place: Path) -> list[Line]:
+def _format_task(state: MysteryState, one: Mystery, place: Path) -> list[Line]:
     """The task, where its logs are, how to look at them, and how to answer."""
-    from grader.mystery import HIGHEST  # noqa: PLC0415 - --help has to start at once
-
     names = ", ".join(f"{name}.wpilog" for name in one.logs)
     head = (
         f"Mystery {state.number}, level {state.level} of {HIGHEST}: {names} in {place.as_posix()}"

@@ -1,21 +1,31 @@
 """``grade release``."""
 
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
 from grader.classroom.atomic_files import write_private_file
+from grader.classroom.bundle import pack_course
+from grader.classroom.roster import read_class_roster
+from grader.classroom.secret import identify_secret
 from grader.cli.course_here import find_course_here
+from grader.package_files import select_package_files
+from grader.release import (
+    StudentPackage,
+    find_broken_seals,
+    make_student_package,
+    pack_course_folder,
+)
+from grader.student_data.class_package import read_class_package
+from grader.student_data.variant import make_folder_name
 from grader.terminal import print_error, print_lines, style_line
 from sim.core.errors import BadRequest
 from sim.support.command_line import DONE, NOT_RIGHT
 from sim.support.printable import list_first
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-
-    from sim.support.secret import Secret
+from sim.support.secret import Secret, find_secret
+from sim.support.work.executor import count_available_cores, run_jobs
+from sim.support.work.progress_bar import progress_bar
 
 PATH = click.Path(path_type=Path)
 NAMED = 8  # files left out that are named
@@ -53,8 +63,6 @@ def release(  # noqa: PLR0917 - click passes options by name
     logs of their own, and no answer keys. Only the owner of the secret can make these numbers
     again, and grade them: grade class FOLDER --secret FILE.
     """
-    from sim.support.secret import find_secret  # noqa: PLC0415 - --help must not wait for it
-
     if check is not None:
         kept = find_secret(secret, make=False)
         if kept is None:
@@ -78,7 +86,7 @@ def release(  # noqa: PLR0917 - click passes options by name
 COMMAND = release
 
 
-def refuse_secret_inside(secret: Path, folders: "Mapping[str, Path]") -> None:
+def refuse_secret_inside(secret: Path, folders: Mapping[str, Path]) -> None:
     """Refuse a secret that lies where students' files are taken from or written to.
 
     Args:
@@ -98,7 +106,7 @@ def refuse_secret_inside(secret: Path, folders: "Mapping[str, Path]") -> None:
             )
 
 
-def report_left_out(left_out: "Sequence[str]") -> None:
+def report_left_out(left_out: Sequence[str]) -> None:
     """Print which files of the course folder students do not get."""
     if left_out:
         print_error(f"left out, as no part of the course: {list_first(left_out, most=NAMED)}")
@@ -108,19 +116,11 @@ def _release(
     course: Path,
     output: Path,
     roster: Path | None,
-    secret: "Secret | None",
+    secret: Secret | None,
     *,
     name: str,
     processes: int | None,
 ) -> int:
-    from grader.classroom.bundle import pack_course  # noqa: PLC0415 - --help must not wait for it
-    from grader.classroom.roster import read_class_roster  # noqa: PLC0415 - the same
-    from grader.package_files import select_package_files  # noqa: PLC0415 - the same
-    from grader.release import StudentPackage, make_student_package, pack_course_folder  # noqa: PLC0415 - the same
-    from grader.student_data.variant import make_folder_name  # noqa: PLC0415 - the same
-    from sim.support.work.executor import count_available_cores, run_jobs  # noqa: PLC0415 - the same
-    from sim.support.work.progress_bar import progress_bar  # noqa: PLC0415 - the same
-
     students = tuple(read_class_roster(roster).rows) if roster else ()
     chosen = select_package_files(course, with_keys=not students)
     chosen.refuse_secret(secret.value if secret else b"")
@@ -147,10 +147,8 @@ def _release(
     return DONE
 
 
-def _tell_made(output: Path, size: int, students: int, secret: "Secret | None") -> None:
+def _tell_made(output: Path, size: int, students: int, secret: Secret | None) -> None:
     """Print what was made: size [bytes] of the package for all, and how many students have one."""
-    from grader.classroom.secret import identify_secret  # noqa: PLC0415 - --help must not wait for it
-
     lines = [f"{output / 'course.zip'}: for everybody, {size / 1e6:.1f} MB"]
     if students:
         lines.append(
@@ -165,9 +163,6 @@ def _tell_made(output: Path, size: int, students: int, secret: "Secret | None") 
 
 def _check(place: Path, secret: bytes) -> int:
     """Say what is not as the class issued it."""
-    from grader.release import find_broken_seals  # noqa: PLC0415 - the same
-    from grader.student_data.class_package import read_class_package  # noqa: PLC0415 - --help must not wait for it
-
     found = read_class_package(place)
     if found is None:
         raise BadRequest(

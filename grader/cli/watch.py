@@ -3,7 +3,11 @@
 import click
 from click.shell_completion import CompletionItem
 
+from grader.cli import complete_exercise, grade_file, locate_course
+from grader.exercise import find_exercise, list_exercises
 from grader.terminal import print_lines, style_line
+from grader.watch import find_first_unfinished, format_path
+from grader.watch import watch_exercise as keep_watching
 from sim.core.errors import Refusal
 from sim.support.command_line import COULD_NOT, DONE, print_error
 
@@ -12,8 +16,6 @@ def _complete(
     context: click.Context, parameter: click.Parameter, begun: str
 ) -> list[CompletionItem]:
     """Names of exercises."""
-    from grader.cli import complete_exercise  # noqa: PLC0415 - which imports this module
-
     return complete_exercise(context, parameter, begun)
 
 
@@ -29,11 +31,6 @@ def watch(exercise: str | None, student: str | None, *, plain: bool) -> int:
     The command ends when all is right. Without EXERCISE, it takes the first exercise that is not
     done yet.
     """
-    from grader.cli import grade_file, locate_course  # noqa: PLC0415 - --help has to start at once
-    from grader.exercise import find_exercise, list_exercises  # noqa: PLC0415 - the same
-    from grader.watch import find_first_unfinished, format_path  # noqa: PLC0415 - the same
-    from grader.watch import watch_exercise as keep_watching  # noqa: PLC0415 - the same
-
     folder, progress, who = locate_course(student)
     found = list_exercises(folder)
     one = (

@@ -1,4 +1,4 @@
-"""Landlock: a Linux process gives up files, TCP and signals to others, for good, unprivileged.
+"""Landlock: a Linux process restricts its files, TCP and signals; it cannot be undone.
 
 Read Linux's ``Documentation/userspace-api/landlock.rst``. Each version of the interface (ABI) knows
 more rights; what this one does not know stays allowed, and the version is told.

@@ -1,4 +1,4 @@
-"""Inside the child: confine yourself, read the learner's file, call its function, say the numbers.
+"""The child: it confines itself, reads the learner's file, calls its functions, prints JSON.
 
 What to do comes as one JSON object on standard input; what came out leaves as lines of JSON on what
 was standard output when it started. The learner's own prints go where errors go.

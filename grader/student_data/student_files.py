@@ -1,4 +1,4 @@
-"""What a learner is given to work on, written where it is not there as it was made."""
+"""What a learner is given to work on, written unless an unchanged copy exists."""
 
 import hashlib
 import json
@@ -36,7 +36,6 @@ def write_student_files(
     *,
     exercise: Path,
     student: str,
-    what: str,
     say: Callable[[str], None],
 ) -> None:
     """Write a learner's own files into ``data/<student>`` of an exercise.
@@ -48,7 +47,6 @@ def write_student_files(
         files: name -> its text, its bytes, or what writes it to a path.
         exercise: the exercise's folder.
         student: for whom.
-        what: what the files are to the learner: ``numbers``, ``log``.
         say: shows a line.
 
     Raises:
@@ -59,23 +57,22 @@ def write_student_files(
     if of_class and of_class.is_for(student):
         _are_files_whole(files, folder, of_class)
         return
-    place = (folder / next(iter(files))).relative_to(exercise.parents[1]).as_posix()
+    place = (folder / next(iter(files), "")).relative_to(exercise.parents[1]).as_posix()
     there = any((folder / name).is_file() for name in files)
     known = find_cache_path(exercise, student, "files")
     if known is not None and read_cached(known) == _digest_files(folder, files):
         return
     advice = "Free some space on this disk, or give yourself permission to write into this folder."
-    with refuse_os_errors(f"your {what} cannot be written", folder, advice=advice):
+    with refuse_os_errors("your files cannot be written", folder, advice=advice):
         folder.mkdir(parents=True, exist_ok=True)
         news = [_write_made_file(made, folder / name) for name, made in files.items()]
         if known is not None:
             write_cached_data(known, _digest_files(folder, files))
     number = exercise.name.removeprefix("exercise")
     if any(news) and there:
-        was = "were" if what.endswith("s") else "was"
-        say(f"Your {what} {was} changed; written again: {place}")
+        say(f"Your files were changed; written again: {place}")
     elif any(news):
-        say(f"Your own {what} for exercise {number}: {place}")
+        say(f"Your own files for exercise {number}: {place}")
 
 
 def _are_files_whole(files: Mapping[str, Made], folder: Path, of_class: ClassPackage) -> None:

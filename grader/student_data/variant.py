@@ -8,7 +8,7 @@ only whoever grades the class holds (`of_class`).
 
 import hashlib
 import hmac
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import lru_cache, wraps
@@ -23,11 +23,14 @@ __all__ = [
     "SELF_STUDY",
     "cache_draws",
     "check_student_name",
+    "choose",
     "derive_student_seed",
+    "draw_until",
     "is_self_study",
     "make_folder_name",
     "make_student_rng",
     "normalize_name",
+    "round_digits",
     "use_class_secret",
 ]  # fmt: skip
 
@@ -82,6 +85,39 @@ def make_student_rng(
 
     name = f"{exercise}#{draw}" if draw else exercise
     return np.random.Generator(np.random.PCG64(derive_student_seed(student, name, secret=secret)))
+
+
+def draw_until(
+    draw: Callable[[int], Drawn | None],
+    accept: Callable[[Drawn], bool],
+    *,
+    most: int = 2000,
+) -> Drawn:
+    """The first of many draws that is accepted, such as numbers whose slips can be told apart.
+
+    Args:
+        draw: the number of a draw -> what was drawn, or None where that came to nothing.
+        accept: whether a student may get it.
+        most: draws; a few are enough, and so many in a row would be a fault of the exercise.
+
+    Raises:
+        RuntimeError: none was accepted.
+    """
+    for attempt in range(most):
+        drawn = draw(attempt)
+        if drawn is not None and accept(drawn):
+            return drawn
+    raise RuntimeError(f"none of {most} draws is good enough for a student")
+
+
+def choose(among: Sequence[Drawn], rng: "np.random.Generator") -> Drawn:
+    """One of several, each as likely as the others."""
+    return among[int(rng.integers(len(among)))]
+
+
+def round_digits(value: float, digits: int) -> float:
+    """A number with so many digits, as a student reads and writes it."""
+    return float(f"{value:.{digits}g}")
 
 
 def cache_draws(draw: Callable[[str], Drawn]) -> Callable[[str], Drawn]:

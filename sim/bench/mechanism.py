@@ -110,6 +110,14 @@ class Mechanism:
     grip: float | None = None
     hidden: tuple[Part, ...] = field(default=())
 
+    def __post_init__(self) -> None:
+        if self.type != "simple" and not self.lift:
+            raise BadRequest(
+                f"{self.name} is of the type {self.type}, and has no lift: gravity would not pull",
+                advice="Say lift=9.81 for what goes up, and 9.81 over the distance of the center "
+                "of mass [m] for an arm.",
+            )
+
     @property
     def gains(self) -> dict[str, float]:
         """The true kS [V], kV, kA [per m or rad], and kG [V] where there is gravity."""
@@ -152,6 +160,7 @@ class Mechanism:
             self.travel or 10.0 * speed,
             angular=find_unit(self.units).angular,
             bounded=self.travel is not None,
+            lowest=self.lowest,
             type=self.type,
         )
 

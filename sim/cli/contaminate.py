@@ -20,7 +20,13 @@ from sim.support.command_line import quote_path
     metavar="NAME[:SEVERITY][@TEST[+SECONDS]]",
     help="Fault to add; may be repeated. `sysid faults` lists them.",
 )
-@click.option("-o", "--output", type=FILE, required=True, help="Log to write: .wpilog or .csv.")
+@click.option(
+    "-o",
+    "--output",
+    type=FILE,
+    required=True,
+    help="Log to write; the ending says the format: .wpilog, .csv …",
+)
 @click.option("--seed", type=click.IntRange(min=0), help="The same seed gives the same damage.")
 def contaminate(
     file: Path,

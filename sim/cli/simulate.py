@@ -22,7 +22,13 @@ PERIOD = 0.02  # [s] loop period of a robot program by default
 
 @click.command()
 @click.argument("mechanism", shell_complete=MECHANISM_NAMES)
-@click.option("-o", "--output", type=FILE, required=True, help="Log to write: .wpilog or .csv.")
+@click.option(
+    "-o",
+    "--output",
+    type=FILE,
+    required=True,
+    help="Log to write; the ending says the format: .wpilog, .csv …",
+)
 @click.option("--ramp", default=0.5, show_default=True, help="Quasistatic ramp [V/s].")
 @click.option("--step", default=3.5, show_default=True, help="Dynamic step [V].")
 @click.option("--timeout", default=10.0, show_default=True, help="End of a test [s].")

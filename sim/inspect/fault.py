@@ -179,7 +179,7 @@ def load_fault(module: ModuleType, *, name: str) -> Fault:
         raise BadRequest(
             "; ".join(broken),
             where=f"sim/inspect/faults/{name.replace('-', '_')}.py",
-            advice="Mend it as sim/inspect/fault.py says, or take it out of the folder.",
+            advice="Correct it as sim/inspect/fault.py says, or take it out of the folder.",
         )
     return found
 

@@ -11,7 +11,6 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import replace
 from difflib import get_close_matches
-from importlib import import_module
 from pathlib import Path
 from pkgutil import iter_modules
 from typing import Protocol, cast
@@ -28,6 +27,7 @@ from sim.io.format import HEAD, LARGEST_FILE, Format, ReadOptions
 from sim.io.hoot import SUFFIX, convert_hoot
 from sim.io.motion import differentiate_position
 from sim.support.atomic_file import atomic_path
+from sim.support.catalogue import import_member
 
 FORMATS = tuple(sorted(found.name for found in iter_modules(formats.__path__)))
 
@@ -292,7 +292,7 @@ def _order_formats(path: str) -> Iterator[tuple[str, Format]]:
     """All formats with their names; those whose name matches the suffix come first."""
     ending = Path(path).suffix.lower().lstrip(".")
     for name in sorted(FORMATS, key=lambda name: not (ending and name.endswith(ending))):
-        yield name, cast("Format", import_module(f"{formats.__name__}.{name}"))
+        yield name, cast("Format", import_member(formats, name))
 
 
 def _reader(path: Path, head: bytes) -> Format:

@@ -100,6 +100,7 @@ class Scale:
         reach: [unit] distance that a test travels.
         angular: whether positions are angles.
         bounded: whether the travel has two ends.
+        lowest: [unit] position of the lower end; None if a test may start anywhere.
         type: ``simple``, ``elevator`` or ``arm``.
     """
 
@@ -110,6 +111,7 @@ class Scale:
     reach: float
     angular: bool
     bounded: bool
+    lowest: float | None
     type: str
 
     @property

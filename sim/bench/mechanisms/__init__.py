@@ -1,16 +1,12 @@
 """The catalogue of simulated mechanisms, one file each."""
 
 import sys
-from typing import cast
 
 from sim.bench.mechanism import Mechanism
 from sim.core.errors import BadRequest
-from sim.support.catalogue import list_members
+from sim.support.catalogue import load_catalogue
 
-MECHANISMS: dict[str, Mechanism] = {
-    name: cast("Mechanism", module.MECHANISM)
-    for name, module in list_members(sys.modules[__name__]).items()
-}
+MECHANISMS = load_catalogue(sys.modules[__name__], Mechanism)
 
 
 def find_mechanism(name: str) -> Mechanism:

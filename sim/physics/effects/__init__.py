@@ -1,16 +1,12 @@
 """The catalogue of effects that a model may contain, one file each."""
 
 import sys
-from typing import cast
 
 from sim.core.errors import BadRequest
 from sim.physics.effect import Effect
-from sim.support.catalogue import list_members
+from sim.support.catalogue import load_catalogue
 
-EFFECTS: dict[str, Effect] = {
-    name: cast("Effect", module.EFFECT)
-    for name, module in list_members(sys.modules[__name__]).items()
-}
+EFFECTS = load_catalogue(sys.modules[__name__], Effect)
 
 
 def find_motion_class(name: str) -> str:

@@ -1,0 +1,104 @@
+"""What slips would make of a voltage: one at a time, or two, term by term."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import product
+from pathlib import Path
+
+from grader.answers.wrong_number import MANY, Slips, WrongNumber
+
+from .budget import MOMENTS, SHOWN, Variant
+
+ALIKE, ROUNDED = 0.004, 0.006  # [share], [V] of a slip's own voltage; two decimals are written
+ALIKE_TWO = 0.001  # [share] for two slips at once: there are many pairs, and one may fit by chance
+MOST = 2  # slips at once; more than two explain any number
+SLIPS = Slips(Path(__file__).with_name("slips.toml"))
+
+Way = tuple[float, WrongNumber | None]  # the volts of a term, and the slip that makes them
+
+
+@dataclass(frozen=True)
+class Guess:
+    """What one slip, or two, would give."""
+
+    volts: float
+    slips: tuple[WrongNumber, ...]
+
+    def fits(self, value: float) -> bool:
+        """Whether a voltage looks like this."""
+        alike = ALIKE if len(self.slips) == 1 else ALIKE_TWO
+        return abs(value - self.volts) <= max(ROUNDED, alike * abs(self.volts))
+
+
+def list_guesses(variant: Variant, name: str) -> list[Guess]:
+    """What slips would give at a moment: one at a time, or two."""
+    found = []
+    for terms in product(*_list_ways(variant, name)):
+        slips = {slip.code: slip for _, slip in terms if slip}
+        if 1 <= len(slips) <= MOST:
+            found.append(Guess(sum(volts for volts, _ in terms), tuple(slips.values())))
+    return found + [Guess(volts, (slip,)) for volts, slip in _list_whole_slips(variant, name)]
+
+
+def _list_ways(variant: Variant, name: str) -> tuple[list[Way], ...]:
+    """For each of the three terms, its volts as they are right and as slips make them."""
+    friction, speed, push = variant.terms(name)
+    backward, units = name == "backward", list(_list_unit_slips(variant, name))
+    sgn = f"sgn-{name}" if name in {"braking", "backward"} else "sgn"
+    frictions = [(0.0, SLIPS.name("no-ks")), (-friction, SLIPS.name(sgn))]
+    speeds = [
+        (0.0, SLIPS.name("no-kv")),
+        (-speed, SLIPS.name("backward" if backward else "v-sign")),
+        *((speed * times, slip) for times, slip in units),
+    ]
+    pushes = [
+        (variant.gains["kA"] * one.acceleration, SLIPS.name("extra-ka"))
+        for one in variant.moments.values()
+        if one.acceleration
+    ]
+    if push:
+        pushes = [
+            (0.0, SLIPS.name("no-ka")),
+            (-push, SLIPS.name(f"a-sign-{name}")),
+            *((push * times, slip) for times, slip in units),
+        ]
+    return [(friction, None), *frictions], [(speed, None), *speeds], [(push, None), *pushes]
+
+
+def _list_unit_slips(variant: Variant, name: str) -> Iterator[tuple[float, WrongNumber]]:
+    """Factors that a velocity is off by, in another unit than kV's."""
+    shown, times = SHOWN[variant.kind]
+    found = {"changed": times, "back": 1 / times}
+    if name == "forward":
+        found = {"raw": times, "turned": times * times}
+    turn = {"turns": 2 * math.pi, "radians": 0.5 / math.pi}
+    found |= {"minutes": 60.0} if variant.kind == "drivetrain" else turn
+    for code, factor in found.items():
+        yield factor, SLIPS.name(code, shown=shown, right=f"{variant.symbol}/s")
+
+
+def _list_whole_slips(variant: Variant, name: str) -> Iterator[tuple[float, WrongNumber]]:
+    """Slips of the whole voltage."""
+    volts, at, gains = sum(variant.terms(name)), variant.moments[name], variant.gains
+    yield -volts, SLIPS.name("backward" if name == "backward" else "sign")
+    yield volts / 12, SLIPS.name("duty")
+    yield volts * 1000, SLIPS.name("milli")
+    if at.acceleration:
+        crossed = variant.terms(name)[0] + gains["kV"] * at.acceleration + gains["kA"] * at.velocity
+        yield crossed, SLIPS.name("crossed")
+    for other in MOMENTS:
+        if other != name:
+            yield sum(variant.terms(other)), SLIPS.name("swapped", other=other)
+
+
+def find_suspects(value: float, variant: Variant, name: str) -> tuple[tuple[WrongNumber, ...], ...]:
+    """The slips, or pairs of them, that would give this voltage; the simplest only."""
+    near = {
+        tuple(slip.code for slip in guess.slips): guess.slips
+        for guess in list_guesses(variant, name)
+        if guess.fits(value)
+    }
+    alone = tuple(slips for slips in near.values() if len(slips) == 1)
+    found = alone or tuple(near.values())
+    return found if len(found) <= (MANY if alone else 1) else ()
