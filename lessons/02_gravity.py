@@ -45,8 +45,10 @@ from dataclasses import replace
 
 import ipywidgets as widgets
 import numpy as np
+from IPython.display import display
 
 import sim
+from grader import ask_question, enable_checkboxes
 from sim.bench.mechanism import Mechanism
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import simulate
@@ -64,7 +66,6 @@ from sim.plot import (
     show_interactive,
 )
 from sim.plot.animation import Choice, Gain, Knob, Motion, Panel, Scene, animate_mechanism
-from sim.teaching.prediction import Prediction
 
 elevator, arm = MECHANISMS["elevator"], MECHANISMS["arm"]
 truth = elevator.gains
@@ -102,20 +103,12 @@ print(f"0 V: after 0.4 s the carriage moves at {let_go(0.0):.2f} m/s. A minus si
 # **Predict:**
 
 # %%
-guess_load = Prediction(
-    "A game piece makes the carriage 1.5 times as heavy. Which gains change?",
-    "kV and kA",
-    "kG and kA",
-    "kG only",
-    "all of them",
-)
-guess_load
+ask_question("lesson2.load")
 
 # %%
 TIMES = 1.5
 UNITS = {"kS": "V", "kV": "V·s/m", "kA": "V·s²/m", "kG": "V"}
 heavy = replace(elevator, load=TIMES * elevator.load).gains
-print(guess_load.reveal("lesson2.load"))
 Table(
     ("gain", f"at {elevator.load:.0f} kg", f"at {TIMES * elevator.load:.0f} kg", "factor", "unit"),
     tuple((one, truth[one], heavy[one], heavy[one] / truth[one], UNITS[one]) for one in truth),
@@ -189,19 +182,10 @@ for name in ("cascade-elevator", "counterweight-elevator"):
 # **Predict:**
 
 # %%
-guess_hold = Prediction(
-    f"An elevator has kG = {truth['kG']:.2f} V and kS = {truth['kS']:.2f} V. You let go of the "
-    f"carriage with {truth['kG'] - 0.15:.2f} V on the motor, a little less than kG. What does the "
-    "carriage do?",
-    "it sinks slowly",
-    "it stays",
-    "it rises slowly",
-)
-guess_hold
+ask_question("lesson2.hold", kG=truth["kG"], kS=truth["kS"], less=truth["kG"] - 0.15)
 
 # %%
 little_less = let_go(truth["kG"] - 0.15)
-print(guess_hold.reveal("lesson2.hold"))
 print(f"{truth['kG'] - 0.15:.2f} V: after 0.4 s the carriage moves at {little_less:.3f} m/s.")
 
 # %% [markdown]
@@ -325,17 +309,9 @@ Table(
 # So the motor needs kG·cos(θ) volts to balance gravity. **Predict:**
 
 # %%
-guess_angle = Prediction(
-    "The arm points 60° above level. Which share of kG does the motor need there against gravity?",
-    "all of it",
-    "about 9/10",
-    "half",
-    "a third",
-)
-guess_angle
+ask_question("lesson2.angle")
 
 # %%
-print(guess_angle.reveal("lesson2.angle"))
 print(f"np.cos(60) = {np.cos(60):.3f}, not 0.5: NumPy, Java and C++ need angles in radians.")
 for angle in (0, 60, 120):
     print(f"At {angle}° the motor needs {np.cos(np.radians(angle)):g} · kG.".replace("-", "−"))
@@ -505,13 +481,7 @@ plot_time_series(log)
 # **Predict:**
 
 # %%
-guess_type = Prediction(
-    "We fit an elevator's log with the type Simple, which has no kG. Which gains do we get?",
-    "kS contains kG, and the other gains are right",
-    "the right gains, only kG is missing",
-    "nonsense",
-)
-guess_type
+ask_question("lesson2.type")
 
 # %%
 drive_log = simulate(MECHANISMS["drivetrain"], sim.Routine(step=2.0), rng=np.random.default_rng(2))
@@ -532,7 +502,6 @@ for name, (one, types) in cases.items():
         found = (got.get(gain, "–") for gain in ("kS", "kV", "kA", "kG"))
         rows.append((f"{name}, fitted as {kind}", *found))
 
-print(guess_type.reveal("lesson2.type"))
 Table(
     ("log", "kS [V]", "kV", "kA", "kG [V]"),
     tuple(rows),
@@ -582,18 +551,10 @@ Table(
 # drive only up? **Predict:**
 
 # %%
-guess_up = Prediction(
-    "The log of an elevator contains only its upward tests. Which gains can a fit find?",
-    "all four gains",
-    "all but kA",
-    "neither kS nor kG, only their sum",
-    "none",
-)
-guess_up
+ask_question("lesson2.up")
 
 # %%
 up_only = replace(log, runs=tuple(run for run in log.runs if run.direction == "forward"))
-print(guess_up.reveal("lesson2.up"))
 try:
     fit(up_only)
 except sim.Refusal as refusal:
@@ -745,17 +706,10 @@ print(f"The slow ramp up lasted {log.runs[0].time[-1] - log.runs[0].time[0]:.1f}
 # **Predict:** somebody writes `ElevatorFeedforward(kS, kV, kG, kA)`.
 
 # %%
-guess_order = Prediction(
-    "Somebody swapped kV and kG. The code should hold the elevator still. What happens?",
-    "it stands still",
-    "it sinks",
-    "it goes up",
-)
-guess_order
+ask_question("lesson2.order")
 
 # %%
 wrong = truth["kV"]  # at rest, an ElevatorFeedforward gives its second argument
-print(guess_order.reveal("lesson2.order"))
 print(f"At rest the motor gets {wrong:.2f} V instead of {truth['kG']:.2f} V, ", end="")
 print(f"and the carriage moves at {let_go(wrong, height=0.3):.2f} m/s.")
 
@@ -793,11 +747,7 @@ print(f"and the carriage moves at {let_go(wrong, height=0.3):.2f} m/s.")
 # Click an answer to the first question; you get feedback at once.
 
 # %%
-from grader import QuickCheck
-from sim.teaching.answers import read_answer
-
-quick = QuickCheck(**read_answer("lesson2.quick"))
-quick
+display(ask_question("lesson2.quick"), enable_checkboxes())
 
 # %% [markdown]
 # **1.** You raise the voltage slowly. At 1.2 V an elevator no longer falls. At 1.8 V it begins to

@@ -43,6 +43,7 @@ import numpy as np
 from IPython.display import display
 
 import sim
+from grader import ask_question, enable_checkboxes
 from sim.bench.mechanism import Mechanism
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import move_gains_only, simulate
@@ -71,7 +72,6 @@ from sim.plot.animation import (
     TestPlan,
     animate_mechanism,
 )
-from sim.teaching.prediction import Prediction
 
 drivetrain, shooter = MECHANISMS["drivetrain"], MECHANISMS["shooter"]
 truth = drivetrain.gains
@@ -97,13 +97,7 @@ Table(
 # the dynamic test:
 
 # %%
-guess_rise = Prediction(
-    "After a sudden step of voltage, how does the speed rise to its final value?",
-    "evenly, and then it suddenly stays constant",
-    "quickly first, then slower and slower",
-    "slowly first, then faster and faster",
-)
-guess_rise
+ask_question("lesson3.rise")
 
 # %%
 routine = sim.Routine(ramp=1.0, step=2.0, timeout=8.0)
@@ -121,7 +115,6 @@ top = (2.0 - truth["kS"]) / truth["kV"]
 tau = truth["kA"] / truth["kV"]
 at_tau = float(np.interp(tau, since, speed))
 
-print(guess_rise.reveal("lesson3.rise"))
 print(
     f"The star shows the time kA/kV = {1000 * tau:.0f} ms. Then the robot has "
     f"{100 * at_tau / top:.0f} % of its final speed."
@@ -179,13 +172,7 @@ plot_curves(
 # **Predict:**
 
 # %%
-guess_drift = Prediction(
-    "You read the kS of both mechanisms off a ramp of 1 V/s. Which kS has the larger error?",
-    "the drivetrain's",
-    "the flywheel's",
-    "neither, both are right",
-)
-guess_drift
+ask_question("lesson3.drift")
 
 
 # %%
@@ -233,7 +220,6 @@ show_interactive(
 )
 
 # %%
-print(guess_drift.reveal("lesson3.drift"))
 rows = []
 for name, mechanism in SHOWN.items():
     gains = mechanism.gains
@@ -303,21 +289,7 @@ Table(
 # **Predict** before you choose runs in the menu:
 
 # %%
-guess_drop = Prediction(
-    "Only the dynamic reverse run of this drivetrain is missing. What becomes unknown?",
-    "kA",
-    "kS",
-    "kV",
-    "nothing, the errors grow a little",
-)
-guess_ramps = Prediction(
-    "Both ramp tests are missing, and we have both step tests. What becomes unknown?",
-    "kA only",
-    "kS only",
-    "all three gains",
-    "nothing",
-)
-display(guess_drop, guess_ramps)
+display(ask_question("lesson3.drop"), ask_question("lesson3.ramps"))
 
 # %%
 sensor = replace(drivetrain.sensor, velocity_noise=0.0, jitter=0.0, resolution=1e-9)
@@ -380,8 +352,6 @@ for name, tests in SETS.items():
     ).errors
     shares = (100 * errors[gain] / truth[gain] for gain in ("kS", "kV", "kA"))
     rows.append((name, *(share if share < 100 else "unknown" for share in shares)))
-print("1.", guess_drop.reveal("lesson3.drop"))
-print("2.", guess_ramps.reveal("lesson3.ramps"))
 Table(
     ("runs", "kS ± [%]", "kV ± [%]", "kA ± [%]"),
     tuple(rows),
@@ -437,13 +407,7 @@ except sim.Refusal as refusal:
 # **Predict:**
 
 # %%
-guess_lean = Prediction(
-    "We fit all four runs of this robot with one kS. Which gain has the largest error in percent?",
-    "kS",
-    "kV",
-    "kA",
-)
-guess_lean
+ask_question("lesson3.lean")
 
 # %%
 LEAN = -0.15  # [V] on top of 0.30 V: 0.15 V forward, 0.45 V in reverse
@@ -459,7 +423,6 @@ both = fit(uneven_log, method="sysid")
 gains = (both.gains[name] for name in truth)
 rows.append(("all four, SysId's recipe", *gains, both.simulated_velocity_r2))
 rows.append(("truth", f"{0.30 + LEAN:.2f} and {0.30 - LEAN:.2f}", truth["kV"], truth["kA"], "–"))
-print(guess_lean.reveal("lesson3.lean"))
 Table(("runs", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "simulated velocity R²"), tuple(rows))
 
 # %% [markdown]
@@ -500,14 +463,7 @@ Table(("runs", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "simulated velocity R²
 # room has a certain length, and the robot should reach 1 m/s. **Predict:**
 
 # %%
-guess_way = Prediction(
-    "We halve the voltage ramp to 0.5 V/s. How far does the robot now drive to reach 1 m/s?",
-    "half as far",
-    "just as far",
-    "twice as far",
-    "four times as far",
-)
-guess_way
+ask_question("lesson3.way")
 
 # %%
 TEN_FEET = 3.05  # [m]
@@ -526,7 +482,6 @@ for ramp in (0.25, 0.5, 1.0, 2.0):
     volts = ramp * float(np.interp(TEN_FEET, place, time))
     ten_seconds = float(np.interp(10.0, time, place)) if time[-1] >= 9.9 else "–"
     rows.append((ramp, float(np.interp(1.0, speed, place)), rule, volts, ten_seconds))
-print(guess_way.reveal("lesson3.way"))
 Table(
     (
         "ramp [V/s]",
@@ -775,11 +730,7 @@ animate_mechanism(
 # Click an answer to the first question; you get feedback at once.
 
 # %%
-from grader import QuickCheck
-from sim.teaching.answers import read_answer
-
-quick = QuickCheck(**read_answer("lesson3.quick"))
-quick
+display(ask_question("lesson3.quick"), enable_checkboxes())
 
 # %% [markdown]
 # **1.** A flywheel has τ = 0.4 s and a true kS of 0.10 V. You read kS off a ramp of 0.5 V/s. About

@@ -49,12 +49,12 @@ import numpy as np
 from IPython.display import display
 
 import sim
+from grader import ask_question, enable_checkboxes
 from sim.bench.duty_cycle import Battery, simulate_duty_cycle
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import simulate
 from sim.fit import fit
 from sim.plot import Picture, Table, plot_choices, plot_time_series, show_interactive
-from sim.teaching.prediction import Prediction
 
 drivetrain = MECHANISMS["drivetrain"]
 truth = drivetrain.gains
@@ -562,29 +562,7 @@ print(f"2π is {2 * math.pi:.4f}.")
 # you look:
 
 # %%
-guess_gain = Prediction(
-    "1. The drive callback calls motor.set(volts / 12). The log contains the commanded volts. "
-    "The battery is nearly empty. Which gain has the largest error?",
-    "kS",
-    "kV",
-    "kA",
-    "none of them",
-)
-guess_factor = Prediction(
-    "2. The code logs turns of the wheel as if they were meters. The wheel has a diameter of "
-    "4 inches. How large is the kV from this log?",
-    "it is right anyway",
-    "3.1 times too small",
-    "6.3 times too small",
-    "2 times too big",
-)
-guess_score = Prediction(
-    "3. For which of the wrong programs is the simulated velocity R² below 0.9?",
-    "for all",
-    "for some",
-    "for none",
-)
-display(guess_gain, guess_factor, guess_score)
+display(ask_question("lesson4.gain"), ask_question("lesson4.factor"), ask_question("lesson4.score"))
 
 # %% [markdown]
 # These are the seven programs:
@@ -667,15 +645,12 @@ asked, arrived = (fit(programs[name][0], method="sysid") for name in list(progra
 off = {gain: 100 * (asked.gains[gain] / truth[gain] - 1) for gain in truth}
 turns = fit(programs["turns called meters"][0], method="sysid").gains["kV"] / truth["kV"]
 worst = min(fit(log, method="sysid").simulated_velocity_r2 for log, _ in programs.values())
-print("1.", guess_gain.reveal("lesson4.gain"))
 print("   Errors with the commanded volts:", end=" ")
 print(f"kS {off['kS']:+.0f} %, kV {off['kV']:+.0f} %, kA {off['kA']:+.0f} %.")
-print("2.", guess_factor.reveal("lesson4.factor"))
 print(
     f"   kV is {1 / turns:.2f} times too small, because the wheel's circumference is "
     f"1/{1 / CIRCUMFERENCE:.2f} m."
 )
-print("3.", guess_score.reveal("lesson4.score"))
 print(f"   The lowest simulated velocity R² of all seven programs is {worst:.3f}.")
 
 # %% [markdown]
@@ -807,11 +782,7 @@ print(f"   The lowest simulated velocity R² of all seven programs is {worst:.3f
 # Click an answer to the first question; you get feedback at once.
 
 # %%
-from grader import QuickCheck
-from sim.teaching.answers import read_answer
-
-quick = QuickCheck(**read_answer("lesson4.quick"))
-quick
+display(ask_question("lesson4.quick"), enable_checkboxes())
 
 # %% [markdown]
 # **1.** The analyzer shows kV = 0.40 V·s/m for a drivetrain that should have about 2.5. What is the

@@ -71,6 +71,7 @@ import numpy as np
 from IPython.display import display
 
 import sim
+from grader import ask_question, enable_checkboxes
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import simulate
 from sim.fit import fit
@@ -78,7 +79,6 @@ from sim.inspect.contaminate import contaminate
 from sim.inspect.detect_faults import inspect
 from sim.physics.battery import CONTROLLERS, Battery
 from sim.plot import Picture, Table, plot_runway, plot_time_series, show_interactive
-from sim.teaching.prediction import Prediction
 from sim.teaching.runway import GRIP, THUMB, Floor, drive_test
 
 ROBOT = replace(MECHANISMS["drivetrain"], travel=None)  # nobody ends its tests but you
@@ -106,19 +106,7 @@ Table(
 # **Predict:**
 
 # %%
-guess_room = Prediction(
-    "The robot should reach 2 m/s. Do you need more room or less if you halve the voltage ramp?",
-    "less room",
-    "the same",
-    "more room",
-)
-guess_ten = Prediction(
-    "A common test is a ramp of 0.5 V/s for 10 s. How far does our robot drive in this test?",
-    "about 1 m",
-    "about 3 m (10 feet)",
-    "about 9 m (30 feet)",
-)
-display(guess_room, guess_ten)
+display(ask_question("lesson5.room"), ask_question("lesson5.ten"))
 
 # %%
 RAMP, STEP = "quasistatic-forward", "dynamic-forward"
@@ -139,8 +127,6 @@ for ramp in (0.25, 0.5, 1.0, 2.0):
     rows.append((ramp, time, way, TRUTH["kV"] * 2.0**2 / (2 * ramp)))
 
 slow = drive_test(ROBOT, sim.Routine(ramp=0.5, timeout=10.0), test=RAMP, floor=HALL)
-print(guess_room.reveal("lesson5.room"))
-print(guess_ten.reveal("lesson5.ten"))
 gone = slow.final_position
 print(f"With 0.5 V/s for 10 s, the robot drives {gone:.1f} m, or {gone / FOOT:.0f} feet.")
 Table(
@@ -216,14 +202,7 @@ print(f"and {lifted['kA'] / TRUTH['kA']:.2f} times the true kA.")
 # **Predict:**
 
 # %%
-guess_stop = Prediction(
-    "The tape is at 7 m, the wall is at 12 m, and the ramp is 1 V/s. Where does the robot stop?",
-    "right at the tape",
-    "about 1 m past it",
-    "about 3 m past it",
-    "at the wall",
-)
-guess_stop
+ask_question("lesson5.stop")
 
 # %% [markdown]
 # Move the sliders. The slider "moment" sets the time: 0 is the start of the test, 1 is the end. The
@@ -250,7 +229,6 @@ show_interactive(
 # %%
 went = drive_test(ROBOT, routine, test=RAMP, floor=Floor(wall=WALL, tape=7.0))
 top = float(went.velocity.max())
-print(guess_stop.reveal("lesson5.stop"))
 let_go = float(np.interp(went.released, went.time, went.position))
 print(f"The robot stops {went.final_position - 7.0:.2f} m past the tape:")
 print(f"  {let_go - 7.0:.2f} m until you react, and {went.final_position - let_go:.2f} m to brake.")
@@ -275,15 +253,7 @@ print(f"  The formula v²/(2·μ·g) gives {top**2 / (2 * GRIP * 9.81):.2f} m at
 # **Predict:**
 
 # %%
-guess_check = Prediction(
-    "The robot drives as always, but the log is wrong. Which check did you skip?",
-    "room",
-    "battery",
-    "encoder",
-    "log",
-    "guard",
-)
-guess_check
+ask_question("lesson5.check")
 
 # %%
 TIRED = replace(ROBOT, battery=Battery(rest=11.6, resistance=0.035))
@@ -351,7 +321,6 @@ for name, log in logs.items():
     names = {damage.fault for damage in seen.damages} | {doubt.code for doubt in log.doubts}
     ratios = [found.gains[gain] / TRUTH[gain] for gain in ("kS", "kV", "kA")]
     rows.append((name, ", ".join(sorted(names)) or "nothing", *ratios))
-print(guess_check.reveal("lesson5.check"))
 Table(("skipped", "found in the log", "kS ÷ true", "kV ÷ true", "kA ÷ true"), tuple(rows))
 
 # %% [markdown]
@@ -873,11 +842,7 @@ Table(
 # Click an answer to the first question.
 
 # %%
-from grader import QuickCheck
-from sim.teaching.answers import read_answer
-
-quick = QuickCheck(**read_answer("lesson5.quick"))
-quick
+display(ask_question("lesson5.quick"), enable_checkboxes())
 
 # %% [markdown]
 # **1.** A teammate says: "Our room is short, so we use a slow ramp of 0.25 V/s." What do you
