@@ -44,7 +44,6 @@
 import math
 from dataclasses import replace
 
-import ipywidgets as widgets
 import numpy as np
 from IPython.display import display
 
@@ -54,7 +53,8 @@ from sim.bench.duty_cycle import Battery, simulate_duty_cycle
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import simulate
 from sim.fit import fit
-from sim.plot import Picture, Table, plot_choices, plot_time_series, show_interactive
+from sim.plot import Table, plot_time_series
+from sim.plot.animation import Choice, Motion, Panel, Scene, animate_mechanism
 
 drivetrain = MECHANISMS["drivetrain"]
 truth = drivetrain.gains
@@ -614,24 +614,34 @@ programs = {
 }
 
 # %% [markdown]
-# Choose a program. The upper picture shows its log. A thin dotted line in it shows what really
-# happened. The lower picture shows each gain from this log, divided by the true gain: 1 is correct.
-
+# Choose a program, and hold a button of the controller. The solid robot really drives, with the
+# volts at its motors. The dashed outline is where the log callback says that the robot is.
 
 # %%
-def virtual_robot(program: str) -> list[Picture]:
-    """The log that a program writes, and the gains from this log."""
-    logged, happened = programs[program]
-    found = fit(logged, method="sysid").gains
-    ratios = {gain: found[gain] / truth[gain] for gain in ("kS", "kV", "kA")}
-    return [
-        plot_time_series(logged, beside=happened, dynamic_seconds=1.0),
-        plot_choices(ratios, truth=1.0, name="found ÷ true"),
-    ]
+BUTTONS = {f"{button}: {test}": test for button, test in zip("ABXY", routine.tests, strict=True)}
 
 
-show_interactive(
-    virtual_robot, program=widgets.Dropdown(options=list(programs), description="program")
+def hold_button(program: str, test: str) -> Scene:
+    """What one test of a program does, and what the log callback writes down."""
+    logged, happened = (log.list_runs_of_test(test)[0] for log in programs[program])
+    robot = Motion("robot", happened.velocity, happened.position, happened.voltage)
+    log = Motion("log", logged.velocity, logged.position, logged.voltage, ghost=True)
+    return Scene(happened.time - happened.time[0], (robot, log))
+
+
+animate_mechanism(
+    "drivetrain",
+    {
+        (program, button): hold_button(program, test)
+        for program in programs
+        for button, test in BUTTONS.items()
+    },
+    choices=(Choice("program", tuple(programs)), Choice("button", tuple(BUTTONS))),
+    panels=(Panel("voltage", "voltage [V]"), Panel("velocity", "velocity [m/s]")),
+    span=(-11.0, 21.0),
+    alt="A robot drives while a button is held. A dashed outline shows where its log says that it "
+    "is. With the correct program both are at the same place. With an inverted encoder the log "
+    "goes backward, and with wrong units it goes too far or not far enough.",
 )
 
 # %% [markdown]

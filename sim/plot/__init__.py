@@ -21,7 +21,6 @@ from sim.plot.logs import plot_time_series
 from sim.plot.picture import Picture
 from sim.plot.r2_vs_gain_error import plot_r2_vs_gain_error
 from sim.plot.relative_change import plot_relative_change
-from sim.plot.runway import plot_runway
 from sim.plot.table import Table
 from sim.plot.timesteps import plot_timesteps
 from sim.plot.tracking_error import measure_tracking_error, plot_tracking_error
@@ -46,7 +45,6 @@ __all__ = [
     "plot_misses",
     "plot_r2_vs_gain_error",
     "plot_relative_change",
-    "plot_runway",
     "plot_score_heatmap",
     "plot_score_histogram",
     "plot_time_series",
