@@ -49,23 +49,21 @@ from IPython.display import display
 
 import sim
 from grader import ask_question, enable_checkboxes
-from sim.bench.mechanism import Mechanism
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import simulate
 from sim.fit import fit
-from sim.fit.information_matrix import compute_information
-from sim.fit.sysid_rows import prepare_rows
 from sim.physics.engine import State, simulate_run
 from sim.plot import (
     Picture,
     Table,
-    plot_ellipses,
+    plot_gain_errors,
     plot_hold_angles,
     plot_hold_window,
     plot_time_series,
     show_interactive,
 )
 from sim.plot.animation import Choice, Gain, Knob, Motion, Panel, Scene, animate_mechanism
+from sim.teaching.gain_errors import compute_gain_errors, simulate_rows
 
 elevator, arm = MECHANISMS["elevator"], MECHANISMS["arm"]
 truth = elevator.gains
@@ -569,61 +567,34 @@ except sim.Refusal as refusal:
 # matches every row as well as before. Even a thousand rows do not help, because each row shows only
 # the sum.
 #
-# Every sensor has *noise*: small random errors. If you repeated the tests many times, noise would
-# change the fitted pair (kS, kG) a little each time. In the next picture, the shaded region
-# contains 95 of 100 such fits. It is called a *confidence ellipse*. A small ellipse means that you
-# know both gains well. With the slider you add rows that were recorded while the carriage moved
-# down.
+# Every sensor has *noise*: small random errors. If you repeated the tests, noise would change each
+# fitted gain a little. In the next picture, the bar of a gain shows its *standard error*: the
+# typical distance from the true gain. A bar as long as the gain itself means: this gain is
+# **unknown**. With the slider you add rows that were recorded while the carriage moved down.
 
 # %%
-SIDES = ("kS", "kG")
-
-
-def quiet_rows(mechanism: Mechanism, routine: sim.Routine) -> dict:
-    """The rows a fit sees of all four tests, as they would be without any noise."""
-    sensor = replace(mechanism.sensor, velocity_noise=0.0, jitter=0.0, resolution=1e-9)
-    seen = simulate(replace(mechanism, sensor=sensor), routine, rng=np.random.default_rng(0))
-    return dict(prepare_rows(seen).rows)
-
-
-def noise_of(mechanism: Mechanism) -> float:
-    """What the encoder's noise amounts to in volts, in a row of 20 ms."""
-    return mechanism.gains["kA"] * mechanism.sensor.velocity_noise / (np.sqrt(2) * 0.02)
-
-
-all_rows = quiet_rows(elevator, routine)
+all_rows = simulate_rows(elevator, routine)
 forward = {test: part for test, part in all_rows.items() if test.endswith("forward")}
 down = all_rows["quasistatic-reverse"]
 
 
-def up_and(down_rows: int) -> Picture:
-    """How well kS and kG are known from the way up and some rows of the way down."""
+def scatter_gains(down_rows: int) -> Picture:
+    """How far the gains scatter that follow from the way up and some rows of the way down."""
     used = {**forward, "quasistatic-reverse": down.select(slice(down_rows))}
-    told = compute_information(
-        used, type="elevator", noise=noise_of(elevator)
-    ).compute_pair_information(*SIDES)
-    return plot_ellipses(
-        {f"95 of 100 fits (rows from the way down: {down_rows})": told},
-        names=("kS [V]", "kG [V]"),
-        truth=(truth["kS"], truth["kG"]),
-        reach=(0.25, 0.25),
-    )
+    return plot_gain_errors(compute_gain_errors(elevator, used))
 
 
 show_interactive(
-    up_and,
-    down_rows=widgets.SelectionSlider(
-        options=[0, 1, 2, 5, 20, len(down)], value=0, description="rows down"
-    ),
+    scatter_gains,
+    down_rows=widgets.IntSlider(min=0, max=len(down), value=0, description="rows down"),
 )
 
 # %% [markdown]
-# Without rows from the way down, the ellipse is an endless band. Everywhere in this band, kG + kS
-# is nearly the same. With a single row from the way down, the band becomes a closed ellipse.
+# Without rows from the way down, kS and kG are unknown: only their sum is known. One row from the
+# way down separates them, and more rows make the bars shorter.
 #
 # For an arm this is easier. On the way up, cos(θ) changes and kS does not. So the fit can separate
-# kG from kS, but not precisely. The next table shows how much noise changes a fitted gain. The
-# *standard error* is the typical distance from the true gain:
+# kG from kS, but not precisely:
 
 # %%
 rows = []
@@ -631,13 +602,13 @@ for name, mechanism, tests in (
     ("elevator", elevator, routine),
     ("arm", arm, sim.Routine(ramp=0.5, step=3.5)),
 ):
-    every = quiet_rows(mechanism, tests)
+    every = simulate_rows(mechanism, tests)
     for which, ways in (("all four tests", ("forward", "reverse")), ("up only", ("forward",))):
         used = {test: part for test, part in every.items() if test.endswith(ways)}
-        errors = compute_information(used, type=mechanism.type, noise=noise_of(mechanism)).errors
-        cells = (errors[gain] if np.isfinite(errors[gain]) else "unknown" for gain in SIDES)
-        rows.append((f"{name}, {which}", *cells))
-Table(("log", "kS ± [V]", "kG ± [V]"), tuple(rows), caption="± is one standard error")
+        errors = compute_gain_errors(mechanism, used)
+        shares = (100 * errors[gain] for gain in ("kS", "kG"))
+        rows.append((f"{name}, {which}", *(one if one < 100 else "unknown" for one in shares)))
+Table(("log", "kS ± [%]", "kG ± [%]"), tuple(rows), caption="± is one standard error")
 
 # %% [markdown]
 # So on an elevator, only the reverse tests separate kS from kG. SysId's window asks for all four

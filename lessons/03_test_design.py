@@ -48,8 +48,6 @@ from sim.bench.mechanism import Mechanism
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import move_gains_only, simulate
 from sim.fit import fit
-from sim.fit.information_matrix import compute_information
-from sim.fit.sysid_rows import prepare_rows
 from sim.physics.model import Part
 from sim.physics.motors import find_motor
 from sim.plot import (
@@ -57,7 +55,7 @@ from sim.plot import (
     Picture,
     Table,
     plot_curves,
-    plot_information_map,
+    plot_gain_errors,
     plot_time_series,
     plot_voltage_velocity,
     show_interactive,
@@ -72,6 +70,7 @@ from sim.plot.animation import (
     TestPlan,
     animate_mechanism,
 )
+from sim.teaching.gain_errors import compute_gain_errors, simulate_rows
 
 drivetrain, shooter = MECHANISMS["drivetrain"], MECHANISMS["shooter"]
 truth = drivetrain.gains
@@ -275,93 +274,43 @@ Table(
 # </details>
 
 # %% [markdown]
-# ## 4 The information map: what each run adds
+# ## 4 What does each test add?
 #
-# Every row of a log gives one equation: the model with the V, v and a of this row. The left picture
-# shows each row as a dot. Its horizontal position is v, and its vertical position is a. If the dots
-# are in many different places, the equations differ, and the fit can separate the gains. If all
-# dots are on one line, the fit cannot separate the gains.
+# Every row of a log gives one equation: the model with the V, v and a of this row. A fit can
+# separate the gains only if the equations differ. So it needs rows with many different v and a.
 #
-# The right picture shows the **confidence ellipse** of lesson 2: if you repeated the tests with new
-# noise, 95 of 100 fits would give gains inside the ellipse. A small ellipse is good. An endless
-# band means that both gains are unknown, even if the band looks level.
+# If you repeated the tests, noise would change each fitted gain a little. In the next picture, the
+# bar of a gain shows its *standard error* (the typical error from noise alone). A bar as long as
+# the gain itself means: this gain is **unknown**.
 #
-# **Predict** before you choose runs in the menu:
+# **Predict** before you switch tests off:
 
 # %%
 display(ask_question("lesson3.drop"), ask_question("lesson3.ramps"))
 
 # %%
-sensor = replace(drivetrain.sensor, velocity_noise=0.0, jitter=0.0, resolution=1e-9)
-quiet = simulate(replace(drivetrain, sensor=sensor), routine, rng=np.random.default_rng(0))
-all_rows = dict(prepare_rows(quiet).rows)
-NOISE = truth["kA"] * drivetrain.sensor.velocity_noise / (np.sqrt(2) * 0.02)  # [V] of a row
-REACH = {"kS": 0.15, "kV": 0.02, "kA": 0.25}
-UNIT = {"kS": "kS [V]", "kV": "kV [V·s/m]", "kA": "kA [V·s²/m]"}
+all_rows = simulate_rows(drivetrain, routine)
 
 
-def map_of(tests: list[str], pair: tuple[str, str]) -> Picture:
-    """Where the rows of some runs lie, and how well two gains follow from them."""
-    rows = {test: all_rows[test] for test in tests}
-    told = compute_information(rows, type="simple", noise=NOISE).compute_pair_information(*pair)
-    return plot_information_map(
-        rows,
-        told,
-        names=(UNIT[pair[0]], UNIT[pair[1]]),
-        truth=(truth[pair[0]], truth[pair[1]]),
-        reach=(REACH[pair[0]], REACH[pair[1]]),
-    )
-
-
-SETS = {
-    "1 ramp: quasistatic forward": ["quasistatic-forward"],
-    "2 ramps": ["quasistatic-forward", "quasistatic-reverse"],
-    "2 ramps and 1 step (no dynamic reverse)": [
-        "quasistatic-forward",
-        "quasistatic-reverse",
-        "dynamic-forward",
-    ],
-    "all four": list(all_rows),
-    "no ramps: 2 steps": ["dynamic-forward", "dynamic-reverse"],
-    "forward only": ["quasistatic-forward", "dynamic-forward"],
-}
-
-
-def map_picture(runs: str, gains: str) -> Picture:
-    """The information map of a set of runs."""
-    first, second = gains.split(" and ")
-    return map_of(SETS[runs], (first, second))
+def scatter_gains(**tests: bool) -> Picture:
+    """How far the gains scatter that a fit of the ticked tests finds."""
+    used = {test: all_rows[test] for test, ticked in tests.items() if ticked}
+    return plot_gain_errors(compute_gain_errors(drivetrain, used))
 
 
 show_interactive(
-    map_picture,
-    runs=widgets.Dropdown(options=list(SETS), description="runs", layout={"width": "25em"}),
-    gains=widgets.Dropdown(options=["kS and kA", "kS and kV", "kV and kA"], description="gains"),
+    scatter_gains,
+    **{test: widgets.Checkbox(value=True, description=test) for test in all_rows},
 )
 
 # %% [markdown]
-# Add runs one by one: choose the first four lines of the menu. With one ramp, the ellipse of kS and
-# kA is long, because a ramp shows only the sum kS + τ·ramp (section 3). With a single step test,
-# the fit can separate kS and kA. The next table shows the errors for each line of the menu:
-
-# %%
-rows = []
-for name, tests in SETS.items():
-    errors = compute_information(
-        {test: all_rows[test] for test in tests}, type="simple", noise=NOISE
-    ).errors
-    shares = (100 * errors[gain] / truth[gain] for gain in ("kS", "kV", "kA"))
-    rows.append((name, *(share if share < 100 else "unknown" for share in shares)))
-Table(
-    ("runs", "kS ± [%]", "kV ± [%]", "kA ± [%]"),
-    tuple(rows),
-    caption="One standard error (the typical error from noise alone), in percent of the gain",
-)
+# Switch tests off and on again. Which single test can you leave out? With the ramps alone, kS and
+# kA are uncertain, because a ramp shows mainly the sum kS + τ·ramp (section 3).
 
 # %% [markdown]
 # ### Explain
 #
-# - **Without step tests** (the row "2 ramps") kA and kS are very uncertain.
+# - **Without step tests** kA and kS are very uncertain.
 # - **Without ramps**, you can find no gain. With one constant voltage the rows only show the final
 #   speed and how quickly the robot reaches it. These two numbers are not enough for three unknown
 #   gains. (If you knew kS, you could compute kV and kA.)
@@ -390,8 +339,8 @@ except sim.Refusal as refusal:
 # > determined". So you need both tests. ([WPILib docs: Creating a
 # > Routine](https://github.com/wpilibsuite/frc-docs/blob/d57699ab3bc9612521fb1cd8edf9db348c3ddbc1/source/docs/software/advanced-controls/system-identification/creating-routine.rst))
 # >
-# > **Try it:** choose "no ramps: 2 steps" in the menu of the map. The dots are on two lines, and
-# > the ellipse is an endless band.
+# > **Try it:** leave only the two dynamic tests in the picture above. Each bar is as long as its
+# > gain.
 # </details>
 
 # %% [markdown]
@@ -752,13 +701,12 @@ display(ask_question("lesson3.quick"), enable_checkboxes())
 # and let go of the button quickly.
 # </details>
 #
-# **3.** In the information map the dots of each direction lie on one slanted line. Which runs are
-# missing in this log?
+# **3.** A log holds only the two dynamic tests. Why can you find no gain?
 #
 # <details><summary>Answer</summary>
 #
 # The ramps are missing: with one constant voltage, the acceleration falls evenly as the speed
-# rises. Without a ramp, you can find no gain.
+# rises. So all rows give two equations for three gains.
 # </details>
 #
 # **4.** A fit of the forward runs gives kS = 0.14 V. A fit of the reverse runs gives 0.38 V. What
