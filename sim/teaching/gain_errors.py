@@ -15,7 +15,12 @@ ROW = 0.02  # [s] between two rows
 
 
 def simulate_rows(mechanism: Mechanism, routine: Routine) -> dict[str, Rows]:
-    """The rows that a fit sees of each test, as they would be without noise."""
+    """The rows that a fit sees of each test, as they would be without noise.
+
+    Args:
+        mechanism: the mechanism to test.
+        routine: ramp and step of its tests.
+    """
     sensor = replace(mechanism.sensor, velocity_noise=0.0, jitter=0.0, resolution=1e-9)
     quiet = simulate(replace(mechanism, sensor=sensor), routine, rng=np.random.default_rng(0))
     return dict(prepare_rows(quiet).rows)
