@@ -20,8 +20,8 @@ LESSONS = Path(__file__).resolve().parents[1] / "lessons"
 LONGEST_IN_SIGHT = 12  # [lines] of a cell
 # What a cell does whose code nobody needs to read: import, ask, show a widget, animate, list.
 PLUMBING = re.compile(
-    r"^(?:import|from) |^(?:\w+ = )?(?:Prediction|QuickCheck|QuickNumberCheck|show_interactive)\("
-    r"|\b(?:animate_mechanism|ExerciseQuestions|Table)\(|\.reveal\(",
+    r"^(?:import|from) "
+    r"|\b(?:ask_question|show_interactive|animate_mechanism|ExerciseQuestions|Table)\(",
     re.MULTILINE,
 )
 INSTALL = """\

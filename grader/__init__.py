@@ -8,16 +8,16 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from grader.lesson_questions import ask_question, enable_checkboxes
     from grader.notebook import ExerciseQuestions, submit
-    from grader.quick_check_widget import QuickCheck, QuickNumberCheck
 
-__all__ = ["ExerciseQuestions", "QuickCheck", "QuickNumberCheck", "submit"]
+__all__ = ["ExerciseQuestions", "ask_question", "enable_checkboxes", "submit"]
 
 _WHERE = {
     "submit": "notebook",
     "ExerciseQuestions": "notebook",
-    "QuickCheck": "quick_check_widget",
-    "QuickNumberCheck": "quick_check_widget",
+    "ask_question": "lesson_questions",
+    "enable_checkboxes": "lesson_questions",
 }
 
 

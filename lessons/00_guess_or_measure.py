@@ -30,9 +30,9 @@
 #
 # <details><summary>Do you see no buttons or sliders?</summary>
 #
-# You can type an answer in a cell, for example `guess_race.value = "the three lines"` for a
-# prediction or `quick.answer("kS")` for a quick check. Where sliders are missing, you see their
-# picture with the first setting. All lessons work this way.
+# You can type an answer in a cell, for example `ask_question("lesson0.race").answer("about the
+# same")`. Where sliders are missing, you see their picture with the first setting. All lessons work
+# this way.
 # </details>
 
 # %% [markdown]
@@ -70,6 +70,7 @@ import numpy as np
 from IPython.display import display
 
 import sim
+from grader import ask_question, enable_checkboxes
 from sim.bench.mechanism import Mechanism
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import move_gains_only, simulate
@@ -86,7 +87,6 @@ from sim.plot.animation import (
     Score,
     animate_mechanism,
 )
-from sim.teaching.prediction import Prediction
 
 # %% [markdown]
 # ## 2 Your robot
@@ -150,18 +150,11 @@ def drive(driven: Mechanism, gains: dict[str, float]) -> np.ndarray:
 # **Round two: three lines.** Your opponent is a program of three lines. It tests the robot and
 # computes the gains.
 #
-# **Predict** before you race. Nobody grades your prediction. After the experiment, the page tells
-# you whether it was right.
+# **Predict** before you race. Click an answer: the page says at once whether it is right. Nobody
+# grades it.
 
 # %%
-guess_race = Prediction(
-    "You have 90 seconds and two sliders. Your opponent has three lines of code. Who gets the "
-    "smaller typical error?",
-    "I do, clearly",
-    "about the same",
-    "the three lines",
-)
-guess_race
+ask_question("lesson0.race")
 
 # %%
 START = (0.6, 1.5)  # kS [V] and kV [V·s/m] where the sliders start
@@ -231,7 +224,6 @@ def side_by_side(driven: Mechanism, racers: dict[str, dict[str, float]]) -> Scen
     return Scene(TIME, (asked, *motions))
 
 
-print(guess_race.reveal("lesson0.race"))
 animate_mechanism(
     "drivetrain",
     side_by_side(robot, {YOU: guessed, "three lines": measured}),
@@ -322,13 +314,7 @@ race(KS, KV, KA)
 # **Predict:**
 
 # %%
-guess_pencil = Prediction(
-    "How far is the pencil's kV from the truth?",
-    "about 20 % off",
-    "about 5 % off",
-    "1 % or less",
-)
-guess_pencil
+ask_question("lesson0.pencil")
 
 # %%
 VOLTS = np.array([1.0, 2.0, 3.0, 4.0, 5.0])
@@ -365,7 +351,6 @@ def off(gains: dict[str, float], name: str) -> str:
     return f"{100 * (gains[name] / truth[name] - 1):+.1f} %".replace("-", "−")
 
 
-print(guess_pencil.reveal("lesson0.pencil"))
 Table(
     ("who", "kS off by", "kV off by", "kA off by"),
     (
@@ -451,14 +436,7 @@ Table(
 # **Predict** two things:
 
 # %%
-guess_gain = Prediction("Which gain of the robot changes?", "kS", "kV", "kA", "all three")
-guess_worse = Prediction(
-    "You keep the gains of your best try. Will you see that the heavier robot drives worse?",
-    "yes, clearly",
-    "hardly",
-    "not at all",
-)
-display(guess_gain, guess_worse)
+display(ask_question("lesson0.gain"), ask_question("lesson0.worse"))
 
 
 # %%
@@ -494,8 +472,6 @@ heavy, again = with_brace(BRACE)
 before = measure_tracking_error(TARGET, drive(robot, guessed)).typical
 after = measure_tracking_error(TARGET, drive(heavy, guessed)).typical
 
-print(guess_gain.reveal("lesson0.gain"))
-print(guess_worse.reveal("lesson0.worse"))
 print(f"Typical error of {YOU}: {before:.3f} m/s before the brace, {after:.3f} m/s with it.")
 Table(
     ("gain", "true before", "true with the brace", "measured before", "measured again", "unit"),
@@ -710,11 +686,7 @@ else:
 # Click an answer to the first question; you get feedback at once.
 
 # %%
-from grader import QuickCheck
-from sim.teaching.answers import read_answer
-
-quick = QuickCheck(**read_answer("lesson0.quick"))
-quick
+display(ask_question("lesson0.quick"), enable_checkboxes())
 
 # %% [markdown]
 # **1.** What question does guessing ask, and what question does SysId ask?

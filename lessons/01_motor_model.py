@@ -43,6 +43,7 @@ import numpy as np
 from IPython.display import display
 
 import sim
+from grader import ask_question, enable_checkboxes
 from sim.bench.duty_cycle import Battery, simulate_duty_cycle
 from sim.bench.mechanism import Mechanism
 from sim.bench.mechanisms import MECHANISMS
@@ -57,7 +58,6 @@ from sim.plot import (
     show_interactive,
 )
 from sim.plot.animation import Choice, Gain, Knob, Motion, Panel, Scene, animate_mechanism
-from sim.teaching.prediction import Prediction
 
 drivetrain = MECHANISMS["drivetrain"]
 gains = drivetrain.gains
@@ -118,18 +118,10 @@ Table(("moment", "kS·sgn(v) [V]", "kV·v [V]", "kA·a [V]", "together [V]"), tu
 # **Predict:**
 
 # %%
-guess_seven = Prediction(
-    "The motors get 7 V, more than a steady 2 m/s needs. What are the other volts for?",
-    "friction",
-    "they become heat, and are lost",
-    "into acceleration: the speed is not steady",
-    "the log must be wrong",
-)
-guess_seven
+ask_question("lesson1.seven")
 
 # %%
 left = 7.0 - sum(bill(2.0, 0.0).values())
-print(guess_seven.reveal("lesson1.seven"))
 print(
     f"7 V − {gains['kS']:.2f} V (friction) − {gains['kV'] * 2:.2f} V (speed) = {left:.2f} V "
     "are left."
@@ -161,16 +153,7 @@ print(f"If the speed were steady, kV would have to be {(7.0 - gains['kS']) / 2:.
 # **Predict:**
 
 # %%
-guess_step = Prediction(
-    "Right after the sudden step, which term takes the most volts?", "kS·sgn(v)", "kV·v", "kA·a"
-)
-guess_ramp = Prediction(
-    "Halfway through the slow ramp, which term takes the most volts?",
-    "kS·sgn(v)",
-    "kV·v",
-    "kA·a",
-)
-display(guess_step, guess_ramp)
+display(ask_question("lesson1.step"), ask_question("lesson1.ramp"))
 
 # %%
 FINE = 0.002  # [s] between two points of the picture
@@ -226,8 +209,6 @@ animate_mechanism(
 # %%
 time, terms, _ = spent("slow ramp", 60.0, 0.15)
 halfway = float(terms["kA·a"][round(3.0 / FINE)])
-print("After the step:", guess_step.reveal("lesson1.step"))
-print("In the ramp:", guess_ramp.reveal("lesson1.ramp"))
 print(f"Halfway through the ramp, kA·a takes {halfway:.2f} V.")
 
 # %% [markdown]
@@ -320,14 +301,7 @@ for gain, unit in (("kV", "V·s/m"), ("kA", "V·s²/m")):
 # **Predict:**
 
 # %%
-guess_gears = Prediction(
-    "You replace the 6.75:1 gears with 8.14:1 gears. What happens to kV and kA?",
-    "both grow",
-    "kV grows, kA shrinks",
-    "kV shrinks, kA grows",
-    "both shrink",
-)
-guess_gears
+ask_question("lesson1.gears")
 
 # %%
 FRICTION = gains["kS"] / volts_per_newton  # [N] the force of friction, which stays as it is
@@ -356,7 +330,6 @@ show_interactive(
 
 # %%
 geared = built(60.0, 8.14, 4, 4.0)
-print(guess_gears.reveal("lesson1.gears"))
 print(f"kV is now {geared['kV'] / gains['kV']:.2f} times as large as before,", end=" ")
 print(f"and kA is {geared['kA'] / gains['kA']:.2f} times as large.")
 
@@ -441,13 +414,7 @@ Table(
 # **Predict:**
 
 # %%
-guess_cause = Prediction(
-    "Which of these can make kV much too large?",
-    "10 kg more on the robot",
-    "a part that rubs, with the same force at every speed",
-    "thick grease, which brakes more at higher speed",
-)
-guess_cause
+ask_question("lesson1.cause")
 
 # %%
 sound = replace(drivetrain, drag=0.05)
@@ -494,7 +461,6 @@ def above(story: str) -> float:
     return 100 * (found(STORIES[story])["kV"] / THEORY - 1)
 
 
-print(guess_cause.reveal("lesson1.cause"))
 SHORT = {"no fault": "no fault", "thick grease in the gears": "grease"}
 SHORT |= {"diameter used as radius": "wrong wheel"}
 marks = {name: above(story) for story, name in SHORT.items()}
@@ -664,16 +630,9 @@ print(f"which is {100 * flag / 12:.0f} % of 12 V. Our drivetrain's kS is {gains[
 # %%
 shooter = MECHANISMS["shooter"].gains
 per_rotation = shooter["kV"] * TURN
-guess_unit = Prediction(
-    f"A shooter has kV = {per_rotation:.3f} V·s/rot. How large is this kV in V·s/rad?",
-    "6.28 times larger",
-    "the same",
-    "6.28 times smaller",
-)
-guess_unit
+ask_question("lesson1.unit", kV=per_rotation)
 
 # %%
-print(guess_unit.reveal("lesson1.unit"))
 rows = [
     (name, f"{speed:.0f}", per_rotation * 50.0 / speed, per_rotation * 50.0)
     for name, speed in (
@@ -724,14 +683,10 @@ print(f"4 inch wheel: kV = 0.8 V·s/rot is the same as {0.8 / (math.pi * wheel):
 # ## 10 Knowledge check
 #
 # Type an answer to the first question; you get feedback at once. (If you see no box, type
-# `quick.answer("0.5 V·s/rad")` in a cell.)
+# `ask_question("lesson1.quick").answer("0.5 V·s/rad")` in a cell.)
 
 # %%
-from grader import QuickNumberCheck
-from sim.teaching.answers import read_answer
-
-quick = QuickNumberCheck(**read_answer("lesson1.quick"))
-quick
+display(ask_question("lesson1.quick"), enable_checkboxes())
 
 # %% [markdown]
 # **1.** A mechanism has kS = 0.2 V and kV = 3.4 V·s/m. It moves at a steady 2 m/s with 7 V. How

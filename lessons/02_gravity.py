@@ -45,26 +45,25 @@ from dataclasses import replace
 
 import ipywidgets as widgets
 import numpy as np
+from IPython.display import display
 
 import sim
-from sim.bench.mechanism import Mechanism
+from grader import ask_question, enable_checkboxes
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import simulate
 from sim.fit import fit
-from sim.fit.information_matrix import compute_information
-from sim.fit.sysid_rows import prepare_rows
 from sim.physics.engine import State, simulate_run
 from sim.plot import (
     Picture,
     Table,
-    plot_ellipses,
+    plot_gain_errors,
     plot_hold_angles,
     plot_hold_window,
     plot_time_series,
     show_interactive,
 )
 from sim.plot.animation import Choice, Gain, Knob, Motion, Panel, Scene, animate_mechanism
-from sim.teaching.prediction import Prediction
+from sim.teaching.gain_errors import compute_gain_errors, simulate_rows
 
 elevator, arm = MECHANISMS["elevator"], MECHANISMS["arm"]
 truth = elevator.gains
@@ -102,20 +101,12 @@ print(f"0 V: after 0.4 s the carriage moves at {let_go(0.0):.2f} m/s. A minus si
 # **Predict:**
 
 # %%
-guess_load = Prediction(
-    "A game piece makes the carriage 1.5 times as heavy. Which gains change?",
-    "kV and kA",
-    "kG and kA",
-    "kG only",
-    "all of them",
-)
-guess_load
+ask_question("lesson2.load")
 
 # %%
 TIMES = 1.5
 UNITS = {"kS": "V", "kV": "V·s/m", "kA": "V·s²/m", "kG": "V"}
 heavy = replace(elevator, load=TIMES * elevator.load).gains
-print(guess_load.reveal("lesson2.load"))
 Table(
     ("gain", f"at {elevator.load:.0f} kg", f"at {TIMES * elevator.load:.0f} kg", "factor", "unit"),
     tuple((one, truth[one], heavy[one], heavy[one] / truth[one], UNITS[one]) for one in truth),
@@ -189,19 +180,10 @@ for name in ("cascade-elevator", "counterweight-elevator"):
 # **Predict:**
 
 # %%
-guess_hold = Prediction(
-    f"An elevator has kG = {truth['kG']:.2f} V and kS = {truth['kS']:.2f} V. You let go of the "
-    f"carriage with {truth['kG'] - 0.15:.2f} V on the motor, a little less than kG. What does the "
-    "carriage do?",
-    "it sinks slowly",
-    "it stays",
-    "it rises slowly",
-)
-guess_hold
+ask_question("lesson2.hold", kG=truth["kG"], kS=truth["kS"], less=truth["kG"] - 0.15)
 
 # %%
 little_less = let_go(truth["kG"] - 0.15)
-print(guess_hold.reveal("lesson2.hold"))
 print(f"{truth['kG'] - 0.15:.2f} V: after 0.4 s the carriage moves at {little_less:.3f} m/s.")
 
 # %% [markdown]
@@ -325,17 +307,9 @@ Table(
 # So the motor needs kG·cos(θ) volts to balance gravity. **Predict:**
 
 # %%
-guess_angle = Prediction(
-    "The arm points 60° above level. Which share of kG does the motor need there against gravity?",
-    "all of it",
-    "about 9/10",
-    "half",
-    "a third",
-)
-guess_angle
+ask_question("lesson2.angle")
 
 # %%
-print(guess_angle.reveal("lesson2.angle"))
 print(f"np.cos(60) = {np.cos(60):.3f}, not 0.5: NumPy, Java and C++ need angles in radians.")
 for angle in (0, 60, 120):
     print(f"At {angle}° the motor needs {np.cos(np.radians(angle)):g} · kG.".replace("-", "−"))
@@ -505,13 +479,7 @@ plot_time_series(log)
 # **Predict:**
 
 # %%
-guess_type = Prediction(
-    "We fit an elevator's log with the type Simple, which has no kG. Which gains do we get?",
-    "kS contains kG, and the other gains are right",
-    "the right gains, only kG is missing",
-    "nonsense",
-)
-guess_type
+ask_question("lesson2.type")
 
 # %%
 drive_log = simulate(MECHANISMS["drivetrain"], sim.Routine(step=2.0), rng=np.random.default_rng(2))
@@ -532,7 +500,6 @@ for name, (one, types) in cases.items():
         found = (got.get(gain, "–") for gain in ("kS", "kV", "kA", "kG"))
         rows.append((f"{name}, fitted as {kind}", *found))
 
-print(guess_type.reveal("lesson2.type"))
 Table(
     ("log", "kS [V]", "kV", "kA", "kG [V]"),
     tuple(rows),
@@ -582,18 +549,10 @@ Table(
 # drive only up? **Predict:**
 
 # %%
-guess_up = Prediction(
-    "The log of an elevator contains only its upward tests. Which gains can a fit find?",
-    "all four gains",
-    "all but kA",
-    "neither kS nor kG, only their sum",
-    "none",
-)
-guess_up
+ask_question("lesson2.up")
 
 # %%
 up_only = replace(log, runs=tuple(run for run in log.runs if run.direction == "forward"))
-print(guess_up.reveal("lesson2.up"))
 try:
     fit(up_only)
 except sim.Refusal as refusal:
@@ -608,61 +567,34 @@ except sim.Refusal as refusal:
 # matches every row as well as before. Even a thousand rows do not help, because each row shows only
 # the sum.
 #
-# Every sensor has *noise*: small random errors. If you repeated the tests many times, noise would
-# change the fitted pair (kS, kG) a little each time. In the next picture, the shaded region
-# contains 95 of 100 such fits. It is called a *confidence ellipse*. A small ellipse means that you
-# know both gains well. With the slider you add rows that were recorded while the carriage moved
-# down.
+# Every sensor has *noise*: small random errors. If you repeated the tests, noise would change each
+# fitted gain a little. In the next picture, the bar of a gain shows its *standard error*: the
+# typical distance from the true gain. A bar as long as the gain itself means: this gain is
+# **unknown**. With the slider you add rows that were recorded while the carriage moved down.
 
 # %%
-SIDES = ("kS", "kG")
-
-
-def quiet_rows(mechanism: Mechanism, routine: sim.Routine) -> dict:
-    """The rows a fit sees of all four tests, as they would be without any noise."""
-    sensor = replace(mechanism.sensor, velocity_noise=0.0, jitter=0.0, resolution=1e-9)
-    seen = simulate(replace(mechanism, sensor=sensor), routine, rng=np.random.default_rng(0))
-    return dict(prepare_rows(seen).rows)
-
-
-def noise_of(mechanism: Mechanism) -> float:
-    """What the encoder's noise amounts to in volts, in a row of 20 ms."""
-    return mechanism.gains["kA"] * mechanism.sensor.velocity_noise / (np.sqrt(2) * 0.02)
-
-
-all_rows = quiet_rows(elevator, routine)
+all_rows = simulate_rows(elevator, routine)
 forward = {test: part for test, part in all_rows.items() if test.endswith("forward")}
 down = all_rows["quasistatic-reverse"]
 
 
-def up_and(down_rows: int) -> Picture:
-    """How well kS and kG are known from the way up and some rows of the way down."""
+def scatter_gains(down_rows: int) -> Picture:
+    """How far the gains scatter that follow from the way up and some rows of the way down."""
     used = {**forward, "quasistatic-reverse": down.select(slice(down_rows))}
-    told = compute_information(
-        used, type="elevator", noise=noise_of(elevator)
-    ).compute_pair_information(*SIDES)
-    return plot_ellipses(
-        {f"95 of 100 fits (rows from the way down: {down_rows})": told},
-        names=("kS [V]", "kG [V]"),
-        truth=(truth["kS"], truth["kG"]),
-        reach=(0.25, 0.25),
-    )
+    return plot_gain_errors(compute_gain_errors(elevator, used))
 
 
 show_interactive(
-    up_and,
-    down_rows=widgets.SelectionSlider(
-        options=[0, 1, 2, 5, 20, len(down)], value=0, description="rows down"
-    ),
+    scatter_gains,
+    down_rows=widgets.IntSlider(min=0, max=len(down), value=0, description="rows down"),
 )
 
 # %% [markdown]
-# Without rows from the way down, the ellipse is an endless band. Everywhere in this band, kG + kS
-# is nearly the same. With a single row from the way down, the band becomes a closed ellipse.
+# Without rows from the way down, kS and kG are unknown: only their sum is known. One row from the
+# way down separates them, and more rows make the bars shorter.
 #
 # For an arm this is easier. On the way up, cos(θ) changes and kS does not. So the fit can separate
-# kG from kS, but not precisely. The next table shows how much noise changes a fitted gain. The
-# *standard error* is the typical distance from the true gain:
+# kG from kS, but not precisely:
 
 # %%
 rows = []
@@ -670,13 +602,13 @@ for name, mechanism, tests in (
     ("elevator", elevator, routine),
     ("arm", arm, sim.Routine(ramp=0.5, step=3.5)),
 ):
-    every = quiet_rows(mechanism, tests)
+    every = simulate_rows(mechanism, tests)
     for which, ways in (("all four tests", ("forward", "reverse")), ("up only", ("forward",))):
         used = {test: part for test, part in every.items() if test.endswith(ways)}
-        errors = compute_information(used, type=mechanism.type, noise=noise_of(mechanism)).errors
-        cells = (errors[gain] if np.isfinite(errors[gain]) else "unknown" for gain in SIDES)
-        rows.append((f"{name}, {which}", *cells))
-Table(("log", "kS ± [V]", "kG ± [V]"), tuple(rows), caption="± is one standard error")
+        errors = compute_gain_errors(mechanism, used)
+        shares = (100 * errors[gain] for gain in ("kS", "kG"))
+        rows.append((f"{name}, {which}", *(one if one < 100 else "unknown" for one in shares)))
+Table(("log", "kS ± [%]", "kG ± [%]"), tuple(rows), caption="± is one standard error")
 
 # %% [markdown]
 # So on an elevator, only the reverse tests separate kS from kG. SysId's window asks for all four
@@ -745,17 +677,10 @@ print(f"The slow ramp up lasted {log.runs[0].time[-1] - log.runs[0].time[0]:.1f}
 # **Predict:** somebody writes `ElevatorFeedforward(kS, kV, kG, kA)`.
 
 # %%
-guess_order = Prediction(
-    "Somebody swapped kV and kG. The code should hold the elevator still. What happens?",
-    "it stands still",
-    "it sinks",
-    "it goes up",
-)
-guess_order
+ask_question("lesson2.order")
 
 # %%
 wrong = truth["kV"]  # at rest, an ElevatorFeedforward gives its second argument
-print(guess_order.reveal("lesson2.order"))
 print(f"At rest the motor gets {wrong:.2f} V instead of {truth['kG']:.2f} V, ", end="")
 print(f"and the carriage moves at {let_go(wrong, height=0.3):.2f} m/s.")
 
@@ -793,11 +718,7 @@ print(f"and the carriage moves at {let_go(wrong, height=0.3):.2f} m/s.")
 # Click an answer to the first question; you get feedback at once.
 
 # %%
-from grader import QuickCheck
-from sim.teaching.answers import read_answer
-
-quick = QuickCheck(**read_answer("lesson2.quick"))
-quick
+display(ask_question("lesson2.quick"), enable_checkboxes())
 
 # %% [markdown]
 # **1.** You raise the voltage slowly. At 1.2 V an elevator no longer falls. At 1.8 V it begins to

@@ -43,12 +43,11 @@ import numpy as np
 from IPython.display import display
 
 import sim
+from grader import ask_question, enable_checkboxes
 from sim.bench.mechanism import Mechanism
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import move_gains_only, simulate
 from sim.fit import fit
-from sim.fit.information_matrix import compute_information
-from sim.fit.sysid_rows import prepare_rows
 from sim.physics.model import Part
 from sim.physics.motors import find_motor
 from sim.plot import (
@@ -56,7 +55,7 @@ from sim.plot import (
     Picture,
     Table,
     plot_curves,
-    plot_information_map,
+    plot_gain_errors,
     plot_time_series,
     plot_voltage_velocity,
     show_interactive,
@@ -71,7 +70,7 @@ from sim.plot.animation import (
     TestPlan,
     animate_mechanism,
 )
-from sim.teaching.prediction import Prediction
+from sim.teaching.gain_errors import compute_gain_errors, simulate_rows
 
 drivetrain, shooter = MECHANISMS["drivetrain"], MECHANISMS["shooter"]
 truth = drivetrain.gains
@@ -97,13 +96,7 @@ Table(
 # the dynamic test:
 
 # %%
-guess_rise = Prediction(
-    "After a sudden step of voltage, how does the speed rise to its final value?",
-    "evenly, and then it suddenly stays constant",
-    "quickly first, then slower and slower",
-    "slowly first, then faster and faster",
-)
-guess_rise
+ask_question("lesson3.rise")
 
 # %%
 routine = sim.Routine(ramp=1.0, step=2.0, timeout=8.0)
@@ -121,7 +114,6 @@ top = (2.0 - truth["kS"]) / truth["kV"]
 tau = truth["kA"] / truth["kV"]
 at_tau = float(np.interp(tau, since, speed))
 
-print(guess_rise.reveal("lesson3.rise"))
 print(
     f"The star shows the time kA/kV = {1000 * tau:.0f} ms. Then the robot has "
     f"{100 * at_tau / top:.0f} % of its final speed."
@@ -179,13 +171,7 @@ plot_curves(
 # **Predict:**
 
 # %%
-guess_drift = Prediction(
-    "You read the kS of both mechanisms off a ramp of 1 V/s. Which kS has the larger error?",
-    "the drivetrain's",
-    "the flywheel's",
-    "neither, both are right",
-)
-guess_drift
+ask_question("lesson3.drift")
 
 
 # %%
@@ -233,7 +219,6 @@ show_interactive(
 )
 
 # %%
-print(guess_drift.reveal("lesson3.drift"))
 rows = []
 for name, mechanism in SHOWN.items():
     gains = mechanism.gains
@@ -289,109 +274,43 @@ Table(
 # </details>
 
 # %% [markdown]
-# ## 4 The information map: what each run adds
+# ## 4 What does each test add?
 #
-# Every row of a log gives one equation: the model with the V, v and a of this row. The left picture
-# shows each row as a dot. Its horizontal position is v, and its vertical position is a. If the dots
-# are in many different places, the equations differ, and the fit can separate the gains. If all
-# dots are on one line, the fit cannot separate the gains.
+# Every row of a log gives one equation: the model with the V, v and a of this row. A fit can
+# separate the gains only if the equations differ. So it needs rows with many different v and a.
 #
-# The right picture shows the **confidence ellipse** of lesson 2: if you repeated the tests with new
-# noise, 95 of 100 fits would give gains inside the ellipse. A small ellipse is good. An endless
-# band means that both gains are unknown, even if the band looks level.
+# If you repeated the tests, noise would change each fitted gain a little. In the next picture, the
+# bar of a gain shows its *standard error* (the typical error from noise alone). A bar as long as
+# the gain itself means: this gain is **unknown**.
 #
-# **Predict** before you choose runs in the menu:
+# **Predict** before you switch tests off:
 
 # %%
-guess_drop = Prediction(
-    "Only the dynamic reverse run of this drivetrain is missing. What becomes unknown?",
-    "kA",
-    "kS",
-    "kV",
-    "nothing, the errors grow a little",
-)
-guess_ramps = Prediction(
-    "Both ramp tests are missing, and we have both step tests. What becomes unknown?",
-    "kA only",
-    "kS only",
-    "all three gains",
-    "nothing",
-)
-display(guess_drop, guess_ramps)
+display(ask_question("lesson3.drop"), ask_question("lesson3.ramps"))
 
 # %%
-sensor = replace(drivetrain.sensor, velocity_noise=0.0, jitter=0.0, resolution=1e-9)
-quiet = simulate(replace(drivetrain, sensor=sensor), routine, rng=np.random.default_rng(0))
-all_rows = dict(prepare_rows(quiet).rows)
-NOISE = truth["kA"] * drivetrain.sensor.velocity_noise / (np.sqrt(2) * 0.02)  # [V] of a row
-REACH = {"kS": 0.15, "kV": 0.02, "kA": 0.25}
-UNIT = {"kS": "kS [V]", "kV": "kV [V·s/m]", "kA": "kA [V·s²/m]"}
+all_rows = simulate_rows(drivetrain, routine)
 
 
-def map_of(tests: list[str], pair: tuple[str, str]) -> Picture:
-    """Where the rows of some runs lie, and how well two gains follow from them."""
-    rows = {test: all_rows[test] for test in tests}
-    told = compute_information(rows, type="simple", noise=NOISE).compute_pair_information(*pair)
-    return plot_information_map(
-        rows,
-        told,
-        names=(UNIT[pair[0]], UNIT[pair[1]]),
-        truth=(truth[pair[0]], truth[pair[1]]),
-        reach=(REACH[pair[0]], REACH[pair[1]]),
-    )
-
-
-SETS = {
-    "1 ramp: quasistatic forward": ["quasistatic-forward"],
-    "2 ramps": ["quasistatic-forward", "quasistatic-reverse"],
-    "2 ramps and 1 step (no dynamic reverse)": [
-        "quasistatic-forward",
-        "quasistatic-reverse",
-        "dynamic-forward",
-    ],
-    "all four": list(all_rows),
-    "no ramps: 2 steps": ["dynamic-forward", "dynamic-reverse"],
-    "forward only": ["quasistatic-forward", "dynamic-forward"],
-}
-
-
-def map_picture(runs: str, gains: str) -> Picture:
-    """The information map of a set of runs."""
-    first, second = gains.split(" and ")
-    return map_of(SETS[runs], (first, second))
+def scatter_gains(**tests: bool) -> Picture:
+    """How far the gains scatter that a fit of the ticked tests finds."""
+    used = {test: all_rows[test] for test, ticked in tests.items() if ticked}
+    return plot_gain_errors(compute_gain_errors(drivetrain, used))
 
 
 show_interactive(
-    map_picture,
-    runs=widgets.Dropdown(options=list(SETS), description="runs", layout={"width": "25em"}),
-    gains=widgets.Dropdown(options=["kS and kA", "kS and kV", "kV and kA"], description="gains"),
+    scatter_gains,
+    **{test: widgets.Checkbox(value=True, description=test) for test in all_rows},
 )
 
 # %% [markdown]
-# Add runs one by one: choose the first four lines of the menu. With one ramp, the ellipse of kS and
-# kA is long, because a ramp shows only the sum kS + τ·ramp (section 3). With a single step test,
-# the fit can separate kS and kA. The next table shows the errors for each line of the menu:
-
-# %%
-rows = []
-for name, tests in SETS.items():
-    errors = compute_information(
-        {test: all_rows[test] for test in tests}, type="simple", noise=NOISE
-    ).errors
-    shares = (100 * errors[gain] / truth[gain] for gain in ("kS", "kV", "kA"))
-    rows.append((name, *(share if share < 100 else "unknown" for share in shares)))
-print("1.", guess_drop.reveal("lesson3.drop"))
-print("2.", guess_ramps.reveal("lesson3.ramps"))
-Table(
-    ("runs", "kS ± [%]", "kV ± [%]", "kA ± [%]"),
-    tuple(rows),
-    caption="One standard error (the typical error from noise alone), in percent of the gain",
-)
+# Switch tests off and on again. Which single test can you leave out? With the ramps alone, kS and
+# kA are uncertain, because a ramp shows mainly the sum kS + τ·ramp (section 3).
 
 # %% [markdown]
 # ### Explain
 #
-# - **Without step tests** (the row "2 ramps") kA and kS are very uncertain.
+# - **Without step tests** kA and kS are very uncertain.
 # - **Without ramps**, you can find no gain. With one constant voltage the rows only show the final
 #   speed and how quickly the robot reaches it. These two numbers are not enough for three unknown
 #   gains. (If you knew kS, you could compute kV and kA.)
@@ -420,8 +339,8 @@ except sim.Refusal as refusal:
 # > determined". So you need both tests. ([WPILib docs: Creating a
 # > Routine](https://github.com/wpilibsuite/frc-docs/blob/d57699ab3bc9612521fb1cd8edf9db348c3ddbc1/source/docs/software/advanced-controls/system-identification/creating-routine.rst))
 # >
-# > **Try it:** choose "no ramps: 2 steps" in the menu of the map. The dots are on two lines, and
-# > the ellipse is an endless band.
+# > **Try it:** leave only the two dynamic tests in the picture above. Each bar is as long as its
+# > gain.
 # </details>
 
 # %% [markdown]
@@ -437,13 +356,7 @@ except sim.Refusal as refusal:
 # **Predict:**
 
 # %%
-guess_lean = Prediction(
-    "We fit all four runs of this robot with one kS. Which gain has the largest error in percent?",
-    "kS",
-    "kV",
-    "kA",
-)
-guess_lean
+ask_question("lesson3.lean")
 
 # %%
 LEAN = -0.15  # [V] on top of 0.30 V: 0.15 V forward, 0.45 V in reverse
@@ -459,7 +372,6 @@ both = fit(uneven_log, method="sysid")
 gains = (both.gains[name] for name in truth)
 rows.append(("all four, SysId's recipe", *gains, both.simulated_velocity_r2))
 rows.append(("truth", f"{0.30 + LEAN:.2f} and {0.30 - LEAN:.2f}", truth["kV"], truth["kA"], "–"))
-print(guess_lean.reveal("lesson3.lean"))
 Table(("runs", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "simulated velocity R²"), tuple(rows))
 
 # %% [markdown]
@@ -500,14 +412,7 @@ Table(("runs", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "simulated velocity R²
 # room has a certain length, and the robot should reach 1 m/s. **Predict:**
 
 # %%
-guess_way = Prediction(
-    "We halve the voltage ramp to 0.5 V/s. How far does the robot now drive to reach 1 m/s?",
-    "half as far",
-    "just as far",
-    "twice as far",
-    "four times as far",
-)
-guess_way
+ask_question("lesson3.way")
 
 # %%
 TEN_FEET = 3.05  # [m]
@@ -526,7 +431,6 @@ for ramp in (0.25, 0.5, 1.0, 2.0):
     volts = ramp * float(np.interp(TEN_FEET, place, time))
     ten_seconds = float(np.interp(10.0, time, place)) if time[-1] >= 9.9 else "–"
     rows.append((ramp, float(np.interp(1.0, speed, place)), rule, volts, ten_seconds))
-print(guess_way.reveal("lesson3.way"))
 Table(
     (
         "ramp [V/s]",
@@ -775,11 +679,7 @@ animate_mechanism(
 # Click an answer to the first question; you get feedback at once.
 
 # %%
-from grader import QuickCheck
-from sim.teaching.answers import read_answer
-
-quick = QuickCheck(**read_answer("lesson3.quick"))
-quick
+display(ask_question("lesson3.quick"), enable_checkboxes())
 
 # %% [markdown]
 # **1.** A flywheel has τ = 0.4 s and a true kS of 0.10 V. You read kS off a ramp of 0.5 V/s. About
@@ -801,13 +701,12 @@ quick
 # and let go of the button quickly.
 # </details>
 #
-# **3.** In the information map the dots of each direction lie on one slanted line. Which runs are
-# missing in this log?
+# **3.** A log holds only the two dynamic tests. Why can you find no gain?
 #
 # <details><summary>Answer</summary>
 #
 # The ramps are missing: with one constant voltage, the acceleration falls evenly as the speed
-# rises. Without a ramp, you can find no gain.
+# rises. So all rows give two equations for three gains.
 # </details>
 #
 # **4.** A fit of the forward runs gives kS = 0.14 V. A fit of the reverse runs gives 0.38 V. What

@@ -44,17 +44,17 @@
 import math
 from dataclasses import replace
 
-import ipywidgets as widgets
 import numpy as np
 from IPython.display import display
 
 import sim
+from grader import ask_question, enable_checkboxes
 from sim.bench.duty_cycle import Battery, simulate_duty_cycle
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import simulate
 from sim.fit import fit
-from sim.plot import Picture, Table, plot_choices, plot_time_series, show_interactive
-from sim.teaching.prediction import Prediction
+from sim.plot import Table, plot_time_series
+from sim.plot.animation import Choice, Motion, Panel, Scene, animate_mechanism
 
 drivetrain = MECHANISMS["drivetrain"]
 truth = drivetrain.gains
@@ -562,29 +562,7 @@ print(f"2π is {2 * math.pi:.4f}.")
 # you look:
 
 # %%
-guess_gain = Prediction(
-    "1. The drive callback calls motor.set(volts / 12). The log contains the commanded volts. "
-    "The battery is nearly empty. Which gain has the largest error?",
-    "kS",
-    "kV",
-    "kA",
-    "none of them",
-)
-guess_factor = Prediction(
-    "2. The code logs turns of the wheel as if they were meters. The wheel has a diameter of "
-    "4 inches. How large is the kV from this log?",
-    "it is right anyway",
-    "3.1 times too small",
-    "6.3 times too small",
-    "2 times too big",
-)
-guess_score = Prediction(
-    "3. For which of the wrong programs is the simulated velocity R² below 0.9?",
-    "for all",
-    "for some",
-    "for none",
-)
-display(guess_gain, guess_factor, guess_score)
+display(ask_question("lesson4.gain"), ask_question("lesson4.factor"), ask_question("lesson4.score"))
 
 # %% [markdown]
 # These are the seven programs:
@@ -636,24 +614,34 @@ programs = {
 }
 
 # %% [markdown]
-# Choose a program. The upper picture shows its log. A thin dotted line in it shows what really
-# happened. The lower picture shows each gain from this log, divided by the true gain: 1 is correct.
-
+# Choose a program, and hold a button of the controller. The solid robot really drives, with the
+# volts at its motors. The dashed outline is where the log callback says that the robot is.
 
 # %%
-def virtual_robot(program: str) -> list[Picture]:
-    """The log that a program writes, and the gains from this log."""
-    logged, happened = programs[program]
-    found = fit(logged, method="sysid").gains
-    ratios = {gain: found[gain] / truth[gain] for gain in ("kS", "kV", "kA")}
-    return [
-        plot_time_series(logged, beside=happened, dynamic_seconds=1.0),
-        plot_choices(ratios, truth=1.0, name="found ÷ true"),
-    ]
+BUTTONS = {f"{button}: {test}": test for button, test in zip("ABXY", routine.tests, strict=True)}
 
 
-show_interactive(
-    virtual_robot, program=widgets.Dropdown(options=list(programs), description="program")
+def hold_button(program: str, test: str) -> Scene:
+    """What one test of a program does, and what the log callback writes down."""
+    logged, happened = (log.list_runs_of_test(test)[0] for log in programs[program])
+    robot = Motion("robot", happened.velocity, happened.position, happened.voltage)
+    log = Motion("log", logged.velocity, logged.position, logged.voltage, ghost=True)
+    return Scene(happened.time - happened.time[0], (robot, log))
+
+
+animate_mechanism(
+    "drivetrain",
+    {
+        (program, button): hold_button(program, test)
+        for program in programs
+        for button, test in BUTTONS.items()
+    },
+    choices=(Choice("program", tuple(programs)), Choice("button", tuple(BUTTONS))),
+    panels=(Panel("voltage", "voltage [V]"), Panel("velocity", "velocity [m/s]")),
+    span=(-11.0, 21.0),
+    alt="A robot drives while a button is held. A dashed outline shows where its log says that it "
+    "is. With the correct program both are at the same place. With an inverted encoder the log "
+    "goes backward, and with wrong units it goes too far or not far enough.",
 )
 
 # %% [markdown]
@@ -667,15 +655,12 @@ asked, arrived = (fit(programs[name][0], method="sysid") for name in list(progra
 off = {gain: 100 * (asked.gains[gain] / truth[gain] - 1) for gain in truth}
 turns = fit(programs["turns called meters"][0], method="sysid").gains["kV"] / truth["kV"]
 worst = min(fit(log, method="sysid").simulated_velocity_r2 for log, _ in programs.values())
-print("1.", guess_gain.reveal("lesson4.gain"))
 print("   Errors with the commanded volts:", end=" ")
 print(f"kS {off['kS']:+.0f} %, kV {off['kV']:+.0f} %, kA {off['kA']:+.0f} %.")
-print("2.", guess_factor.reveal("lesson4.factor"))
 print(
     f"   kV is {1 / turns:.2f} times too small, because the wheel's circumference is "
     f"1/{1 / CIRCUMFERENCE:.2f} m."
 )
-print("3.", guess_score.reveal("lesson4.score"))
 print(f"   The lowest simulated velocity R² of all seven programs is {worst:.3f}.")
 
 # %% [markdown]
@@ -807,11 +792,7 @@ print(f"   The lowest simulated velocity R² of all seven programs is {worst:.3f
 # Click an answer to the first question; you get feedback at once.
 
 # %%
-from grader import QuickCheck
-from sim.teaching.answers import read_answer
-
-quick = QuickCheck(**read_answer("lesson4.quick"))
-quick
+display(ask_question("lesson4.quick"), enable_checkboxes())
 
 # %% [markdown]
 # **1.** The analyzer shows kV = 0.40 V·s/m for a drivetrain that should have about 2.5. What is the

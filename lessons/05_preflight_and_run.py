@@ -66,19 +66,28 @@ from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-import ipywidgets as widgets
 import numpy as np
 from IPython.display import display
 
 import sim
+from grader import ask_question, enable_checkboxes
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import simulate
 from sim.fit import fit
 from sim.inspect.contaminate import contaminate
 from sim.inspect.detect_faults import inspect
 from sim.physics.battery import CONTROLLERS, Battery
-from sim.plot import Picture, Table, plot_runway, plot_time_series, show_interactive
-from sim.teaching.prediction import Prediction
+from sim.plot import Table, plot_time_series
+from sim.plot.animation import (
+    Choice,
+    Gain,
+    Knob,
+    Motion,
+    Panel,
+    Scene,
+    TestPlan,
+    animate_mechanism,
+)
 from sim.teaching.runway import GRIP, THUMB, Floor, drive_test
 
 ROBOT = replace(MECHANISMS["drivetrain"], travel=None)  # nobody ends its tests but you
@@ -106,19 +115,7 @@ Table(
 # **Predict:**
 
 # %%
-guess_room = Prediction(
-    "The robot should reach 2 m/s. Do you need more room or less if you halve the voltage ramp?",
-    "less room",
-    "the same",
-    "more room",
-)
-guess_ten = Prediction(
-    "A common test is a ramp of 0.5 V/s for 10 s. How far does our robot drive in this test?",
-    "about 1 m",
-    "about 3 m (10 feet)",
-    "about 9 m (30 feet)",
-)
-display(guess_room, guess_ten)
+display(ask_question("lesson5.room"), ask_question("lesson5.ten"))
 
 # %%
 RAMP, STEP = "quasistatic-forward", "dynamic-forward"
@@ -139,8 +136,6 @@ for ramp in (0.25, 0.5, 1.0, 2.0):
     rows.append((ramp, time, way, TRUTH["kV"] * 2.0**2 / (2 * ramp)))
 
 slow = drive_test(ROBOT, sim.Routine(ramp=0.5, timeout=10.0), test=RAMP, floor=HALL)
-print(guess_room.reveal("lesson5.room"))
-print(guess_ten.reveal("lesson5.ten"))
 gone = slow.final_position
 print(f"With 0.5 V/s for 10 s, the robot drives {gone:.1f} m, or {gone / FOOT:.0f} feet.")
 Table(
@@ -216,41 +211,46 @@ print(f"and {lifted['kA'] / TRUTH['kA']:.2f} times the true kA.")
 # **Predict:**
 
 # %%
-guess_stop = Prediction(
-    "The tape is at 7 m, the wall is at 12 m, and the ramp is 1 V/s. Where does the robot stop?",
-    "right at the tape",
-    "about 1 m past it",
-    "about 3 m past it",
-    "at the wall",
-)
-guess_stop
+ask_question("lesson5.stop")
 
 # %% [markdown]
-# Move the sliders. The slider "moment" sets the time: 0 is the start of the test, 1 is the end. The
-# dashed outline shows where the robot stops.
+# Move the sliders, and press *Play*. "reaction" is the time from the tape until you let go.
 
 # %%
 WALL = 12.0  # [m]
 
 
-def run_it(test: str, tape: float, thumb: float, moment: float) -> Picture:
-    """One test in our hall."""
-    floor = Floor(wall=WALL, tape=tape, thumb=thumb)
-    return plot_runway(drive_test(ROBOT, routine, test=test, floor=floor), moment=moment)
+def press_button(**volts: float) -> Scene:
+    """One test in our hall, with the tape and the reaction of the sliders."""
+    plan = TestPlan(mark=Gain("tape"), reaction=Gain("reaction"), timeout=routine.timeout, **volts)
+    return Scene(np.arange(0.0, 12.0, 0.02), (Motion("robot", gains=TRUTH, plan=plan),))
 
 
-show_interactive(
-    run_it,
-    test=widgets.Dropdown(options=[("ramp", RAMP), ("step", STEP)], description="test"),
-    tape=widgets.FloatSlider(min=1, max=11.5, step=0.5, value=7, description="tape [m]"),
-    thumb=widgets.FloatSlider(min=0.1, max=1.5, step=0.1, value=THUMB, description="reaction [s]"),
-    moment=widgets.FloatSlider(min=0, max=1, step=0.1, value=0.7, description="moment"),
+animate_mechanism(
+    "drivetrain",
+    {
+        ("ramp",): press_button(ramp=routine.ramp),
+        ("step",): press_button(step=routine.step),
+    },
+    choices=(Choice("test", ("ramp", "step")),),
+    knobs=(
+        Knob("tape", "tape [m]", low=1.0, high=11.5, step=0.1, value=7.0),
+        Knob("reaction", "reaction [s]", low=0.1, high=1.5, step=0.05, value=THUMB),
+    ),
+    panels=(Panel("velocity", "speed [m/s]", low=0.0, high=4.5),),
+    span=(-1.0, WALL),
+    wall=WALL,
+    marks={"tape": Gain("tape")},
+    alt="A robot drives toward a wall at 12 m. A strip of tape lies at 7 m. The motors are on "
+    "until 0.3 s after the tape. In the ramp test, the robot stops about 1 m past the tape.",
 )
+
+# %% [markdown]
+# (This is simplified: here the wheels do not slip when the motors brake.)
 
 # %%
 went = drive_test(ROBOT, routine, test=RAMP, floor=Floor(wall=WALL, tape=7.0))
 top = float(went.velocity.max())
-print(guess_stop.reveal("lesson5.stop"))
 let_go = float(np.interp(went.released, went.time, went.position))
 print(f"The robot stops {went.final_position - 7.0:.2f} m past the tape:")
 print(f"  {let_go - 7.0:.2f} m until you react, and {went.final_position - let_go:.2f} m to brake.")
@@ -275,42 +275,44 @@ print(f"  The formula v²/(2·μ·g) gives {top**2 / (2 * GRIP * 9.81):.2f} m at
 # **Predict:**
 
 # %%
-guess_check = Prediction(
-    "The robot drives as always, but the log is wrong. Which check did you skip?",
-    "room",
-    "battery",
-    "encoder",
-    "log",
-    "guard",
-)
-guess_check
+ask_question("lesson5.check")
 
 # %%
 TIRED = replace(ROBOT, battery=Battery(rest=11.6, resistance=0.035))
-SKIPS = ["nothing", "1 room", "2 battery", "3 encoder", "4 log", "5 guard"]
+SKIPS = ("2 battery", "nothing", "1 room", "3 encoder", "4 log", "5 guard")
+TESTS = {"step": STEP, "ramp": RAMP}
 
 
-def morning(skipped: str, test: str, moment: float) -> Picture:
-    """What happens on the floor when a check was skipped."""
-    floor = Floor(wall=WALL, tape=7.0)
-    if skipped == "1 room":
-        floor = Floor(wall=WALL)
+def skip_check(skipped: str, test: str) -> Scene:
+    """What happens on the floor when a check was skipped, and which speed the log shows."""
+    floor, start = Floor(wall=WALL, tape=None if skipped == "1 room" else 7.0), 0.0
     if skipped == "5 guard":
-        floor = Floor(wall=1.0, watched=1.0)  # Disable takes a second
+        floor, start = Floor(wall=1.0, watched=1.0), WALL - 1.0  # Disable takes a second
     robot = TIRED if skipped == "2 battery" else ROBOT
-    return plot_runway(drive_test(robot, routine, test=test, floor=floor), moment=moment)
+    went = drive_test(robot, routine, test=TESTS[test], floor=floor)
+    logged = -went.velocity if skipped == "3 encoder" else went.velocity
+    where = start + went.position
+    return Scene(went.time, (Motion("robot", logged, where, voltage=went.battery),))
 
 
-show_interactive(
-    morning,
-    skipped=widgets.Dropdown(options=SKIPS, value="2 battery", description="skipped"),
-    test=widgets.Dropdown(options=[("ramp", RAMP), ("step", STEP)], value=STEP, description="test"),
-    moment=widgets.FloatSlider(min=0, max=1, step=0.1, value=1, description="moment"),
+animate_mechanism(
+    "drivetrain",
+    {(skipped, test): skip_check(skipped, test) for skipped in SKIPS for test in TESTS},
+    choices=(Choice("skipped", SKIPS), Choice("test", tuple(TESTS))),
+    panels=(
+        Panel("velocity", "logged speed [m/s]"),
+        Panel("voltage", "battery [V]", low=0.0, high=13.0),
+    ),
+    span=(-1.0, WALL),
+    wall=WALL,
+    alt="A robot drives toward a wall at 12 m, after one of five checks was skipped. Below are the "
+    "speed in the log and the battery voltage. With an old, empty battery, the step test pulls "
+    "the voltage below 6.75 V again and again, and the robot hardly moves.",
 )
 
 # %% [markdown]
-# First choose "2 battery" and "step". The step test draws so much current that the battery voltage
-# falls below the dashed line. Then the robot controller turns the motors off to protect itself:
+# With "2 battery", the step test draws so much current that the battery voltage falls below 6.75 V.
+# Then the robot controller turns the motors off to protect itself:
 # this is a *brownout*. The battery recovers, the motors start, and the voltage falls again. The
 # robot hardly moves. (On a real robot, you would see the same, but more slowly.) Then skip other
 # checks.
@@ -351,7 +353,6 @@ for name, log in logs.items():
     names = {damage.fault for damage in seen.damages} | {doubt.code for doubt in log.doubts}
     ratios = [found.gains[gain] / TRUTH[gain] for gain in ("kS", "kV", "kA")]
     rows.append((name, ", ".join(sorted(names)) or "nothing", *ratios))
-print(guess_check.reveal("lesson5.check"))
 Table(("skipped", "found in the log", "kS ÷ true", "kV ÷ true", "kA ÷ true"), tuple(rows))
 
 # %% [markdown]
@@ -873,11 +874,7 @@ Table(
 # Click an answer to the first question.
 
 # %%
-from grader import QuickCheck
-from sim.teaching.answers import read_answer
-
-quick = QuickCheck(**read_answer("lesson5.quick"))
-quick
+display(ask_question("lesson5.quick"), enable_checkboxes())
 
 # %% [markdown]
 # **1.** A teammate says: "Our room is short, so we use a slow ramp of 0.25 V/s." What do you

@@ -43,6 +43,7 @@ import numpy as np
 from IPython.display import display
 
 import sim
+from grader import ask_question, enable_checkboxes
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import simulate
 from sim.fit import fit
@@ -62,7 +63,6 @@ from sim.plot import (
     plot_voltage_velocity,
     show_interactive,
 )
-from sim.teaching.prediction import Prediction
 from sim.teaching.r2_cases import GOOD, make_cases
 
 ROBOT = replace(MECHANISMS["drivetrain"], travel=None)
@@ -83,13 +83,7 @@ print(
 # **Predict first.** In the dynamic test the voltage jumps to 3.5 V and stays there.
 
 # %%
-guess_rise = Prediction(
-    "While the velocity rises, the acceleration is…",
-    "about constant, then zero",
-    "largest at the start, then less and less",
-    "small at first, then larger and larger",
-)
-guess_rise
+ask_question("lesson6.rise")
 
 # %%
 plot_time_series(sound, dynamic_seconds=0.6)
@@ -143,7 +137,6 @@ plot_acceleration_velocity(sound)
 rise = sound.list_runs_of_test("dynamic-forward")[0]
 slope = np.gradient(rise.velocity, rise.time)
 early, later = (int(np.searchsorted(rise.time, rise.time[0] + wait)) for wait in (0.02, 0.02 + TAU))
-print(guess_rise.reveal("lesson6.rise"))
 print(f"Acceleration after  20 ms: {slope[early]:.1f} m/s²")
 print(f"Acceleration {1000 * TAU:.0f} ms later: {slope[later]:.1f} m/s²", end="")
 print(f", {slope[later] / slope[early]:.0%} of it")
@@ -202,20 +195,7 @@ print(f", {slope[later] / slope[early]:.0%} of it")
 # **Predict:**
 
 # %%
-guess_late = Prediction(
-    "A velocity filter makes the velocity late. Which plot shows it best?",
-    "voltage against velocity",
-    "the time steps",
-    "the velocity next to the slope of the position",
-)
-guess_gap = Prediction(
-    "A few samples are missing in the log. Which gain gets the largest error?",
-    "kS",
-    "kV",
-    "kA",
-    "all the same",
-)
-display(guess_late, guess_gap)
+display(ask_question("lesson6.late"), ask_question("lesson6.gap"))
 
 # %% [markdown]
 # Choose a log and a plot. First look at the log "clean" in every plot.
@@ -402,8 +382,6 @@ for share, longest in ((0.0, 0.05), (0.05, 0.1), (0.2, 0.1), (0.2, 0.3)):
     name = f"{100 * share:.0f} % of the loops, up to {1000 * longest:.0f} ms" if share else "none"
     rows.append((name, float(np.mean(kv)), float(np.mean(ka)), float(ka.min()), float(ka.max())))
 
-print(guess_late.reveal("lesson6.late"))
-print(guess_gap.reveal("lesson6.gap"))
 Table(("gaps", "kV ÷ true", "kA ÷ true, mean of ten", "smallest", "largest"), tuple(rows))
 
 # %% [markdown]
@@ -554,20 +532,7 @@ Table(
 
 # %%
 wrong = [case for case in all_cases if case.harmful]
-guess_count = Prediction(
-    f"Of the {len(wrong)} logs that are wrong, how many get a simulated velocity R² above 0.9?",
-    "none",
-    "about 5",
-    "about 10",
-    "nearly all",
-)
-guess_robust = Prediction(
-    "Which gain usually has the largest error?",
-    "kS",
-    "kV",
-    "kA",
-)
-display(guess_count, guess_robust)
+display(ask_question("lesson6.count", wrong=len(wrong)), ask_question("lesson6.robust"))
 
 # %% [markdown]
 # **Decide first:** which of these logs would you use? Write down their letters. Then choose
@@ -652,8 +617,6 @@ typical = {
     gain: float(np.median([abs(case.compute_gain_error(gain)) for case in damage])) for gain in OFF
 }
 best = max(wrong, key=lambda case: case.fit.acceleration_r2)
-print(guess_count.reveal("lesson6.count"))
-print(guess_robust.reveal("lesson6.robust"))
 print(f"{len(passing)} of {len(wrong)} wrong logs have a {SIM} above {GOOD:g}.")
 print(
     f"In half of the {len(damage)} wrong logs without a changed unit, the errors are larger than",
@@ -777,11 +740,7 @@ plot_time_series(gallery["encoder slip"], dynamic_seconds=0.6, damages=seen.dama
 # Click an answer to the first question.
 
 # %%
-from grader import QuickCheck
-from sim.teaching.answers import read_answer
-
-quick = QuickCheck(**read_answer("lesson6.quick"))
-quick
+display(ask_question("lesson6.quick"), enable_checkboxes())
 
 # %% [markdown]
 # **1.** Which plot shows which fault? The plots are (a) time steps, (b) velocity next to the slope

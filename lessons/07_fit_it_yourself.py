@@ -43,6 +43,7 @@ import numpy as np
 from IPython.display import display
 
 import sim
+from grader import ask_question, enable_checkboxes
 from sim.bench.duty_cycle import simulate_duty_cycle
 from sim.bench.mechanism import Mechanism
 from sim.bench.mechanisms import MECHANISMS
@@ -63,7 +64,6 @@ from sim.plot import (
     show_interactive,
 )
 from sim.teaching.fit_gaps import fill_gaps
-from sim.teaching.prediction import Prediction
 
 drivetrain = MECHANISMS["drivetrain"]
 
@@ -97,19 +97,7 @@ plot_time_series(log, dynamic_seconds=1.0)
 # **Predict:**
 
 # %%
-guess_line = Prediction(
-    "Read the voltage of the line at velocity 0. Compared with the true kS, it is…",
-    "smaller",
-    "about the same",
-    "larger",
-)
-guess_ramp = Prediction(
-    "The ramp is twice as fast. The kS that you read off the line is now…",
-    "smaller",
-    "the same",
-    "larger",
-)
-display(guess_line, guess_ramp)
+display(ask_question("lesson7.line"), ask_question("lesson7.ramp"))
 
 
 # %%
@@ -148,8 +136,6 @@ for ramp in RAMPS:
     rule = truth["kS"] + timescale * ramp
     rows.append((ramp, read_off, rule, rule + 0.010 * ramp))
 
-print(guess_line.reveal("lesson7.line"))
-print(guess_ramp.reveal("lesson7.ramp"))
 print(f"True kS: {truth['kS']:.3f} V. kA/kV = {1000 * timescale:.0f} ms.")
 Table(
     ("ramp [V/s]", "kS of the line [V]", "kS + (kA/kV)·ramp [V]", "the same + half a loop [V]"),
@@ -305,10 +291,7 @@ print(f"kA is {first_try['kA'] / truth['kA']:.2f} times the truth.")
 # **Predict:**
 
 # %%
-guess_noise = Prediction(
-    "Which slope is too small?", "with noise in y", "with noise in x", "both", "neither"
-)
-guess_noise
+ask_question("lesson7.noise")
 
 # %%
 rng = np.random.default_rng(1)
@@ -316,7 +299,6 @@ x = rng.uniform(-1, 1, 5000)
 noise = 0.5 * rng.standard_normal(x.size)
 in_y = np.linalg.lstsq(x[:, None], 2 * x + noise, rcond=None)[0][0]
 in_x = np.linalg.lstsq((x + noise)[:, None], 2 * x, rcond=None)[0][0]
-print(guess_noise.reveal("lesson7.noise"))
 print(f"noise in y: slope {in_y:.3f}    noise in x: slope {in_x:.3f}    truth: 2")
 
 # %% [markdown]
@@ -548,10 +530,7 @@ print(f"and {used['dynamic-forward']} rows of the dynamic forward test.")
 # **Predict:**
 
 # %%
-guess_choice = Prediction(
-    "Which choice can change kA the most?", "side", "threshold", "filter", "time step", "trim"
-)
-guess_choice
+ask_question("lesson7.choice")
 
 
 # %%
@@ -581,7 +560,6 @@ for seed in range(8):
     gappy.append(with_missed_loops(simulate(robot, routine, rng=rng), share=0.05, rng=rng))
 
 results = {way: [my_fit(one, **s)["kA"] for one in gappy] for way, s in WAYS.items()}
-print(guess_choice.reveal("lesson7.choice"))
 plot_choices(
     {way: float(np.mean(values)) for way, values in results.items()},
     spreads={way: float(np.std(values)) for way, values in results.items()},
@@ -812,13 +790,7 @@ Table(("noise [m/s]", "kS [V]", "kA [V·s²/m]", "kS + kA·(ramp/kV) [V]"), tupl
 # **Predict** for our quiet drivetrain:
 
 # %%
-guess_filter = Prediction(
-    "With a window of 15 samples, kA is…",
-    "still right",
-    "a little too small",
-    "less than half of the truth",
-)
-guess_filter
+ask_question("lesson7.filter")
 
 # %%
 WINDOWS = [1, 3, 5, 7, 9, 11, 13, 15]
@@ -830,7 +802,6 @@ for name, level in levels.items():
         fits = [fit(one, method="sysid", median=window).gains["kA"] for one in logs]
         by_window[name].append(float(np.mean(fits)))
 
-print(guess_filter.reveal("lesson7.filter"))
 print(f"kA/kV = {1000 * timescale:.0f} ms, which is {timescale / 0.02:.1f} samples of 20 ms.")
 plot_curves(
     WINDOWS,
@@ -1015,11 +986,7 @@ for doubt in best.doubts:
 # Click an answer to the first question.
 
 # %%
-from grader import QuickCheck
-from sim.teaching.answers import read_answer
-
-quick = QuickCheck(**read_answer("lesson7.quick"))
-quick
+display(ask_question("lesson7.quick"), enable_checkboxes())
 
 # %% [markdown]
 # **1.** Why is the acceleration on the left side of SysId's fit?

@@ -44,6 +44,7 @@ import numpy as np
 from IPython.display import display
 
 import sim
+from grader import ask_question, enable_checkboxes
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import simulate
 from sim.core.units import convert_gains
@@ -62,7 +63,6 @@ from sim.reconcile import reconcile
 from sim.report.controller_snippet import write_controller_code
 from sim.report.robot_code_snippet import ORDER, write_robot_code
 from sim.teaching.answers import read_answer
-from sim.teaching.prediction import Prediction
 from sim.teaching.profile_loop import (
     ONBOARD,
     ElevatorFeedforward,
@@ -106,14 +106,7 @@ print(write_robot_code(found, language="java", season=2026, name="shooter"))
 # **Predict:**
 
 # %%
-guess_season = Prediction(
-    "From 2026 to 2027, in Java, what changes in these lines?",
-    "the gains",
-    "the package and a method's name",
-    "the order of the arguments",
-    "nothing",
-)
-guess_season
+ask_question("lesson8.season")
 
 # %%
 for language in ("java", "python"):
@@ -124,7 +117,6 @@ for language in ("java", "python"):
     print(f"{language}: these lines are different in the two seasons:")
     print("\n".join(f"  2026  {line.strip()}" for line in old if line not in new))
     print("\n".join(f"  2027  {line.strip()}" for line in new if line not in old))
-print(guess_season.reveal("lesson8.season"))
 
 # %% [markdown]
 # The gains do not change with the season, but names in the code do.
@@ -170,14 +162,7 @@ print(guess_season.reveal("lesson8.season"))
 
 # %%
 lift = elevator.gains
-guess_slot = Prediction(
-    "new ElevatorFeedforward(kS, kV, kA, kG) should hold the carriage still. What happens?",
-    "the carriage holds still",
-    "the carriage sinks",
-    "the carriage rises",
-    "the program stops with an error",
-)
-guess_slot
+ask_question("lesson8.slot")
 
 # %% [markdown]
 # The function `moved` simulates a mechanism. Every 20 ms it calls the function `volts` to get a
@@ -226,7 +211,6 @@ for name, order in orders.items():
     slot = lift[order[ORDER["elevator"].index("kG")]]
     seconds = moved(lift, lambda *_, slot=slot: slot, loops=50)
     rows.append((name, slot, 100 * float(seconds[0, -1])))
-print(guess_slot.reveal("lesson8.slot"))
 print(f"The carriage needs {lift['kG']:.2f} V to hold still.", end=" ")
 print(f"Friction allows {lift['kS']:.2f} V more or less.")
 Table(("arguments", "voltage at zero speed [V]", "height after one second [cm]"), tuple(rows))
@@ -348,19 +332,7 @@ GAINS = {
 # **Predict:**
 
 # %%
-guess_radian = Prediction(
-    "kV is per radian, but the target is in rotations. How fast does the wheel turn?",
-    "about 6 times too fast",
-    "at about a sixth of the target speed",
-    "at the target speed, but late",
-)
-guess_rotation = Prediction(
-    "kV is per rotation, but the target is in radians, a number 6.28 times as large. The wheel…",
-    "stands still",
-    "runs as fast as 12 V can make it",
-    "follows, a bit too fast",
-)
-display(guess_radian, guess_rotation)
+display(ask_question("lesson8.radian"), ask_question("lesson8.rotation"))
 
 # %% [markdown]
 # Choose gains and a kP. (kP is always per rotation.)
@@ -386,8 +358,6 @@ show_interactive(
 
 # %%
 SOME = 0.2  # [V per rot/s]
-print(guess_radian.reveal("lesson8.radian"))
-print(guess_rotation.reveal("lesson8.rotation"))
 Table(
     ("gains", "top speed [rot/s]", "error [rot/s], kP = 0", f"error [rot/s], kP = {SOME}"),
     tuple(
@@ -438,14 +408,7 @@ Table(
 # Now add kP, and change nothing else. **Predict:**
 
 # %%
-guess_kp = Prediction(
-    "kP is as large as kV. How much of the error of 100 rpm remains?",
-    "all of it",
-    "half of it",
-    "a tenth of it",
-    "nothing",
-)
-guess_kp
+ask_question("lesson8.kp")
 
 # %%
 WANTED = 4000 / 60  # [rot/s]
@@ -484,7 +447,6 @@ show_interactive(
 )
 
 # %%
-print(guess_kp.reveal("lesson8.kp"))
 print(f"kP = kV: {left_over(wheel['kV']):.0f} of {REMAINING[0]:.0f} rpm remain.")
 print(f"kP = 4 · kV: {left_over(4 * wheel['kV']):.0f} rpm remain.")
 
@@ -578,13 +540,7 @@ print(mine.report)
 # **Predict.** All three sets of gains use kP = 5 V/m:
 
 # %%
-guess_move = Prediction(
-    "Compared with guessed gains, the worst error with measured gains is…",
-    "about the same",
-    "about a third",
-    "zero",
-)
-guess_move
+ask_question("lesson8.move")
 
 # %%
 robot = elevator.hide("spring").hide("stribeck", 0.3)
@@ -614,7 +570,6 @@ def rise(gains: dict[str, float], *, kp: float = 5.0, with_tube: bool = False) -
 moves = {name: rise(gains) for name, gains in SETS.items()}
 moves["+ tube"] = rise(SETS["reconciled"], with_tube=True)
 some = next(iter(moves.values()))
-print(guess_move.reveal("lesson8.move"))
 target = Motion("target", position=some.target, velocity=np.gradient(some.target, LOOP), asked=True)
 animate_mechanism(
     "elevator",
@@ -755,14 +710,7 @@ Table(
 # **Predict:**
 
 # %%
-guess_arm = Prediction(
-    "Which gains does a game piece change?",
-    "kV",
-    "kS",
-    "kG and kA",
-    "all of them",
-)
-guess_arm
+ask_question("lesson8.arm")
 
 # %%
 PIECE, REACH = 1.0, 0.5  # [kg], [m] from the joint
@@ -784,7 +732,6 @@ def sag(kp: float, *, told: dict[str, float]) -> float:
     return -math.degrees(float(moved(loaded, volts, loops=200, arm=True)[0, -1])) + 0.0
 
 
-print(guess_arm.reveal("lesson8.arm"))
 for name, one in (("Empty: ", bare), ("Loaded:", loaded)):
     print(f"{name} kG {one['kG']:.2f} V, kA {one['kA']:.3f} V·s²/rad.")
 print("kV and kS stay the same.")
@@ -861,17 +808,11 @@ Table(
 )  # fmt: skip
 
 # %%
-OWNERS = ("drivetrain", "elevator", "shooter")
-guess_one = Prediction("Set 1 belongs to the…", *OWNERS)
-guess_two = Prediction("Set 2 belongs to the…", *OWNERS)
-display(guess_one, guess_two)
-
-# %%
-print(guess_one.reveal("lesson8.sets.set 1"))
-print(guess_two.reveal("lesson8.sets.set 2"))
-print(f"Set 3 belongs to the {sets['set 3']}.")
+display(ask_question("lesson8.one"), ask_question("lesson8.two"))
 
 # %% [markdown]
+# Set 3 belongs to the mechanism that remains.
+#
 # <details><summary>How can you see it?</summary>
 #
 # If there is a kG, gravity acts on the mechanism. The top speed is (12 − kS)/kV (with gravity,
@@ -1081,10 +1022,7 @@ print(f"The truth is {INERTIA:.2f} kg·m².")
 # Click an answer to the first question.
 
 # %%
-from grader import QuickCheck
-
-quick = QuickCheck(**read_answer("lesson8.quick"))
-quick
+display(ask_question("lesson8.quick"), enable_checkboxes())
 
 # %% [markdown]
 # **1.** A shooter has kS = 0.11 V, kV = 0.082 V·s/rot, kA = 0.003. Its target is 4000 rpm, but it

@@ -61,6 +61,7 @@ import numpy as np
 from IPython.display import display
 
 import sim
+from grader import ask_question, enable_checkboxes
 from sim.bench.mechanisms import MECHANISMS
 from sim.physics.effects import EFFECTS
 from sim.physics.model import Model, Part
@@ -76,7 +77,6 @@ from sim.plot.effect_search import EffectSearch
 from sim.plot.story import make_findings_table, plot_remaining_gap
 from sim.reconcile import reconcile
 from sim.reconcile.by_hand import HandSearch
-from sim.teaching.prediction import Prediction
 from sim.teaching.reality_gap import (
     forget_position,
     make_team_robot,
@@ -125,13 +125,7 @@ base = search.model  # kS, kV and kA, and no effect
 # **Predict:**
 
 # %%
-guess_ka = Prediction(
-    "Two effects are missing in the model. How good is the kA of the teammate's fit?",
-    "it is about right",
-    "it is too small by a third or more",
-    "it is too large by a third or more",
-)
-guess_ka
+ask_question("lesson9.ka")
 
 # %%
 FIRST = {"ramp": ("quasistatic-forward", 3.0), "step": ("dynamic-forward", 1.0)}  # and how long [s]
@@ -148,7 +142,6 @@ def beside_its_model(test: str, seconds: float) -> Scene:
     return Scene(time[shown], (real, model), target=run.velocity[shown])
 
 
-print(guess_ka.reveal("lesson9.ka"))
 velocity_alone = EffectSearch(forget_position(log), validation=forget_position(validation)).model
 for name, gains in (("velocity alone", velocity_alone.gains), ("our fit", base.gains)):
     print(f"{name}: kA = {gains['kA']:.3f} V·s²/m. The true kA is {truth['kA']:.3f} V·s²/m.")
@@ -228,12 +221,7 @@ suspects = record_suspects()
 # Look at each robot below. Then say which robot has which effect.
 
 # %%
-NAMES = ("one-way friction", "averaged velocity", "battery", "breakaway friction")
-guess_a = Prediction("Robot A hides…", *NAMES)
-guess_b = Prediction("Robot B hides…", *NAMES)
-guess_c = Prediction("Robot C hides…", *NAMES)
-guess_d = Prediction("Robot D hides…", *NAMES)
-display(guess_a, guess_b, guess_c, guess_d)
+display(*(ask_question(f"lesson9.{robot}") for robot in "abcd"))
 
 
 # %%
@@ -251,12 +239,6 @@ show_interactive(
 # (squared) voltage residual beyond noise follows this line. Compare the percentages of each robot.
 # They can be more than 100 % together, because one effect can show in two plots. The title says how
 # much no plot explains. The last plot is the run with the largest error.
-
-# %%
-print("A.", guess_a.reveal("lesson9.a"))
-print("B.", guess_b.reveal("lesson9.b"))
-print("C.", guess_c.reveal("lesson9.c"))
-print("D.", guess_d.reveal("lesson9.d"))
 
 # %% [markdown]
 # ### Explain
@@ -324,20 +306,13 @@ search
 # in a straight line. In the other test it makes jumps of many sizes. **Predict:**
 
 # %%
-guess_held = Prediction(
-    "With gains alone, compare the gap on the held-out log with the gap on the fitted log.",
-    "it is about the same",
-    "it is twice as large or more",
-    "it is smaller",
-)
-guess_held
+ask_question("lesson9.held")
 
 # %% [markdown]
 # Now press *Stop, open the held-out log* in section 4. It shows the gap before and after, and the
 # truth beside your numbers. Then run the next cells.
 
 # %%
-print(guess_held.reveal("lesson9.held"))
 for name in ("log", "held_out"):
     print(f"{name}: {search.hand.measure_gap(search.hand.fit(), name):.1f} times the noise")
 
@@ -383,13 +358,7 @@ Table(
 # **Predict:**
 
 # %%
-guess_limit = Prediction(
-    "How well do you know the limit from the gentle log alone?",
-    "to a few percent",
-    "you only know that it is above some value",
-    "you know nothing about it",
-)
-guess_limit
+ask_question("lesson9.limit")
 
 # %%
 LIMITS = np.array([1.0, 1.5, 2.0, 2.25, 2.5, 2.75, 3.0, 3.25, 3.5, 4.0, 5.0, 6.0, 8.0])
@@ -402,7 +371,6 @@ def gaps_of(one: sim.Log) -> list[float]:
     return [hand.measure_gap(hand.evaluate_model(model), "log") for model in models]
 
 
-print(guess_limit.reveal("lesson9.limit"))
 plot_curves(
     LIMITS,
     {name: gaps_of(one) for name, one in record_limited_robot().items()},
@@ -512,11 +480,7 @@ else:
 # Click an answer to the first question.
 
 # %%
-from grader import QuickCheck
-from sim.teaching.answers import read_answer
-
-quick = QuickCheck(**read_answer("lesson9.quick"))
-quick
+display(ask_question("lesson9.quick"), enable_checkboxes())
 
 # %% [markdown]
 # **1.** The voltage residual is near zero everywhere, except in the first tenth of a second after

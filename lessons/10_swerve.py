@@ -58,8 +58,10 @@
 
 # %%
 import numpy as np
+from IPython.display import display
 
 import sim
+from grader import ask_question, enable_checkboxes
 from sim.bench.simulate import simulate
 from sim.bench.slip import compute_slip_voltage
 from sim.bench.swerve import SwerveDrive
@@ -71,7 +73,6 @@ from sim.physics.motors import find_motor
 from sim.plot import Table, plot_curves
 from sim.plot.animation import Choice, Motion, Panel, Scene, animate_mechanism
 from sim.teaching.answers import read_answer
-from sim.teaching.prediction import Prediction
 from sim.teaching.swerve_gaps import check_formulas
 
 robot = SwerveDrive(
@@ -166,20 +167,13 @@ animate_mechanism(
 # **Predict:**
 
 # %%
-guess_worn = Prediction(
-    "What does the fit of the module with the smaller wheel show?",
-    "the same gains: it is the same robot",
-    "a smaller kV than the others",
-    "a larger kV than the others",
-)
-guess_worn
+ask_question("lesson10.worn")
 
 # %%
 gentle = sim.Routine(ramp=0.5, step=1.8, timeout=8.0)
 modules = record_modules(robot, gentle, rng=np.random.default_rng(1), radii={"back-left": 0.0484})
 fits = {name: fit(log) for name, log in modules.items()}
 pooled = pool_fits(fits)
-print(guess_worn.reveal("lesson10.worn"))
 Table(
     ("module", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]"),
     (
@@ -276,13 +270,7 @@ Table(("module", "turns of the motor", "radius of the wheel [mm]"), tuple(rows))
 # Our robot has 5.0 kg·m². **Predict:**
 
 # %%
-guess_lever = Prediction(
-    "You use half the trackwidth for a square swerve. Which moment of inertia do you get?",
-    "too small, about 3.7 kg·m²",
-    "about right",
-    "too large, about 7 kg·m²",
-)
-guess_lever
+ask_question("lesson10.lever")
 
 # %%
 turning = fit(simulate(robot.rotation, gentle, rng=np.random.default_rng(3))).in_units("radians")
@@ -294,7 +282,6 @@ found = {
 }
 print(f"kA straight {straight.gains['kA']:.4f} V·s²/m")
 print(f"kA turning  {turning.gains['kA']:.4f} V·s²/rad")
-print(guess_lever.reveal("lesson10.lever"))
 Table(
     ("lever", "lever [m]", "moment of inertia [kg·m²]"),
     tuple((name, one.lever, one.value) for name, one in found.items()),
@@ -345,12 +332,7 @@ print(f"Without wheels and rotors: {least:.2f} to {most:.2f} kg·m².")
 # CTRE's program runs its translation test with a step of 4 V. **Predict:**
 
 # %%
-guess_step = Prediction(
-    "At 4 V, what do the wheels of this robot do in the first tenth of a second?",
-    "they roll, and the robot gets as fast as they are",
-    "they spin fast almost at once, and the robot is much slower",
-)
-guess_step
+ask_question("lesson10.step")
 
 
 # %%
@@ -372,7 +354,6 @@ def launch(step: float) -> Scene:
 
 
 limit = compute_slip_voltage(robot.translation)
-print(guess_step.reveal("lesson10.step"))
 print(f"The wheels of this robot slip above {limit:.1f} V.")
 STEPS = {f"{step:g} V": launch(step) for step in (1.0, 1.5, 2.0, 3.0, 4.0, 5.0)}
 animate_mechanism(
@@ -439,13 +420,7 @@ plot_curves(
 # **Predict:**
 
 # %%
-guess_grip = Prediction(
-    "You forget number 1 of this list. What does the planner do with your µ?",
-    "µ is too small: the planner plans curves that are slower than necessary",
-    "nothing changes: µ does not depend on friction in the gears",
-    "µ is too large: the planner plans curves in which the wheels slip",
-)
-guess_grip
+ask_question("lesson10.grip")
 
 # %%
 idle = straight.gains["kS"] / robot.motor.resistance  # [A] that only turn the gears
@@ -457,7 +432,6 @@ def grip_of(current: float) -> float:
     return 4 * push_of_wheel / (robot.mass * 9.81)
 
 
-print(guess_grip.reveal("lesson10.grip"))
 print(f"The current is {slip_current:.0f} A, but {idle:.1f} A of it only turn the gears.")
 Table(
     ("current", "µ"),
@@ -653,10 +627,7 @@ Table(
 # Click an answer to the first question.
 
 # %%
-from grader import QuickCheck
-
-quick = QuickCheck(**read_answer("lesson10.quick"))
-quick
+display(ask_question("lesson10.quick"), enable_checkboxes())
 
 # %% [markdown]
 # **1.** The kV of one module is 5 % smaller than that of the three others. What do you look at?

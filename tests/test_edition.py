@@ -18,9 +18,9 @@ CELLS = (
     CODE("from sim.plot import Table\nprint('1 < 2')\nTable(('gain',), ((0.25,),))"),
     MARKDOWN("**Predict:**"),
     CODE(
-        "from grader import QuickCheck, QuickNumberCheck\n"
-        "display(QuickCheck('Which way?', {'up & left': 'Yes.', 'down': 'No.'}, right='up & left'),"
-        "QuickNumberCheck('How far?', 7.5, 'm'))",
+        "from grader.lesson_questions import ChoiceQuestion, NumberQuestion\n"
+        "display(ChoiceQuestion('Which way?', ['up & left', 'down'], right='down'),"
+        "NumberQuestion('How far?', 7.5, 'm'))",
         metadata=FOLDED,
     ),
     CODE(

@@ -59,14 +59,8 @@ def test_an_elevator_that_only_goes_up_tells_friction_from_weight_never():
         (lambda: compute_information({}, type="simple", noise=0.1), "at least one test that moves"),
         (lambda: compute_information(UP, type="crane", noise=0.1), "Choose one of: simple"),
         (lambda: compute_information(UP, type="simple", noise=0.0), "Give one above 0"),
-        (
-            lambda: compute_information(UP, type="simple", noise=0.1).compute_pair_information(
-                "kS", "kG"
-            ),
-            "Choose one of: kS, kV, kA",
-        ),
     ],
-    ids=["no rows", "no such type", "no noise", "no such gain"],
+    ids=["no rows", "no such type", "no noise"],
 )
 def test_what_cannot_be_told_is_refused_with_advice(ask, advice):
     with pytest.raises(BadRequest, match=advice):

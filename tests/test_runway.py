@@ -1,6 +1,5 @@
-"""A test on a floor with a tape on it: who lets go when, where it stands, and the picture of it."""
+"""A test on a floor with a tape on it: who lets go when, and where it stands."""
 
-import math
 from dataclasses import replace
 
 import numpy as np
@@ -10,7 +9,6 @@ import sim
 from sim.bench.mechanisms import MECHANISMS
 from sim.core.errors import BadRequest
 from sim.physics.battery import Battery
-from sim.plot import plot_runway
 from sim.teaching.runway import PERIOD, Floor, drive_test
 
 ROBOT = replace(MECHANISMS["drivetrain"], travel=None)
@@ -78,9 +76,8 @@ def test_a_tired_battery_browns_out_in_a_step_and_not_in_a_ramp():
         for test in (STEP, RAMP)
     )
 
-    assert step.browned_out
+    assert step.battery.min() < TIRED.brownout < ramp.battery.min()
     assert step.final_position < 0.5 * gone(STEP, wall=12.0, tape=7.0).final_position
-    assert not ramp.browned_out
 
 
 @pytest.mark.parametrize("wrong", [{"wall": 0.0}, {"wall": 9.0, "tape": -1.0}], ids=str)
@@ -94,58 +91,6 @@ def test_a_reverse_test_is_refused(reads):
     with pytest.raises(BadRequest) as refused:
         gone("dynamic-reverse", wall=9.0)
     reads(refused.value)
-
-
-def test_the_picture_says_what_it_shows():
-    picture = plot_runway(gone(RAMP, wall=12.0, tape=7.0), moment=0.5)
-
-    assert "wall stands at 12.0 m" in picture.alt
-    assert "tape lies at 7.0 m" in picture.alt
-    assert "which is enough" in picture.alt
-    assert dict(picture.table.rows)["pushes the wall for [s]"] == "never"
-
-
-@pytest.mark.parametrize(("tape", "side"), [(3.0, "left"), (7.0, "left"), (10.5, "right")])
-def test_the_motors_words_stand_off_the_tape_and_off_the_wall(tape, side):
-    picture = plot_runway(gone(RAMP, wall=12.0, tape=tape))
-
-    (words,) = (text for text in picture.figure.axes[0].texts if text.get_text() == "motors off")
-    assert words.get_ha() == side  # the tape is passed before, the wall comes after
-
-
-def test_the_brownout_line_is_named_with_its_volts_and_not_covered():
-    went = gone(RAMP, wall=12.0)
-
-    (words,) = plot_runway(went).figure.axes[2].texts
-    assert words.get_text() == f"dashed: brownout below {went.brownout:g} V"
-    assert words.xy[1] == 0.0
-
-
-def test_the_picture_of_an_accident_says_so(reads):
-    went = gone(RAMP, wall=12.0)
-    picture = plot_runway(went)
-
-    reads(picture.alt)
-    reads(dict(picture.table.rows)["room left [m]"])
-
-
-def test_a_brownout_lights_its_lamp():
-    dark = plot_runway(gone(STEP, wall=12.0))
-    lit = plot_runway(drive_test(TIRED, SLOW, test=STEP, floor=Floor(wall=12.0)))
-
-    assert "which is a brownout" in lit.alt
-    assert [axes.get_title(loc="right") for axes in (dark.figure.axes[0], lit.figure.axes[0])] == [
-        "✓ battery holds",
-        "✗ BROWNOUT",
-    ]
-
-
-def test_the_moment_moves_the_robot():
-    went = gone(RAMP, wall=12.0, tape=7.0)
-
-    assert plot_runway(went, moment=0.2).svg != plot_runway(went, moment=0.8).svg
-    with pytest.raises(BadRequest, match="Choose 0"):
-        plot_runway(went, moment=math.pi)
 
 
 def test_what_braking_takes_is_no_less_than_the_carpet_asks_for():

@@ -49,27 +49,6 @@ class InformationMatrix:
             for name, lost, square, one in zip(self.names, unknown, squares, scale, strict=True)
         }
 
-    def compute_pair_information(self, first: str, second: str) -> Array:
-        """(2, 2) information about two gains, the others marginalized.
-
-        Args:
-            first: a gain, like ``kV``.
-            second: another one.
-
-        Raises:
-            BadRequest: no such gain.
-        """
-        for name in (first, second):
-            if name not in self.names:
-                raise BadRequest(
-                    f"no gain {name!r}", advice=f"Choose one of: {', '.join(self.names)}."
-                )
-        two = [self.names.index(first), self.names.index(second)]
-        rest = [place for place in range(len(self.names)) if place not in two]
-        mine, mixed = self.information[np.ix_(two, two)], self.information[np.ix_(two, rest)]
-        others = np.linalg.pinv(self.information[np.ix_(rest, rest)], rcond=1e-12, hermitian=True)
-        return np.asarray(mine - mixed @ others @ mixed.T)
-
 
 def compute_information(rows: Mapping[str, Rows], *, type: str, noise: float) -> InformationMatrix:  # noqa: A002 - the field's word
     """Information of rows about kS, kV, kA, and about kG where there is gravity.

@@ -12,7 +12,7 @@ Nothing here needs a screen, and no function keeps state between calls.
 from sim.plot.acceleration import plot_acceleration_velocity
 from sim.plot.charts import plot_choices, plot_curves, plot_misses
 from sim.plot.class_scores import plot_score_heatmap, plot_score_histogram
-from sim.plot.ellipse import plot_ellipses, plot_information_map
+from sim.plot.gain_errors import plot_gain_errors
 from sim.plot.gap_bars import plot_gap_bars
 from sim.plot.gauge import plot_gauge
 from sim.plot.hold_voltage import plot_hold_angles, plot_hold_window
@@ -21,7 +21,6 @@ from sim.plot.logs import plot_time_series
 from sim.plot.picture import Picture
 from sim.plot.r2_vs_gain_error import plot_r2_vs_gain_error
 from sim.plot.relative_change import plot_relative_change
-from sim.plot.runway import plot_runway
 from sim.plot.table import Table
 from sim.plot.timesteps import plot_timesteps
 from sim.plot.tracking_error import measure_tracking_error, plot_tracking_error
@@ -37,16 +36,14 @@ __all__ = [
     "plot_acceleration_velocity",
     "plot_choices",
     "plot_curves",
-    "plot_ellipses",
+    "plot_gain_errors",
     "plot_gap_bars",
     "plot_gauge",
     "plot_hold_angles",
     "plot_hold_window",
-    "plot_information_map",
     "plot_misses",
     "plot_r2_vs_gain_error",
     "plot_relative_change",
-    "plot_runway",
     "plot_score_heatmap",
     "plot_score_histogram",
     "plot_time_series",

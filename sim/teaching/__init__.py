@@ -1,1 +1,1 @@
-"""Tools of the lessons only: predictions, checked formulas, a runway, and R² cases."""
+"""Tools of the lessons only: answers, checked formulas, a runway, and R² cases."""

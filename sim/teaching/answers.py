@@ -1,4 +1,4 @@
-"""What a lesson's code must not show: right answers, and the effects that its robots hide.
+"""What a lesson's code must not show: questions with their answers, and what its robots hide.
 
 They stand in ``lesson_answers.toml`` by names like ``lesson9.ka``, and a cell holds only the name.
 """
@@ -16,7 +16,7 @@ FILE = Path(__file__).with_name("lesson_answers.toml")
 
 
 def read_answer(name: str) -> Any:  # noqa: ANN401 - as TOML has it
-    """What stands under a name: an answer, or the arguments of a quick check.
+    """What stands under a name, such as the arguments of a question.
 
     Raises:
         BadRequest: there is no such name.

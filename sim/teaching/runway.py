@@ -68,7 +68,6 @@ class FloorTest:
         battery: (n,) battery voltage [V].
         released: time when the motors were turned off [s].
         hit_wall: time when it hit the wall, the last sample [s]; None if it did not.
-        brownout: voltage below which the robot controller turns the motors off [V].
     """
 
     floor: Floor
@@ -78,17 +77,11 @@ class FloorTest:
     battery: Array
     released: float
     hit_wall: float | None
-    brownout: float
 
     @property
     def final_position(self) -> float:
         """The position at the end of the test, or at the wall [m]."""
         return float(self.position[-1])
-
-    @property
-    def browned_out(self) -> bool:
-        """Whether the battery voltage dropped below the brownout voltage."""
-        return float(self.battery.min()) < self.brownout
 
 
 def drive_test(mechanism: Mechanism, routine: Routine, *, test: str, floor: Floor) -> FloorTest:
@@ -132,7 +125,6 @@ def drive_test(mechanism: Mechanism, routine: Routine, *, test: str, floor: Floo
         battery[:end],
         released=PERIOD * (on - 1),
         hit_wall=float(time[end - 1]) if beyond.size else None,
-        brownout=mechanism.brownout,
     )
 
 

@@ -47,7 +47,7 @@ class TestPlan:
     ramp: float | Gain = 0.0
     step: float | Gain = 0.0
     mark: float | Gain = math.inf
-    reaction: float = 0.0
+    reaction: float | Gain = 0.0
     timeout: float = math.inf
 
     def voltage(
@@ -65,7 +65,8 @@ class TestPlan:
         passed = move(volts) > find_value(self.mark, knobs)
         if not passed.any():
             return volts
-        return np.where(time < time[int(np.argmax(passed))] + self.reaction, volts, 0.0)
+        reaction = find_value(self.reaction, knobs)
+        return np.where(time < time[int(np.argmax(passed))] + reaction, volts, 0.0)
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,11 +1,9 @@
-"""Quick checks in a lesson: immediate feedback, neither stored nor graded.
+"""The questions of a lesson: answered at a click, neither stored nor graded.
 
-Quick("Which gain moved?", {"kS": "Friction did not change …", "kA": "It holds the mass."},
-      right="kA")
-QuickNumber("kV = 0.12 V·s/rot. And per radian?", 0.0191, "V·s/rad")
+ask_question("lesson2.hold", kG=1.5, kS=0.2, less=1.35)
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from html import escape
 from typing import Any
 
@@ -14,34 +12,75 @@ from grader.answers.wrong_number import Scene
 from grader.check import WrongAnswer
 from grader.misconception import MISCONCEPTIONS
 from sim.core.errors import BadRequest
-from sim.teaching.prediction import Prediction
+from sim.teaching.answers import read_answer
 
 RIGHT, NOT_YET = "Right.", "Not yet."
+# JupyterLab draws the boxes of a text dead. The browser keeps each tick under the text beside it.
+ENABLE = """<script>
+(() => {
+  const dead = "li input[type=checkbox]:disabled";
+  const enable = () => document.querySelectorAll(dead).forEach(box => {
+    const key = "system check: " + box.closest("li").textContent.trim();
+    box.disabled = false;
+    box.checked = localStorage.getItem(key) !== null;
+    box.onchange = () => box.checked ? localStorage.setItem(key, "") : localStorage.removeItem(key);
+  });
+  enable();
+  new MutationObserver(enable).observe(document.body, {childList: true, subtree: true});
+})();
+</script>"""
 
 
-class QuickCheck(Prediction):
-    """A question with a few answers, and a feedback to each.
+def enable_checkboxes() -> object:
+    """What makes the boxes of a lesson's system check tickable, for a cell that shows it."""
+    from IPython.display import HTML  # noqa: PLC0415 - for notebooks
 
-    Without buttons, plain code does the same: ``check.answer("kA")``.
+    return HTML(ENABLE)  # type: ignore[no-untyped-call]  # no types
+
+
+def ask_question(name: str, **values: float) -> "ChoiceQuestion | NumberQuestion":
+    """The question of a lesson, to be shown by a cell.
+
+    Args:
+        name: of the question in ``lesson_answers.toml``, such as ``lesson2.hold``.
+        values: the numbers that its text names in braces.
+
+    Raises:
+        BadRequest: there is no such name.
+    """
+    asked = dict(read_answer(name))
+    asked["question"] = asked["question"].format(**values)
+    return NumberQuestion(**asked) if "expected" in asked else ChoiceQuestion(**asked)
+
+
+class ChoiceQuestion:
+    """A question with a few answers as buttons, and feedback as soon as one is clicked.
+
+    Without buttons, plain code does the same: ``question.answer("kA")``.
 
     Args:
         question: what is asked.
-        options: answer -> what is said to it.
+        options: answer -> what is said to it; only the answers where an experiment follows, which
+            shows the reason.
         right: the right one of the answers.
 
     Raises:
         BadRequest: the right one is not among them.
     """
 
-    def __init__(self, question: str, options: Mapping[str, str], *, right: str) -> None:
+    def __init__(
+        self, question: str, options: Mapping[str, str] | Sequence[str], *, right: str
+    ) -> None:
         import ipywidgets  # type: ignore[import-untyped]  # noqa: PLC0415 - no types; for notebooks
 
-        super().__init__(question, *options)
         if right not in options:
             raise BadRequest(f"{right!r} is none of the answers", advice="Add it to the options.")
-        self._says, self._right = options, right
+        self.question, self._options, self._right = question, options, right
+        self._buttons = ipywidgets.RadioButtons(
+            options=tuple(options), value=None, layout={"width": "max-content"}
+        )
         self._told = ipywidgets.HTML()
-        self._box.children = (*self._box.children, self._told)
+        self._box = ipywidgets.VBox([ipywidgets.HTML(escape(question)), self._buttons, self._told])
         self._buttons.observe(self._show_feedback, "value")
 
     def answer(self, chosen: str) -> str:
@@ -50,24 +89,41 @@ class QuickCheck(Prediction):
         Raises:
             BadRequest: it is none of the answers.
         """
-        self.value = chosen
+        if chosen not in self._options:
+            raise BadRequest(
+                f"{chosen!r} is not one of the answers",
+                advice=f"Choose one of: {', '.join(self._options)}.",
+            )
+        self._buttons.value = chosen
         return self.feedback
 
     @property
     def feedback(self) -> str:
         """The feedback to the chosen answer; empty where none is chosen."""
-        if self.value is None:
+        chosen = self._buttons.value
+        if chosen is None:
             return ""
-        return f"{RIGHT if self.value == self._right else NOT_YET} {self._says[self.value]}"
+        if isinstance(self._options, Mapping):
+            return f"{RIGHT if chosen == self._right else NOT_YET} {self._options[chosen]}"
+        verdict = RIGHT if chosen == self._right else f"No. The answer is: {self._right}."
+        return f"{verdict} Go on, and see why."
 
     def _show_feedback(self, _: object = None) -> None:
         self._told.value = f"<p><b>{escape(self.feedback)}</b></p>" if self.feedback else ""
 
+    def __repr__(self) -> str:
+        return f"ChoiceQuestion({self.question!r})"
 
-class QuickNumberCheck:
+    def _repr_mimebundle_(self, **how: object) -> Any:  # noqa: ANN401 - ipywidgets has no types
+        answers = (f"  \N{WHITE CIRCLE} {option}" for option in self._options)
+        plain = "\n".join((self.question, *answers))  # where no buttons can be shown
+        return self._box._repr_mimebundle_(**how) | {"text/plain": plain}
+
+
+class NumberQuestion:
     """A question for a number; a wrong one is explained.
 
-    Without a box to type in, plain code does the same: ``check.answer("0.019 V·s/rad")``.
+    Without a box to type in, plain code does the same: ``question.answer("0.019 V·s/rad")``.
 
     Args:
         question: what is asked.
@@ -117,7 +173,7 @@ class QuickNumberCheck:
         self._told.value = f"<p><b>{escape(said)}</b></p>" if said else ""
 
     def __repr__(self) -> str:
-        return f"QuickNumber({self.question!r})"
+        return f"NumberQuestion({self.question!r})"
 
     def _repr_mimebundle_(self, **how: object) -> Any:  # noqa: ANN401 - ipywidgets has no types
         plain = f"{self.question}\n  Answer: {self._typed.placeholder}"  # where there is no box

@@ -1,20 +1,16 @@
-"""Quick checks in a lesson: answered, and told at once."""
-
-import re
-from pathlib import Path
+"""The questions of the lessons: answered, and told at once."""
 
 import pytest
 
-from grader import QuickCheck, QuickNumberCheck
+from grader import ask_question, enable_checkboxes
+from grader.lesson_questions import ChoiceQuestion, NumberQuestion
 from sim.core.errors import BadRequest
-
-LESSONS = sorted((Path(__file__).resolve().parents[1] / "lessons").glob("*.py"))
 
 
 @pytest.fixture
 def check():
     """A question with two answers."""
-    return QuickCheck(
+    return ChoiceQuestion(
         "Which gain <moved>?", {"kS": "Friction is the same.", "kA": "Mass."}, right="kA"
     )
 
@@ -42,7 +38,7 @@ def test_an_answer_that_is_not_there_is_refused(check):
     with pytest.raises(BadRequest, match="Choose one of: kS, kA"):
         check.answer("kV")
     with pytest.raises(BadRequest, match="none of the answers"):
-        QuickCheck("?", {"kS": "…"}, right="kA")
+        ChoiceQuestion("?", {"kS": "…"}, right="kA")
 
 
 @pytest.mark.parametrize(
@@ -59,13 +55,13 @@ def test_an_answer_that_is_not_there_is_refused(check):
 )
 def test_a_number_is_diagnosed(given, said):
     asked = "kV is 0.12 V·s/rot. Per radian?"
-    check = QuickNumberCheck(asked, 0.0191, "V·s/rad", gain="kV", angular=True)
+    check = NumberQuestion(asked, 0.0191, "V·s/rad", gain="kV", angular=True)
 
     assert said in check.answer(given)
 
 
 def test_what_is_typed_is_told_the_same():
-    check = QuickNumberCheck("Half of 3?", 1.5)
+    check = NumberQuestion("Half of 3?", 1.5)
     _, typed, told = check._box.children
     typed.value = "3"
     assert "Not yet." in told.value
@@ -75,8 +71,18 @@ def test_what_is_typed_is_told_the_same():
     assert told.value == ""
 
 
-@pytest.mark.parametrize("lesson", LESSONS, ids=lambda path: path.stem)
-def test_every_lesson_has_a_quick_check(lesson):
-    part = lesson.read_text(encoding="utf-8").partition("Knowledge check")[2]
+def test_a_prediction_is_answered_at_the_click_and_its_text_holds_the_numbers():
+    asked = ask_question("lesson2.hold", kG=1.234, kS=0.5, less=1.0)
+    assert "kG = 1.23 V" in asked.question
+    assert asked.answer("it stays") == "Right. Go on, and see why."
+    assert asked.answer("it sinks slowly") == "No. The answer is: it stays. Go on, and see why."
 
-    assert re.search(r"^\w+ = Quick(Number)?Check\(", part, re.MULTILINE)
+
+def test_a_name_without_a_question_is_refused(reads):
+    with pytest.raises(BadRequest) as refused:
+        ask_question("lesson0.nothing")
+    reads(refused.value)
+
+
+def test_ticks_are_kept_by_the_browser():
+    assert "localStorage" in enable_checkboxes().data
