@@ -2,12 +2,13 @@
 
 /** An error of the server: what is wrong, where, and what to do next. */
 export class Refused extends Error {
-  constructor({ what, where, advice, kind }) {
+  constructor({ what, where, advice, kind, columns }) {
     super(what);
     this.what = what.replace(/\.$/, "");
     this.where = where;
     this.advice = advice;
     this.kind = kind;
+    this.columns = columns;
   }
 }
 
