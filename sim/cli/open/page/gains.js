@@ -71,7 +71,10 @@ function showSimulation(log) {
 
 function showMeter(log, error) {
   if (error === null) {
-    at("meter").replaceChildren(text("p", "Nothing moves with these gains: kV and kA have to be above zero.", "quiet"));
+    const why = log.fit.tracks
+      ? "The search took the mean of several motors, so the curves of this model are not drawn."
+      : "Nothing moves with these gains: kV and kA have to be above zero.";
+    at("meter").replaceChildren(text("p", why, "quiet"));
     return;
   }
   const { si, symbol } = log.summary.units;
