@@ -11,7 +11,6 @@ Nothing here needs a screen, and no function keeps state between calls.
 
 from sim.plot.acceleration import plot_acceleration_velocity
 from sim.plot.charts import plot_choices, plot_curves, plot_misses
-from sim.plot.class_scores import plot_score_heatmap, plot_score_histogram
 from sim.plot.ellipse import plot_ellipses, plot_information_map
 from sim.plot.gap_bars import plot_gap_bars
 from sim.plot.gauge import plot_gauge
@@ -47,8 +46,6 @@ __all__ = [
     "plot_r2_vs_gain_error",
     "plot_relative_change",
     "plot_runway",
-    "plot_score_heatmap",
-    "plot_score_histogram",
     "plot_time_series",
     "plot_timesteps",
     "plot_tracking_error",
