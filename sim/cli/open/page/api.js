@@ -20,31 +20,6 @@ export function openFile(file) {
   return ask(`logs?name=${encodeURIComponent(file.name)}`, { method: "POST", body: file });
 }
 
-/** Open a simulated log. */
-export function openExample() {
-  return ask("example", { method: "POST" });
-}
-
-/** The open logs: those named on the command line, or opened before the page was reloaded. */
-export function listLogs() {
-  return ask("logs");
-}
-
-/** The view: whether the page shows the data alone, and the text format of marked spans. */
-export function askView() {
-  return ask("view");
-}
-
-/** The status of sysid watch, and the logs that grow. */
-export function askLive() {
-  return ask("live");
-}
-
-/** Close a log. */
-export function closeLog(id) {
-  return ask(`logs/${id}`, { method: "DELETE" });
-}
-
 /** Let a search for missing effects end with what it has. */
 export function stopSearch(id, query) {
   return ask(addressOf(id, "reconcile", query), { method: "DELETE" });
@@ -67,7 +42,8 @@ export function addressOf(id, what, query = {}) {
   return `logs/${id}/${what}${text ? `?${text}` : ""}`;
 }
 
-async function ask(address, options) {
+/** The answer to a request: "logs" are those open, "view" what the page shows, "live" what sysid watch follows. */
+export async function ask(address, options) {
   return (await fetchOrRefuse(address, options)).json();
 }
 

@@ -73,6 +73,7 @@ export function drawGrid(chart, to, name) {
   const y = chart.heights(name);
   const [low, high] = chart.rangeOfPanel(name);
   to.textBaseline = "middle";
+  to.fillStyle = quiet;
   const { top, bottom } = chart.panels[name];
   const apart = name === "velocity" && !chart.showsSignals ? 38 : 22; // [px]
   const count = Math.max(3, Math.floor((bottom - top) / apart));
@@ -81,23 +82,12 @@ export function drawGrid(chart, to, name) {
     to.strokeStyle = rule;
     to.lineWidth = Math.abs(tick) < 1e-9 * (high - low) ? 1.6 : 0.8;
     line(to, chart.left, at, chart.right, at);
-    to.fillStyle = quiet;
     to.textAlign = "right";
     to.fillText(short(tick), chart.left - 7, at);
   }
   to.textAlign = "left";
   to.textBaseline = "alphabetic";
-  to.fillStyle = quiet;
-  to.globalAlpha = 0.9;
-  to.textBaseline = "top";
-  if (name === chart.panelsShown[0].name) {
-    to.fillText(title, chart.left + 5, top + 3);
-  } else {
-    to.textBaseline = "alphabetic";
-    to.fillText(title, chart.left + 5, top - 6);
-  }
-  to.textBaseline = "alphabetic";
-  to.globalAlpha = 1;
+  to.fillText(title, chart.left + 5, name === chart.panelsShown[0].name ? top + 13 : top - 6);
 }
 
 /** Draw times below the runs: those of the log, or in the view of the signals since each test began. */

@@ -1,6 +1,6 @@
 // The logs of sysid watch, which grow.
 
-import { askLive } from "./api.js";
+import { ask } from "./api.js";
 import { item, prose } from "./elements.js";
 import { begin, load, logs } from "./logs.js";
 import { at, guarded } from "./page.js";
@@ -10,7 +10,7 @@ const LOOK = 500; // [ms] between two requests for the status of sysid watch
 /** Follow the logs of sysid watch: read a log again whenever a test in it has ended. */
 export async function followLive() {
   for (;;) {
-    const live = await askLive();
+    const live = await ask("live");
     if (!live.follows) return;
     showLive(live);
     for (const { id, name, revision } of live.logs) {

@@ -1,6 +1,6 @@
 // The open logs, and what is known of each: its runs, faults, gains and missing effects.
 
-import { Refused, askLog, askSamples, closeLog, openFile, saved, stopSearch } from "./api.js";
+import { Refused, ask, askLog, askSamples, openFile, saved, stopSearch } from "./api.js";
 import { sentence } from "./elements.js";
 import { guarded, keep, recall } from "./page.js";
 import { simulate } from "./simulation.js";
@@ -193,7 +193,7 @@ export function nameOfPart({ test, start, end }) {
 /** Close a log. */
 export function forget(id) {
   logs.delete(id);
-  closeLog(id).catch(() => {});
+  ask(`logs/${id}`, { method: "DELETE" }).catch(() => {});
   if (state.active === id) activate([...logs.keys()].at(-1) ?? null);
   else tell("tabs");
 }

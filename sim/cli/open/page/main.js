@@ -1,6 +1,6 @@
 // The page: shows what has changed of the open logs, and takes files.
 
-import { Refused, askView, listLogs, openExample, saved } from "./api.js";
+import { Refused, ask, saved } from "./api.js";
 import { showChoice } from "./choices.js";
 import { sentence } from "./elements.js";
 import { showFit, sliders } from "./gains.js";
@@ -46,7 +46,7 @@ at("file").addEventListener("change", (event) => {
   openAll(event.target.files);
   event.target.value = "";
 });
-at("example").addEventListener("click", () => guarded("example", async () => begin(await openExample(), { show: true })));
+at("example").addEventListener("click", () => guarded("example", async () => begin(await ask("example", { method: "POST" }), { show: true })));
 at("rechoose").addEventListener("click", () => offerChoice(shownLog()));
 for (const id of ["type", "units"]) at(id).addEventListener("change", () => choose(shownLog(), id, at(id).value));
 
@@ -68,13 +68,13 @@ new ResizeObserver(([{ target }]) => {
 
 setTheme();
 guarded("logs", async () => {
-  state.view = await askView();
+  state.view = await ask("view");
   document.body.classList.toggle("raw", state.view.raw);
   document.body.classList.toggle("saved", Boolean(saved));
   document.body.classList.toggle("untold", saved && !Object.keys(saved).some((one) => one.endsWith("/reconcile")));
   showSignals(state.view.raw);
   addEventListener("pagehide", keepChoices);
-  const named = await listLogs();
+  const named = await ask("logs");
   await Promise.all(named.map((one) => guarded(one.name, () => begin(one))));
 });
 followLive().catch((problem) => {
