@@ -76,7 +76,7 @@ export function drawGrid(chart, to, name) {
   to.fillStyle = quiet;
   const { top, bottom } = chart.panels[name];
   const apart = name === "velocity" && !chart.showsSignals ? 38 : 22; // [px]
-  const count = Math.max(3, Math.floor((bottom - top) / apart));
+  const count = Math.max(2, Math.floor((bottom - top) / apart));
   for (const tick of roundTicks(low, high, count)) {
     const at = Math.round(y(tick)) + 0.5;
     to.strokeStyle = rule;
