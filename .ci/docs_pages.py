@@ -27,7 +27,7 @@ from pygments.util import ClassNotFound
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
-from grader.edition import BODY, convert_notebook, execute_notebook  # noqa: E402 - this folder's
+from grader.edition import BODY, convert_notebook, execute_notebook, make_accessible  # noqa: E402 - this folder's
 from grader.student_data.fingerprint import fingerprint_folders  # noqa: E402 - the same
 from sim.core.errors import BadRequest  # noqa: E402 - the same
 from sim.support.atomic_file import write_atomically  # noqa: E402 - the same
@@ -112,11 +112,23 @@ def on_page_content(html: str, *, page: Page, config: MkDocsConfig, files: Files
         html = source.partition("\n")[2]
         rendered = html.replace("</h1>", f"</h1>{say_how_to_run(page, config)}", 1)
     else:
-        rendered = render_markdown(source)
+        rendered = make_accessible(render_markdown(source))
     rendered, tokens = name_headings(rendered)
     page.toc = get_toc(tokens)
     page.present_anchor_ids = set(re.findall(r'\bid="([^"]+)"', rendered))
     return resolve_links(rendered, page=page, config=config, files=files)
+
+
+def on_post_page(output: str, *, page: Page | None, config: MkDocsConfig) -> str:  # noqa: ARG001 - the hook's own signature
+    """Say that the bar of links is the site's navigation, which the theme does not."""
+    return output.replace(
+        '<div class="navbar ', '<div role="navigation" aria-label="Site" class="navbar '
+    )
+
+
+def on_post_template(output_content: str, *, template_name: str, config: MkDocsConfig) -> str:  # noqa: ARG001 - the same
+    """The same for the page of a wrong address."""
+    return on_post_page(output_content, page=None, config=config)
 
 
 def list_lessons() -> list[Path]:

@@ -10,6 +10,9 @@ import sys
 from pathlib import Path
 
 NODE = Path(__file__).resolve().parents[1] / "build" / "node"
+PACKAGES = {"axe-core@4": "the tests of accessibility"}  # of npm, and what is skipped without it
+if sys.platform == "linux" and os.geteuid() == 0:  # elsewhere the Hub's test is skipped
+    PACKAGES["configurable-http-proxy@5"] = "the test of JupyterHub"
 
 
 def main() -> None:
@@ -21,14 +24,11 @@ def main() -> None:
     )
     install_program(("javac",), package="default-jdk-headless", tests="tests that compile Java")
     npm = shutil.which("npm")
-    proxy = NODE / "bin" / "configurable-http-proxy"
-    if (
-        npm and not proxy.exists() and sys.platform == "linux" and os.geteuid() == 0
-    ):  # elsewhere the Hub's test is skipped
-        print("installing JupyterHub's proxy for the test of JupyterHub")
-        package = "configurable-http-proxy@5"
-        command = [npm, "install", "--silent", "--global", f"--prefix={NODE}", package]
-        subprocess.run(command, check=False)
+    for package, tests in PACKAGES.items():
+        if npm and not list(NODE.glob(f"lib/node_modules/{package.partition('@')[0]}")):
+            print(f"installing {package} for {tests}")
+            command = [npm, "install", "--silent", "--global", f"--prefix={NODE}", package]
+            subprocess.run(command, check=False)
 
 
 def install_program(names: tuple[str, ...], *, package: str, tests: str) -> None:

@@ -109,7 +109,14 @@ def convert_notebook(notebook: Any, template: str = PAGE) -> str:  # noqa: ANN40
     exporter.raw_template = f"{{% extends '{template}' %}}{BLOCKS}"
     exporter.exclude_input_prompt = exporter.exclude_output_prompt = True
     exporter.exclude_anchor_links = True
-    return str(exporter.from_notebook_node(notebook)[0])
+    return make_accessible(str(exporter.from_notebook_node(notebook)[0]))
+
+
+def make_accessible(html: str) -> str:
+    """HTML whose boxes to tick have a name, and whose wide parts scroll from the keyboard."""
+    html = re.sub(r'<input(?=[^>]*type="checkbox")', '<input aria-label="Done"', html)
+    html = re.sub(r'<(pre|div class="wide")(?=[ >])', r'<\1 tabindex="0"', html)
+    return re.sub(r"<th[^>]*></th>", "<td></td>", html)
 
 
 def build_pages(notebooks: Sequence[Path], folder: Path, say: Callable[[str], None]) -> None:

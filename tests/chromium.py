@@ -2,9 +2,12 @@
 
 import contextlib
 import shutil
+from pathlib import Path
 
 import pytest
 
+ROOT = Path(__file__).parents[1]
+AXE = ROOT / "build" / "node" / "lib" / "node_modules" / "axe-core" / "axe.min.js"
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 FLAGS = [
     "--no-sandbox",  # a container runs as root, where the sandbox cannot start
@@ -63,3 +66,17 @@ def launched():
 def least_contrast(page, selector):
     """The smallest contrast of the texts that a CSS selector finds."""
     return page.evaluate(FAINTEST, selector)
+
+
+def list_violations(page):
+    """What axe-core finds wrong with a page for people with disabilities: rule and places.
+
+    Without axe-core, which .ci/prepare_machine.py installs, the test is skipped.
+    """
+    if not AXE.is_file():
+        pytest.skip("axe-core is not installed: python .ci/prepare_machine.py")
+    if not page.evaluate("typeof axe !== 'undefined'"):
+        page.evaluate(AXE.read_text("utf-8") + "; 0")
+    page.wait_for_timeout(400)  # [ms] until colors have changed
+    found = page.evaluate("axe.run().then(({violations}) => violations)")
+    return [(one["id"], [node["html"][:90] for node in one["nodes"][:3]]) for one in found]

@@ -6,8 +6,12 @@ import numpy as np
 import pytest
 
 import sim
-from sim.core.errors import BadRequest
+from sim.core.errors import BadRequest, MissingSignal
 from sim.core.log import Log, Run
+from sim.io import list_entries
+from sim.io.entries import assemble_log
+from sim.io.entries.entry import ValuesEntry
+from sim.io.format import ReadOptions
 
 HEADER = "test,time_s,voltage,position,velocity"
 PLAIN = f"""{HEADER}
@@ -170,3 +174,26 @@ def test_motor_asked_of_a_file_with_one_makes_no_difference(tmp_path: Path) -> N
     (doubt,) = read_text(tmp_path, PLAIN, motor="left").doubts
 
     assert doubt.code == "one-motor"
+
+
+def test_whole_numbers_that_count_something_are_no_voltage():
+    time = np.arange(0, 2_000_000, 20_000)
+    entries = (
+        ValuesEntry("state", "string", "", time, ("dynamic-forward",) * time.size),
+        ValuesEntry("angle", "double", "", time, np.linspace(0.0, 3.0, time.size)),
+        ValuesEntry("flags", "int64", "", time, np.where(time < 1_000_000, 32.0, 33.0)),
+    )
+    named = {"state": "state", "position": "angle", "voltage": "flags"}
+
+    with pytest.raises(MissingSignal, match="'flags' cannot be a voltage: .* 32, 33"):
+        assemble_log(entries, options=ReadOptions(entries=named), where="log")
+
+
+def test_columns_of_a_table_are_listed_as_entries(tmp_path):
+    text = "Zeit;Spannung;Test\n0,02;1,5;dynamic-forward\n0,04;1,6;dynamic-forward\n"
+    (tmp_path / "t.csv").write_text(text, encoding="utf-8")
+    found = {one.name: one for one in list_entries(tmp_path / "t.csv")}
+
+    assert list(found) == ["Zeit", "Spannung", "Test"]
+    assert found["Spannung"].numbers().tolist() == [1.5, 1.6]
+    assert found["Test"].type == "string"

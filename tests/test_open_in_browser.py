@@ -372,30 +372,93 @@ def test_an_effect_that_was_found_is_switched_on_and_off(page, tmp_path):
     assert page.complaints == []
 
 
-def test_signals_of_unknown_names_are_chosen_with_a_picture_of_each(page, tmp_path):
-    log = drive_log()
+def choose_signals(page, **chosen):
+    """Choose an entry for each role in the wizard, and open the log."""
+    page.get_by_text("Which entries are the signals?").wait_for()
+    for role, name in chosen.items():
+        page.locator(f"#roles [value={role}]").click()
+        page.get_by_label("Filter the entries").fill(name)
+        page.get_by_role("radio", name=name).check()
+    page.get_by_role("button", name="Open the log").click()
+
+
+def write_strange(folder):
+    """A log whose entries have names without a meaning; /a/4 never changes."""
     groups = [
         SignalGroup(
             run.time,
             {"/a/1": run.voltage, "/a/2": run.position, "/a/3": run.velocity, "/a/4": 0 * run.time},
             {"/b": [(run.time[0], run.test), (run.time[-1] + 0.02, "none")]},
         )
-        for run in log.runs
+        for run in drive_log().runs
     ]
-    write_signals(groups, tmp_path / "strange.wpilog", units={})
-    drop(page, tmp_path / "strange.wpilog")
-    page.get_by_text("Which entries are the signals?").wait_for()
-    for label, name in (
-        ("Voltage at the motor", "/a/1"),
-        ("Position", "/a/2"),
-        ("Velocity", "/a/3"),
-        ("Name of the running test", "/b"),
-    ):
-        page.get_by_label(label, exact=True).select_option(name)
-    assert page.locator(".spark svg path").count() == 3
-    page.get_by_role("button", name="Open the log").click()
+    write_signals(groups, folder / "strange.wpilog", units={"/a/3": "meters per second"})
+    return folder / "strange.wpilog"
+
+
+def test_signals_of_unknown_names_are_chosen_with_a_picture_of_each(page, tmp_path):
+    drop(page, write_log(drive_log(), tmp_path / "first.csv"))
+    page.locator("#gain-kV").wait_for()
+    drop(page, write_strange(tmp_path))  # a second log is shown at once
+    page.locator(".tab.now .badge", has_text="choose signals").wait_for()
+    assert page.locator(".candidate svg path").count() == 3  # what never changes is no signal
+    page.locator("#roles [value=velocity]").click()
+    assert "likely" in page.locator(".candidate").nth(1).inner_text()  # our own guess is first
+    choose_signals(page, voltage="/a/1", position="/a/2", velocity="/a/3", state="/b")
     page.locator("#gain-kV").wait_for()
 
-    assert float(page.get_by_label("kV as a number").input_value()) == pytest.approx(2.52, rel=0.01)
-    assert page.locator(".tab").count() == 1
+    assert kv_shown(page) == pytest.approx(2.52, rel=0.01)
+    page.get_by_role("button", name="Choose other signals").click()
+    page.get_by_role("button", name="Back to the log").click()
+    page.locator("h1#title", has_text="strange.wpilog").wait_for()
+    page.get_by_role("button", name="Choose other signals").click()
+    choose_signals(page, voltage="/a/3")  # a wrong choice leads back to the wizard, or to a log
+    page.locator("#rechoose, #choose-why").first.wait_for()
+    assert page.locator(".tab").count() == 2
     assert page.complaints == []
+
+
+def test_columns_of_a_table_are_chosen(page, tmp_path):
+    rows = write_log(drive_log(), tmp_path / "drive.csv").read_text("utf-8").splitlines()
+    text = "\n".join(["Versuch,Zeit,Spannung,Weg,Tempo", *rows[1:]])
+    (tmp_path / "tabelle.csv").write_text(text, encoding="utf-8")
+    drop(page, tmp_path / "tabelle.csv")
+    columns = {"voltage": "Spannung", "position": "Weg", "velocity": "Tempo", "state": "Versuch"}
+    choose_signals(page, **columns, time="Zeit")
+    page.locator("#gain-kV").wait_for()
+
+    assert kv_shown(page) == pytest.approx(2.52, rel=0.01)
+
+
+def test_a_reload_keeps_what_was_chosen(page, tmp_path):
+    drop(page, write_strange(tmp_path))
+    choose_signals(page, voltage="/a/1", position="/a/2", velocity="/a/3", state="/b")
+    page.locator("#gain-kV").wait_for()
+    drop(page, write_log(slipped_log(), tmp_path / "slipped.csv"))
+    page.locator(".tab.now .name", has_text="slipped.csv").wait_for()
+    page.get_by_role("button", name="Leave out", exact=True).click()
+    page.get_by_text("Left out: quasistatic-forward").wait_for()
+    wait_until(page, "[...sysid.logs.values()][1].fit !== null")
+    page.get_by_label("kV as a number").fill("2.75")
+    page.reload()
+    page.get_by_text("Left out: quasistatic-forward").wait_for()
+    wait_until(page, "document.querySelector('.gain.moved') !== null")
+
+    assert kv_shown(page) == 2.75
+    assert page.locator(".tab.now .name").inner_text() == "slipped.csv"
+    page.locator(".tab .name", has_text="strange").click()
+    page.locator("#gain-kV").wait_for()
+    assert kv_shown(page) == pytest.approx(2.52, rel=0.01)
+
+
+def test_the_heights_of_the_chart_follow_the_zoom(page, tmp_path):
+    drop(page, write_log(drive_log(), tmp_path / "drive.wpilog"))
+    page.locator("#gain-kV").wait_for()
+    heights = "(([low, high]) => high - low)(sysid.chart.rangeOfPanel('velocity'))"
+    whole = page.evaluate(heights)
+    page.evaluate("sysid.chart.setView(1, 1.5)")
+
+    assert page.evaluate(heights) < 0.3 * whole
+    assert page.evaluate("sysid.chart.rangeOfPanel('voltage')[1]") < 2.0
+    page.locator("#moving").dblclick()
+    assert page.evaluate(heights) == pytest.approx(whole)

@@ -21,6 +21,7 @@ from sim.core.errors import BadRequest
 from sim.inspect.fault import LogInterval
 from sim.plot import (
     Line,
+    Picture,
     plot_acceleration_velocity,
     plot_choices,
     plot_curves,
@@ -30,6 +31,7 @@ from sim.plot import (
     plot_voltage_velocity,
     show_interactive,
 )
+from sim.plot.picture import make_panels
 
 ROUTINE = sim.Routine(ramp=0.5, step=3.5)
 
@@ -193,3 +195,13 @@ def test_drawing_needs_no_backend_and_keeps_no_figure(root):
         check=True,
         env=os.environ | {"MPLBACKEND": "qtagg", "PYTHONPATH": str(root)},  # and no Qt anywhere
     )
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_name_that_the_font_lacks_stays_text_without_a_warning():
+    figure, ((axes,),) = make_panels(1, 1)
+    axes.set_title("王小明")
+
+    assert ">王小明</text>" in Picture(figure, "a name").svg
+    axes.set_title("ann")
+    assert "<text" not in Picture(figure, "a name").svg

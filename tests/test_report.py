@@ -15,9 +15,7 @@ from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.core.errors import BadRequest
-from sim.feedback import PRESETS
 from sim.fit import fit
-from sim.fit.feedback_trial import try_feedback_gains
 from sim.report import write_picture
 from sim.report.page_file import choose_page_path, write_page_file
 
@@ -37,10 +35,10 @@ def whole():
 
 @pytest.fixture(scope="module")
 def drive():
-    """A fit of a drivetrain, its log of one run, and a trial of its feedback gains."""
+    """A fit of a drivetrain, and its log of one run."""
     log = simulate(MECHANISMS["drivetrain"], SHORT, rng=np.random.default_rng(2))
     found = fit(log).in_log_units()
-    return found, replace(log, runs=log.runs[:1]), try_feedback_gains(found, PRESETS["default"])[:1]
+    return found, replace(log, runs=log.runs[:1])
 
 
 def test_a_page_is_alone_and_for_everybody(whole):
@@ -54,8 +52,7 @@ def write_page(_drive, path):
 
 def draw(drive, path):
     """Write the picture of a fit."""
-    found, log, tried = drive
-    write_picture(found, log, path, tried=tried)
+    write_picture(*drive, path)
 
 
 def test_a_page_is_written_whole(tmp_path):
@@ -101,7 +98,7 @@ def test_the_picture_is_of_the_kind_its_name_says(drive, tmp_path, suffix, begin
         text = content.decode("utf-8")
         assert "<title>quasistatic-forward: measured and simulated" in text
         assert "<script" not in text
-        for word in ("residual [m/s]", "voltage [V]", "velocity loop"):
+        for word in ("residual [m/s]", "voltage [V]"):
             assert word in text
 
 

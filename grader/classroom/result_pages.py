@@ -3,6 +3,7 @@
 import math
 from collections.abc import Mapping
 from pathlib import Path
+from statistics import median
 from typing import TYPE_CHECKING, Any
 
 from grader.classroom.atomic_files import write_private_file
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
 FOLDER = Path(__file__).parent
 PEOPLE = "students"
 MARKS = {"passed": "✓ right:", "failed": "✗ not right yet:", "error": "! our mistake:"}
+TENTHS = 10  # of all points, in each of which students are counted
 SIGNS = {MISSING: "–", "ungradable": "!"}
 
 
@@ -92,10 +94,7 @@ def _compute_share(one: GradedStudent, results: ClassResults) -> float:
 
 
 def _fill_class_page(results: ClassResults) -> dict[str, Any]:
-    from sim.plot import plot_score_heatmap, plot_score_histogram  # noqa: PLC0415 - matplotlib only where it draws
-
-    names = [one.student for one in results.students]
-    table = [[_compute_cell_share(record) for record in one.records] for one in results.students]
+    shares = _list_shares(results)
     found = sorted(
         analyze_items(results.students), key=lambda one: (one.share, one.exercise, one.check)
     )
@@ -107,8 +106,10 @@ def _fill_class_page(results: ClassResults) -> dict[str, Any]:
         "open": _list_open_cases(results),
         "count": len(results.students),
         "columns": summarize_exercises(results.students),
-        "heat": plot_score_heatmap(names, results.exercises, table).html,
-        "spread": plot_score_histogram(shares).html if (shares := _list_shares(results)) else "",
+        "spread": [
+            sum(min(int(TENTHS * one), TENTHS - 1) == k for one in shares) for k in range(TENTHS)
+        ],
+        "median": median(shares) if shares else None,
         "misconceptions": [
             {"code": code, "count": count, "says": _explain_misconception(code)}
             for code, count in count_misconceptions(results.students)
@@ -148,8 +149,13 @@ def _list_open_cases(results: ClassResults) -> list[dict[str, str]]:
 
 def _make_row(one: GradedStudent, results: ClassResults) -> dict[str, Any]:
     points, how = collect_scores(one), find_status(one)
-    cells = [SIGNS.get(how.get(name, MISSING), f"{points.get(name, 0):g}") for name in
-             results.exercises]  # fmt: skip
+    cells = [
+        {
+            "text": SIGNS.get(how.get(name, MISSING), f"{points.get(name, 0):g}"),
+            "share": points[name] / results.max_scores[name] if name in points else None,
+        }
+        for name in results.exercises
+    ]
     return {
         "student": one.student,
         "page": _name_page(one),
@@ -164,10 +170,6 @@ def _format_total(one: GradedStudent, results: ClassResults) -> str:
     if total is None:
         return "incomplete" if has_handed_in(one) else "–"
     return f"{total:g} of {sum(results.max_scores.values()):g}"
-
-
-def _compute_cell_share(record: Mapping[str, Any]) -> float:
-    return float(record["score"]) / float(record["max_score"]) if is_graded(record) else math.nan
 
 
 def _fill_student_page(one: GradedStudent, results: ClassResults) -> dict[str, Any]:

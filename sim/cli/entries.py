@@ -26,7 +26,8 @@ def entries(file: Path, *, as_json: bool) -> None:
     """
     from sim.io import list_entries  # noqa: PLC0415 - --help must not wait for it
 
-    rows = sorted(map(_row, list_entries(file)), key=lambda row: (not row["signal"], row["name"]))
+    rows = [describe_entry(entry) for entry in list_entries(file)]
+    rows.sort(key=lambda row: (not row["signal"], row["name"]))
     if as_json:
         click.echo(json.dumps(rows, allow_nan=False))
         return
@@ -37,7 +38,7 @@ def entries(file: Path, *, as_json: bool) -> None:
         click.echo(f"{line} {row['unit']}".rstrip())
 
 
-def _row(entry: "Entry") -> dict[str, object]:
+def describe_entry(entry: "Entry") -> dict[str, object]:
     """An entry as plain data; ``signal`` is empty if it is not a motor's signal."""
     from sim.io.entries.discovery import identify_signal  # noqa: PLC0415 - --help must not wait for it
     from sim.io.entries.entry import NUMBERS, STRING  # noqa: PLC0415 - the same

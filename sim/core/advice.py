@@ -55,7 +55,7 @@ WORDS = {
     "entry-type": ("Name an entry of type {} with {}.", "Choose an entry of type {}."),
     "columns": (
         f"Name the columns {{}} in the first line, or say what they are called: {NAMES}.",
-        "Name the columns {} in the first line of the file.",
+        "Choose which column holds which signal.",
     ),
     "radius": (
         "Add --radius: the radius of the wheel or drum, in meters.",

@@ -11,7 +11,6 @@ Nothing here needs a screen, and no function keeps state between calls.
 
 from sim.plot.acceleration import plot_acceleration_velocity
 from sim.plot.charts import plot_choices, plot_curves, plot_misses
-from sim.plot.class_scores import plot_score_heatmap, plot_score_histogram
 from sim.plot.gain_errors import plot_gain_errors
 from sim.plot.gap_bars import plot_gap_bars
 from sim.plot.gauge import plot_gauge
@@ -44,8 +43,6 @@ __all__ = [
     "plot_misses",
     "plot_r2_vs_gain_error",
     "plot_relative_change",
-    "plot_score_heatmap",
-    "plot_score_histogram",
     "plot_time_series",
     "plot_timesteps",
     "plot_tracking_error",

@@ -48,7 +48,7 @@ feedback_options = combine_options(
     click.option("--own-kd", type=float, help="Your own kD, for --own-kp.  [default: 0]"),
     click.option("--loop", type=click.Choice(LOOPS), help="Loop of --own-kp.  [default: velocity]"),
     click.option("--html", type=FILE, help="Write a page with every figure and number."),
-    click.option("--plot", type=FILE, help="Write all figures into one file: .png, .svg or .pdf."),
+    click.option("--plot", type=FILE, help="Draw all runs into one file: .png, .svg or .pdf."),
     click.option(
         "--wpilog",
         type=FILE,
@@ -228,7 +228,7 @@ def _write_files(
     if plot is not None:
         from sim.report import write_picture  # noqa: PLC0415 - draws
 
-        write_picture(output.found, output.log, plot, tried=output.tried)
+        write_picture(output.found, output.log, plot)
 
 
 def _write_page(output: _FitOutput, html: Path, parts: "Parts") -> None:

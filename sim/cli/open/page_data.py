@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from sim.cli.entries import describe_entry
 from sim.cli.fit.paste import SEASONS, write_snippet
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, Refusal
@@ -254,19 +255,21 @@ def _is_number(text: str) -> bool:
 
 
 def describe_entries(entries: "Sequence[Entry]") -> list[dict[str, Any]]:
-    """Entries that can be signals, each with points for a small plot; numbers first, then texts."""
-    found = [one for one in entries if one.type in (*NUMBERS, STRING) and len(one)]
-    found.sort(key=lambda one: (one.type == STRING, one.name))
-    return [
-        {
-            "name": one.name,
-            "text": one.type == STRING,
-            "unit": one.metadata if len(one.metadata) <= LONGEST_UNIT else "",
-            "samples": len(one),
-            "picture": [] if one.type == STRING else _decimate(one.numbers()),
-        }
-        for one in found[:MOST_ENTRIES]
-    ]
+    """Entries that can be signals, each with points for a small plot; likely signals first.
+
+    Numbers that never change are left out.
+    """
+    rows = []
+    for entry in entries:
+        if not len(entry) or entry.type not in (*NUMBERS, STRING):
+            continue
+        picture = [] if entry.type == STRING else _decimate(entry.numbers())
+        if entry.type == STRING or len(set(picture)) > 1:
+            row = describe_entry(entry)
+            unit = row["unit"] if len(str(row["unit"])) <= LONGEST_UNIT else ""
+            rows.append(row | {"text": entry.type == STRING, "unit": unit, "picture": picture})
+    rows.sort(key=lambda row: (not row["signal"], row["name"]))
+    return rows[:MOST_ENTRIES]
 
 
 def _decimate(values: "Array") -> list[float]:
@@ -275,16 +278,21 @@ def _decimate(values: "Array") -> list[float]:
     return [float(f"{value:.4g}") for value in values[::step].tolist() if math.isfinite(value)]
 
 
-def describe_refusal(refusal: Refusal, folder: str) -> dict[str, str]:
+def describe_refusal(refusal: Refusal, folder: str) -> dict[str, Any]:
     """An error as plain data: what went wrong, where, and what to do.
 
     The temporary folder of the session is removed from the file's path.
     """
     where = refusal.where.partition(folder)[2] or refusal.where
     place = where.replace("\\", "/").rpartition("/")[2]
-    kind = type(refusal).__name__
     advice = refusal.action.on_page if refusal.action else refusal.advice
-    return {"what": refusal.what, "where": place, "advice": advice, "kind": kind}
+    return {
+        "what": refusal.what,
+        "where": place,
+        "advice": advice,
+        "kind": type(refusal).__name__,
+        "columns": refusal.action is not None and refusal.action.name == "columns",
+    }
 
 
 def _doubts(doubts: Sequence[Doubt], one: "OpenLog") -> list[dict[str, Any]]:

@@ -46,7 +46,7 @@ class Reading:
     @classmethod
     def from_query(cls, query: Mapping[str, str]) -> "Reading":
         """The options that a request of the page names."""
-        chosen = tuple((one, query[one]) for one in (*NEEDED, "state") if query.get(one))
+        chosen = tuple((one, query[one]) for one in (*NEEDED, "state", "time") if query.get(one))
         left_out = tuple(filter(None, query.get("left_out", "").split(",")))
         return cls(query.get("units") or None, query.get("type") or None, chosen, left_out)
 

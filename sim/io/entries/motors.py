@@ -10,6 +10,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
+import numpy as np
+
 from sim.core.advice import Action
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, MissingSignal
@@ -37,8 +39,11 @@ from sim.io.entries.names import (
     split_words,
 )
 from sim.io.entries.state import WORD, RunInterval, StateEntry
+from sim.io.entries.units import find_unit_text
 from sim.io.format import ReadOptions, warn_of_missing_signal
 
+WHOLE = "int64"  # type of an entry that counts, or that holds flags
+FEW = 10  # [values] fewer whole numbers, without a unit, are no voltage
 FLAGS = "--voltage ENTRY --position ENTRY --velocity ENTRY"
 EXPORT = (
     "Are the signals only in the log of CTRE's or REV's logger? Then first export it as WPILOG, "
@@ -86,14 +91,28 @@ class _Search:
 
     @cached_property
     def given(self) -> dict[str, Entry]:
-        """The signals whose entries the user named."""
-        return {
+        """The signals whose entries the user named.
+
+        Raises:
+            MissingSignal: an entry is not there, or what was named as the voltage counts something.
+        """
+        given = {
             signal: find_requested_entry(
                 name, role=signal, kinds=NUMBERS, entries=self.entries, where=self.where
             )
             for signal, name in self.options.entries.items()
             if signal in NEEDED + OPTIONAL
         }
+        if (voltage := given.get("voltage")) and voltage.type == WHOLE:
+            values = np.unique(voltage.numbers())
+            if values.size < FEW and not find_unit_text(voltage, "voltage"):
+                only = ", ".join(f"{value:.0f}" for value in values)
+                raise MissingSignal(
+                    f"{voltage.name!r} cannot be a voltage: it holds only the whole numbers {only}",
+                    where=self.where,
+                    advice="Choose the entry with the voltage at the motor.",
+                )
+        return given
 
 
 def find_motors(

@@ -2,12 +2,13 @@
 
 /** An error of the server: what is wrong, where, and what to do next. */
 export class Refused extends Error {
-  constructor({ what, where, advice, kind }) {
+  constructor({ what, where, advice, kind, columns }) {
     super(what);
     this.what = what.replace(/\.$/, "");
     this.where = where;
     this.advice = advice;
     this.kind = kind;
+    this.columns = columns;
   }
 }
 
@@ -17,31 +18,6 @@ export const saved = JSON.parse(document.getElementById("saved")?.textContent ??
 /** Open a dropped file; returns its number and its name. */
 export function openFile(file) {
   return ask(`logs?name=${encodeURIComponent(file.name)}`, { method: "POST", body: file });
-}
-
-/** Open a simulated log. */
-export function openExample() {
-  return ask("example", { method: "POST" });
-}
-
-/** The open logs: those named on the command line, or opened before the page was reloaded. */
-export function listLogs() {
-  return ask("logs");
-}
-
-/** The view: whether the page shows the data alone, and the text format of marked spans. */
-export function askView() {
-  return ask("view");
-}
-
-/** The status of sysid watch, and the logs that grow. */
-export function askLive() {
-  return ask("live");
-}
-
-/** Close a log. */
-export function closeLog(id) {
-  return ask(`logs/${id}`, { method: "DELETE" });
 }
 
 /** Let a search for missing effects end with what it has. */
@@ -66,7 +42,8 @@ export function addressOf(id, what, query = {}) {
   return `logs/${id}/${what}${text ? `?${text}` : ""}`;
 }
 
-async function ask(address, options) {
+/** The answer to a request: "logs" are those open, "view" what the page shows, "live" what sysid watch follows. */
+export async function ask(address, options) {
   return (await fetchOrRefuse(address, options)).json();
 }
 

@@ -4,11 +4,11 @@
 // There are two canvases. The lower one holds what does not depend on the gains; the upper one holds
 // the simulated curve and the cursor, and is drawn once per frame.
 
-import { rangeOf } from "./drawing.js";
-import { FIT_PANELS, drawFit, drawMeasured, drawOther, errorRange, fitMarks } from "./fit_panels.js";
+import { rangeOf, widen } from "./drawing.js";
+import { FIT_PANELS, drawFit, drawMeasured, drawOther, errorRange, fitCurves, fitMarks } from "./fit_panels.js";
 import { AXIS, TOP, drawCursor, drawFaults, drawGrid, drawOverview, drawRuns, drawSpans, drawTimes } from "./frame.js";
 import { listen } from "./hands.js";
-import { SIGNAL_PANELS, deriveSignals, drawSignals, signalMarks, signalRanges } from "./signals.js";
+import { SIGNAL_PANELS, deriveSignals, drawSignals, signalCurves, signalMarks, stepRange } from "./signals.js";
 import { Timeline, firstNotBefore } from "./timeline.js";
 
 const GAP = 26, OVERVIEW = 34; // [px]
@@ -44,15 +44,9 @@ export class Chart {
     this.noise = null;
     this.cursor = null;
     this.timeline = new Timeline(runs);
+    this.wholeRange = widen(rangeOf(runs.map((run) => run.velocity)));
     this.spans = new Map();
     this.derived = null;
-    const [low, high] = rangeOf(runs.map((run) => run.velocity));
-    const pad = 0.07 * (high - low || 1);
-    const [least, most] = rangeOf(runs.map((run) => run.voltage));
-    this.ranges = {
-      velocity: [Math.min(low, 0) - pad, Math.max(high, 0) + pad],
-      voltage: [Math.min(least, 0) - 0.6, Math.max(most, 0) + 0.6],
-    };
     this.prepareSignals();
     this.showAll();
   }
@@ -66,19 +60,37 @@ export class Chart {
 
   /** Time steps and slopes, computed when they are needed. */
   prepareSignals() {
-    if (!this.showsSignals || !this.timeline || this.derived) return;
-    this.derived = deriveSignals(this.runs);
-    this.signalRanges = signalRanges(this.runs, this.derived, this.ranges);
+    if (this.showsSignals && this.timeline) this.derived ??= deriveSignals(this.runs);
   }
 
   get panelsShown() {
     return this.showsSignals ? SIGNAL_PANELS : FIT_PANELS;
   }
 
-  /** The lowest and the highest value that a panel shows. */
+  /** The lowest and the highest value that a panel shows: those of its curves in the visible part. */
   rangeOfPanel(name) {
-    if (name === "error") return errorRange(this);
-    return (this.showsSignals ? this.signalRanges : this.ranges)[name];
+    return name === "error" ? errorRange(this) : this.ranges[name];
+  }
+
+  /** Fit the panels to what is visible of their curves. */
+  fitHeights() {
+    const shown = Object.fromEntries(this.panelsShown.map(({ name }) => [name, []]));
+    for (const { panel, run, first, values } of this.showsSignals ? signalCurves(this) : fitCurves(this)) {
+      const [from, end] = this.samplesInView(run, first, values.length);
+      shown[panel].push(values.subarray(from - first, end - first));
+    }
+    this.ranges = Object.fromEntries(Object.entries(shown).map(([name, arrays]) => [name, widen(rangeOf(arrays))]));
+    if (this.showsSignals) this.ranges.step = stepRange(this);
+  }
+
+  /** The first sample of a run that is visible, and the one after the last, of a curve's samples. */
+  samplesInView(run, first, count) {
+    const { time } = this.runs[run];
+    const begins = this.timeline.offsets[run] - time[0];
+    const [left, right] = this.timeline.spanOf(run);
+    if (left > this.view[1] || right < this.view[0]) return [first, first];
+    const from = Math.max(firstNotBefore(time, this.view[0] - begins) - 1, first);
+    return [from, Math.max(from, Math.min(firstNotBefore(time, this.view[1] - begins) + 1, first + count))];
   }
 
   /** Mark a span of a run, from one sample to another; null removes it. */
@@ -152,6 +164,7 @@ export class Chart {
   }
 
   redraw() {
+    if (this.view) this.fitHeights();
     this.stillIsOld = true;
     this.requestMoving();
   }
@@ -179,7 +192,7 @@ export class Chart {
     }
     this.width = clientWidth;
     this.height = clientHeight;
-    this.left = clientWidth < 560 ? 40 : 54;
+    this.left = clientWidth < 560 ? 44 : 54;
     this.right = clientWidth - (clientWidth < 560 ? 8 : 14);
     let y = TOP;
     const room = clientHeight - TOP - AXIS - OVERVIEW - GAP * (this.panelsShown.length - 1) - 10;
@@ -193,8 +206,9 @@ export class Chart {
     this.redraw();
   }
 
-  /** Read the colors of the theme again. */
+  /** Read the colors and the font of the theme again. */
   readColors() {
+    this.font = getComputedStyle(this.still).font;
     const style = getComputedStyle(document.documentElement);
     const names = ["ink", "quiet", "rule", "card", "measured", "simulated", "volts", "fault", "band", "stripe", "position", "mark"];
     this.colors = Object.fromEntries(names.map((one) => [one, style.getPropertyValue(`--${one}`).trim()]));
@@ -221,7 +235,7 @@ export class Chart {
   drawStill() {
     const to = this.still.getContext("2d");
     to.clearRect(0, 0, this.width, this.height);
-    to.font = "11px ui-sans-serif, system-ui, sans-serif";
+    to.font = this.font;
     drawRuns(this, to);
     drawFaults(this, to);
     for (const { name } of this.panelsShown) if (name !== "error") drawGrid(this, to, name);
@@ -249,8 +263,7 @@ export class Chart {
   curve(to, run, first, values, y, { color, width, alpha = 1, dots = false, steps = false }) {
     const { time } = this.runs[run];
     const begins = this.timeline.offsets[run] - time[0];
-    const from = Math.max(firstNotBefore(time, this.view[0] - begins) - 1, first);
-    const end = Math.min(firstNotBefore(time, this.view[1] - begins) + 1, first + values.length);
+    const [from, end] = this.samplesInView(run, first, values.length);
     if (end - from < 1) return;
     const apart = (this.xOf(begins + time[end - 1]) - this.xOf(begins + time[from])) / Math.max(end - from - 1, 1);
     to.globalAlpha = alpha;
@@ -294,7 +307,7 @@ export class Chart {
   drawMoving() {
     const to = this.moving.getContext("2d");
     to.clearRect(0, 0, this.width, this.height);
-    to.font = "11px ui-sans-serif, system-ui, sans-serif";
+    to.font = this.font;
     if (this.showsSignals) this.clip(to, () => drawSpans(this, to));
     else drawFit(this, to);
     if (this.cursor) drawCursor(this, to, (this.showsSignals ? signalMarks : fitMarks)(this, this.cursor));

@@ -1,50 +1,91 @@
-// Rows to choose the entries of signals that were not found by name.
+// The wizard: which entries are the signals that were not found by name.
 
-import { figure, text } from "./elements.js";
+import { button, drawing, figure, text } from "./elements.js";
+import { activate, load, shownLog } from "./logs.js";
+import { at, guarded, pressOne } from "./page.js";
 
-const ROLES = [
-  ["voltage", "Voltage at the motor", false],
-  ["position", "Position", false],
-  ["velocity", "Velocity", false],
-  ["state", "Name of the running test", true],
+const ROLES = [ // role, words, whether its entry holds texts, and what is taken if none is chosen
+  ["voltage", "Voltage at the motor", false, "Found by its name"],
+  ["position", "Position", false, "Found by its name"],
+  ["velocity", "Velocity", false, "The slope of the position"],
+  ["state", "Name of the running test", true, "Found by its name"],
+  ["time", "Time, in seconds", false, "Found by its name"],
 ];
+const MOST = 60; // candidates listed at a time
 
-/** A row for each signal: a menu of entries, and a small plot of the chosen one. */
-export function makeSignalRows(entries, chosen) {
-  return ROLES.map(([role, words, isText]) => {
-    const row = text("label", "", "signal");
-    const select = document.createElement("select");
-    select.name = role;
-    select.setAttribute("aria-label", words);
-    select.append(new Option(role === "velocity" ? "the slope of the position" : "found by its name", ""));
-    for (const one of entries.filter((entry) => entry.text === isText)) {
-      select.append(new Option(`${one.name}${one.unit ? ` [${one.unit}]` : ""}`, one.name));
-    }
-    select.value = chosen[role] ?? "";
-    const place = text("div", "", "spark");
-    const draw = () => {
-      const one = entries.find((entry) => entry.name === select.value);
-      place.replaceChildren(...(one ? [isText ? text("span", `${one.samples} times`) : sparkline(one.picture)] : []));
-    };
-    select.addEventListener("change", draw);
-    draw();
-    row.append(text("span", words, "role"), select, place);
-    return row;
-  });
+let role = "voltage"; // whose candidates are listed
+
+/** Show the choices of a log: a button for each role, and the candidates of one role. */
+export function showChoice() {
+  const { name, runs, choice: { why, columns } } = shownLog();
+  at("choose-why").textContent = `${name}: ${why}`;
+  at("choose-back").hidden = !runs;
+  at("roles").replaceChildren(...ROLES.filter(([one]) => one !== "time" || columns).map(([one, words]) => {
+    const made = button("", words, () => { role = one; showCandidates(); });
+    made.value = one;
+    made.append(text("span", ""));
+    return made;
+  }));
+  at("entry-filter").value = "";
+  role = "voltage";
+  showCandidates();
+}
+
+/** The candidates for a role that the filter lets pass, our own guesses first. */
+function showCandidates() {
+  const { entries, chosen } = shownLog().choice;
+  const [, words, isText, unchosen] = ROLES.find(([one]) => one === role);
+  pressOne(at("roles"), role);
+  showChosen();
+  const parts = at("entry-filter").value.toLowerCase().split(/\s+/);
+  const fitting = entries
+    .filter((one) => one.text === isText && parts.every((part) => one.name.toLowerCase().includes(part)))
+    .sort((a, b) => rank(a, chosen) - rank(b, chosen));
+  const rows = fitting.slice(0, MOST).map((one) => candidate(one.name, one, chosen));
+  at("candidates").setAttribute("aria-label", words);
+  at("candidates").replaceChildren(candidate(unchosen, { name: "" }, chosen), ...rows);
+  at("candidates-more").textContent = fitting.length > MOST ? `${fitting.length - MOST} more. Type a part of the name above.` : "";
+}
+
+/** The chosen entry, then our own guesses, entries of unknown use, and those of another role. */
+function rank({ name, signal }, chosen) {
+  return name === chosen[role] ? 0 : signal === role ? 1 : signal ? 3 : 2;
+}
+
+function candidate(words, { name, unit, signal, text: isText, values, picture }, chosen) {
+  const label = text("label", "", "candidate");
+  const box = Object.assign(document.createElement("input"), { type: "radio", name: "entry", checked: (chosen[role] ?? "") === name });
+  box.addEventListener("change", () => { chosen[role] = name; showChosen(); });
+  label.append(box, text("span", words, "name"), text("span", unit ?? "", "quiet"));
+  if (name && signal === role) label.append(text("span", "likely", "badge"));
+  if (name) label.append(isText ? text("span", `${values} times`, "spark") : sparkline(picture));
+  return label;
+}
+
+function showChosen() {
+  const { chosen } = shownLog().choice;
+  for (const one of at("roles").children) one.lastChild.textContent = chosen[one.value] || ROLES.find(([name]) => name === one.value)[3];
 }
 
 /** A small plot of an entry. */
 function sparkline(values) {
-  const svg = "http://www.w3.org/2000/svg";
   const [low, high] = [Math.min(...values), Math.max(...values)];
   const points = values.map((value, k) => `${((200 * k) / Math.max(values.length - 1, 1)).toFixed(1)} ${(34 - (30 * (value - low)) / (high - low || 1)).toFixed(1)}`);
-  const picture = document.createElementNS(svg, "svg");
-  const path = document.createElementNS(svg, "path");
-  picture.setAttribute("viewBox", "0 0 200 38");
+  const picture = drawing("0 0 200 38", `M${points.join("L")}`, `from ${figure(low)} to ${figure(high)}`);
   picture.setAttribute("preserveAspectRatio", "none");
-  picture.setAttribute("role", "img");
-  picture.setAttribute("aria-label", `from ${figure(low)} to ${figure(high)}`);
-  path.setAttribute("d", `M${points.join("L")}`);
-  picture.append(path);
+  picture.setAttribute("class", "spark");
   return picture;
 }
+
+at("entry-filter").addEventListener("input", showCandidates);
+at("choose-back").addEventListener("click", () => {
+  const log = shownLog();
+  log.choice = null;
+  activate(log.id);
+});
+at("signals").addEventListener("submit", (event) => {
+  event.preventDefault();
+  const log = shownLog();
+  log.query = { ...log.query, ...log.choice.chosen };
+  guarded(log.name, () => load(log));
+});

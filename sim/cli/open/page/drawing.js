@@ -23,3 +23,13 @@ export function rangeOf(arrays) {
 export function short(value) {
   return String(Number(value.toPrecision(6))).replace("-", "−");
 }
+
+const MARGIN = 0.07, NEAR_ZERO = 1; // [ranges] room above and below; distance within which zero is shown too
+
+/** A range with a margin, and with zero if that is near. */
+export function widen([low, high]) {
+  const span = high - low || 0.1 * Math.abs(high) || 1;
+  const [from, to] = Math.max(low, -high) <= NEAR_ZERO * span ? [Math.min(low, 0), Math.max(high, 0)] : [low, high];
+  const room = MARGIN * (to - from || span);
+  return [from - room, to + room];
+}

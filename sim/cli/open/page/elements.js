@@ -42,6 +42,17 @@ export function button(kind, words, press) {
   return made;
 }
 
+/** A path as a picture; without words it is decoration. */
+export function drawing(box, path, words = "") {
+  const [picture, line] = ["svg", "path"].map((name) => document.createElementNS("http://www.w3.org/2000/svg", name));
+  picture.setAttribute("viewBox", box);
+  picture.setAttribute(words ? "aria-label" : "aria-hidden", words || "true");
+  if (words) picture.setAttribute("role", "img");
+  line.setAttribute("d", path);
+  picture.append(line);
+  return picture;
+}
+
 export function figure(value) {
   const size = Math.abs(value);
   const digits = size >= 100 ? 0 : size >= 10 ? 2 : size >= 1 ? 3 : size >= 0.001 ? 4 : 5;
@@ -50,4 +61,8 @@ export function figure(value) {
 
 export function sentence(problem) {
   return `${problem.what ?? problem.message}. ${problem.advice ?? ""}`;
+}
+
+export function capital(words) {
+  return words[0].toUpperCase() + words.slice(1);
 }

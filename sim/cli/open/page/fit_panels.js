@@ -8,6 +8,15 @@ export const FIT_PANELS = [
   { name: "voltage", share: 0.25 },
 ];
 
+/** The curves to which the panels are fitted: {panel, run, first, values}. */
+export function fitCurves({ runs, simulated, without }) {
+  const measured = runs.flatMap(({ velocity, voltage }, run) => [
+    { panel: "velocity", run, first: 0, values: velocity }, { panel: "voltage", run, first: 0, values: voltage },
+  ]);
+  const computed = [simulated, without].flatMap((all) => all.map((one, run) => one && { panel: "velocity", run, first: one.first, values: one.velocity }));
+  return [...measured, ...computed.filter(Boolean)];
+}
+
 /** Draw the curves that depend on the gains: simulated velocity and residual. */
 export function drawFit(chart, to) {
   drawGrid(chart, to, "error");
@@ -34,8 +43,9 @@ export function errorRange(chart) {
   for (const [k, one] of [...chart.simulated.entries(), ...chart.without.entries()]) {
     if (!one) continue;
     const { velocity } = chart.runs[k];
-    for (let i = 0; i < one.velocity.length; i++) {
-      const left = Math.abs(velocity[one.first + i] - one.velocity[i]);
+    const [from, end] = chart.samplesInView(k, one.first, one.velocity.length);
+    for (let i = from; i < end; i++) {
+      const left = Math.abs(velocity[i] - one.velocity[i - one.first]);
       if (left > most) most = left;
     }
   }

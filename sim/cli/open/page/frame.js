@@ -4,6 +4,7 @@ import { line, short } from "./drawing.js";
 import { stepTitle } from "./signals.js";
 import { roundTicks } from "./timeline.js";
 
+const WHOLE = 0.6; // [share of the visible part of a run] a longer fault is marked above the run alone
 export const TOP = 44, AXIS = 24; // [px] height above the panels, and of the times below them
 const TITLES = {
   velocity: ({ symbol }) => `velocity, ${symbol}/s`,
@@ -47,10 +48,14 @@ export function drawFaults(chart, to) {
     for (const one of chart.faults) {
       const from = chart.xOf(chart.timeline.placeOf(one.run, one.start));
       const end = Math.max(chart.xOf(chart.timeline.placeOf(one.run, one.end)), from + 2);
-      to.globalAlpha = 0.14;
+      const run = chart.timeline.spanOf(one.run).map((place) => chart.xOf(place));
+      const within = ([first, last]) => Math.min(last, chart.right) - Math.max(first, chart.left);
       to.fillStyle = fault;
-      to.fillRect(from, TOP - 22, end - from, chart.bottom - TOP + 26);
-      to.globalAlpha = 1;
+      if (within([from, end]) < WHOLE * within(run)) {
+        to.globalAlpha = 0.14;
+        to.fillRect(from, TOP - 22, end - from, chart.bottom - TOP + 26);
+        to.globalAlpha = 1;
+      }
       to.fillRect(from, TOP - 22, end - from, 3);
       const width = to.measureText(one.name).width;
       const at = Math.max(Math.min(from, chart.right - width - 6), chart.left);
@@ -68,31 +73,21 @@ export function drawGrid(chart, to, name) {
   const y = chart.heights(name);
   const [low, high] = chart.rangeOfPanel(name);
   to.textBaseline = "middle";
+  to.fillStyle = quiet;
   const { top, bottom } = chart.panels[name];
   const apart = name === "velocity" && !chart.showsSignals ? 38 : 22; // [px]
-  const count = Math.max(3, Math.floor((bottom - top) / apart));
+  const count = Math.max(2, Math.floor((bottom - top) / apart));
   for (const tick of roundTicks(low, high, count)) {
     const at = Math.round(y(tick)) + 0.5;
     to.strokeStyle = rule;
     to.lineWidth = Math.abs(tick) < 1e-9 * (high - low) ? 1.6 : 0.8;
     line(to, chart.left, at, chart.right, at);
-    to.fillStyle = quiet;
     to.textAlign = "right";
     to.fillText(short(tick), chart.left - 7, at);
   }
   to.textAlign = "left";
   to.textBaseline = "alphabetic";
-  to.fillStyle = quiet;
-  to.globalAlpha = 0.9;
-  to.textBaseline = "top";
-  if (name === chart.panelsShown[0].name) {
-    to.fillText(title, chart.left + 5, top - 3);
-  } else {
-    to.textBaseline = "alphabetic";
-    to.fillText(title, chart.left + 5, top - 6);
-  }
-  to.textBaseline = "alphabetic";
-  to.globalAlpha = 1;
+  to.fillText(title, chart.left + 5, name === chart.panelsShown[0].name ? top + 13 : top - 6);
 }
 
 /** Draw times below the runs: those of the log, or in the view of the signals since each test began. */
@@ -126,7 +121,7 @@ export function drawOverview(chart, to) {
   const { top, bottom } = chart.overview;
   const { measured, simulated, rule, fault, stripe } = chart.colors;
   const x = (place) => chart.left + (place / chart.timeline.end) * (chart.right - chart.left);
-  const [low, high] = chart.ranges.velocity;
+  const [low, high] = chart.wholeRange;
   const y = (value) => bottom - ((value - low) / (high - low)) * (bottom - top);
   to.strokeStyle = measured;
   to.globalAlpha = 0.85;

@@ -13,7 +13,6 @@ const LATE = 1.5; // [median time steps] in a longer one, a sample is missing
 const LEAST_STEPS = 2.5, MOST_STEPS = 10; // [median time steps] range of the upper end of their axis
 const SEEN = 0.01; // [share of the slopes] that may lie outside the axis, at each end
 const MOST_SORTED = 20000; // samples used for a quantile at most
-const NEAR_ZERO = 1; // [ranges of the positions] distance from zero within which their axis includes zero
 
 /** The title of the panel of time steps, which explains the dashed line. */
 export function stepTitle({ derived }) {
@@ -21,7 +20,7 @@ export function stepTitle({ derived }) {
 }
 
 /** For each run, the time step before each sample [ms] and the slope of the position; for all runs,
- * the median time step [ms], and the limit above which a time step is too long [ms]. */
+ * the median and the longest time step, and the limit above which one is too long [ms]. */
 export function deriveSignals(runs) {
   const runsWith = runs.map(({ time, position }) => {
     const last = time.length - 1;
@@ -33,25 +32,23 @@ export function deriveSignals(runs) {
     return { step, slope };
   });
   const median = share(runsWith.map(({ step }) => step), 0.5);
-  return { runs: runsWith, median, late: LATE * median };
+  const slopes = runsWith.map(({ slope }) => slope);
+  const [low, high] = [share(slopes, SEEN), share(slopes, 1 - SEEN)];
+  for (const one of runsWith) one.bounded = one.slope.map((value) => Math.min(Math.max(value, low), high));
+  const longest = rangeOf(runsWith.map(({ step }) => step))[1];
+  return { runs: runsWith, median, longest, late: LATE * median };
 }
 
-/** The limits of each panel. */
-export function signalRanges(runs, derived, { velocity, voltage }) {
-  const slopes = derived.runs.map(({ slope }) => slope);
-  const [low, high] = [share(slopes, SEEN), share(slopes, 1 - SEEN)];
-  const [least, most] = rangeOf(runs.map(({ position }) => position));
-  const span = most - least || 1;
-  const near = Math.max(least, -most) <= NEAR_ZERO * span;
-  const [from, to] = near ? [Math.min(least, 0), Math.max(most, 0)] : [least, most];
-  const longest = rangeOf(derived.runs.map(({ step }) => step))[1];
-  const { median } = derived;
-  return {
-    voltage,
-    velocity: [Math.min(velocity[0], low), Math.max(velocity[1], high)],
-    position: [from - 0.07 * (to - from || 1), to + 0.07 * (to - from || 1)],
-    step: [0, median * Math.min(Math.max(LEAST_STEPS, (1.1 * longest) / median), MOST_STEPS)],
-  };
+/** The curves to which the panels are fitted; of the slopes, without the few that stick out. */
+export function signalCurves({ runs, derived }) {
+  return runs.flatMap(({ voltage, velocity, position }, run) => [
+    ["voltage", voltage], ["velocity", velocity], ["velocity", derived.runs[run].bounded], ["position", position],
+  ].map(([panel, values]) => ({ panel, run, first: 0, values })));
+}
+
+/** The range of the time steps: from zero, and to so many medians. */
+export function stepRange({ derived: { median, longest } }) {
+  return [0, median * Math.min(Math.max(LEAST_STEPS, (1.1 * longest) / median), MOST_STEPS)];
 }
 
 /** Draw all signals of a chart. */

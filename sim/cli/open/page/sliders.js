@@ -1,5 +1,7 @@
 // The gains: a slider and a number for each, with the fit's own value and its error marked.
 
+import { text } from "./elements.js";
+
 const STEPS = 2000; // steps of a slider
 const TINY = 0.0001; // smaller errors are shown as an upper bound
 const MOST_DECIMALS = 9;
@@ -37,9 +39,9 @@ export class Sliders {
   makeRow(gain, value) {
     const [low, high] = endsOf(gain);
     const place = document.createElement("div");
-    const label = element("label", "name", nameOf(gain.name));
-    const number = element("input", "number");
-    const slider = element("input", "slider");
+    const label = text("label", nameOf(gain.name), "name");
+    const number = text("input", "", "number");
+    const slider = text("input", "", "slider");
     const id = `gain-${gain.name}`;
     label.htmlFor = id;
     label.title = gain.means;
@@ -47,10 +49,10 @@ export class Sliders {
     Object.assign(number, { type: "text", inputMode: "decimal", spellcheck: false });
     number.setAttribute("aria-label", `${nameOf(gain.name)} as a number`);
     slider.setAttribute("aria-describedby", `${id}-means`);
-    const means = element("p", "means", gain.means);
+    const means = text("p", gain.means, "means");
     means.id = `${id}-means`;
     means.title = gain.means;
-    const error = element("span", "error", `± ${errorText(gain)}`);
+    const error = text("span", `± ${errorText(gain)}`, "error");
     error.title = "one standard error";
     const share = (one) => Math.min(Math.max((one - low) / (high - low), 0), 1);
     slider.style.setProperty("--fit", share(gain.value));
@@ -75,8 +77,8 @@ export class Sliders {
     row.put = put;
     place.className = "gain";
     put(value);
-    const head = element("div", "top");
-    head.append(label, number, error, element("span", "unit", gain.unit));
+    const head = text("div", "", "top");
+    head.append(label, number, error, text("span", gain.unit, "unit"));
     place.append(head, slider, means);
     return row;
   }
@@ -113,11 +115,4 @@ export function rounded(value, error) {
 export function errorText({ error }) {
   if (error === null) return "not known";
   return error < TINY ? `< ${TINY}` : error >= 100 ? String(Math.round(error)) : error.toPrecision(2);
-}
-
-function element(tag, kind, text) {
-  const made = document.createElement(tag);
-  made.className = kind;
-  if (text !== undefined) made.textContent = text;
-  return made;
 }

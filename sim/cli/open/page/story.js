@@ -1,10 +1,34 @@
 // The story of a search for missing effects.
 
 import { button, foldedItem, item, prose, text } from "./elements.js";
+import { chooseEffects, logs, reconcile, shownLog, stop } from "./logs.js";
+import { at, guarded } from "./page.js";
 import { errorText, nameOf, rounded } from "./sliders.js";
 
+export function showStory() {
+  const log = shownLog();
+  const { search } = log;
+  const place = at("story");
+  if (search && !search.story && !search.refused) {
+    const bar = place.querySelector("progress") ?? Object.assign(document.createElement("progress"), { max: 1 });
+    bar.value = search.share;
+    bar.setAttribute("aria-label", "How far the search is");
+    const end = place.querySelector(".stop") ?? button("button stop", "Stop", () => stop(log));
+    end.disabled = search.stopped;
+    place.replaceChildren(text("p", `${search.stopped ? "stopping after" : ""} ${search.words}…`, "quiet"), bar, end);
+    return;
+  }
+  const others = [...logs.values()].filter((one) => one !== log && one.runs);
+  const parts = !search
+    ? [text("p", "Tries every effect of the catalogue, drag to backlash, and names those that explain the simulation error. " + (log.summary.compiled
+        ? "This takes some seconds." : "This takes minutes: Numba is not installed. With the extra fast it takes seconds."), "quiet")]
+    : search.refused ? [item("grave", search.refused)]
+      : storyParts(search.story, log, (effects) => guarded(log.name, () => chooseEffects(log, effects)));
+  place.replaceChildren(...parts, searchForm(search, others, (settings) => guarded(log.name, () => reconcile(log, settings))));
+}
+
 /** The headline, the models to choose from, the findings, and where the base model is wrong. */
-export function storyParts(story, log, choose) {
+function storyParts(story, log, choose) {
   const head = text("p", "", "headline");
   head.append(...prose(story.headline));
   const found = story.findings.map((one) => {
@@ -48,7 +72,7 @@ function modelChoice({ effects }, { effects: chosen, plain: without, fit }, choo
 }
 
 /** Other open logs that take part, and the button that begins a search. */
-export function searchForm(search, others, begin) {
+function searchForm(search, others, begin) {
   const form = text("div", "", "row search");
   const pick = (title, role) => {
     const label = text("label", `${title} `);

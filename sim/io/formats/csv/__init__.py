@@ -28,7 +28,7 @@ from sim.io.format import (
     warn_of_missing_signal,
     warn_of_motor_choice,
 )
-from sim.io.formats.csv.entries import is_export, read_entries
+from sim.io.formats.csv.entries import is_export, read_columns, read_entries
 from sim.io.formats.csv.table import EXTRA, KNOWN, NEEDED, STATED, CsvTable, open_table, read_header
 
 SUFFIXES = (".csv",)
@@ -43,19 +43,13 @@ def recognizes(head: bytes) -> bool:
 
 
 def entries(path: Path) -> list[Entry]:
-    """All entries of a log viewer's export.
+    """All entries of a log viewer's export, or the columns of a table.
 
     Raises:
         UnreadableFile: not UTF-8, rows of unequal length, or no rows.
         BadSample: a time is not a number.
-        BadRequest: the file is a table of signals, not an export.
     """
-    if not _is_export_file(path):
-        raise BadRequest(
-            f"its columns are signals: {', '.join(NEEDED)}",
-            advice="Read it with `sysid fit` or `sysid inspect`.",
-        )
-    return read_entries(path)
+    return read_entries(path) if _is_export_file(path) else read_columns(path)
 
 
 def _is_export_file(path: Path) -> bool:

@@ -88,6 +88,25 @@ def read_entries(path: Path) -> list[Entry]:
     return list(_make_entries(found.items()))
 
 
+def read_columns(path: Path) -> list[Entry]:
+    """The columns of a table as entries; the time of each value is the number of its row.
+
+    Raises:
+        UnreadableFile: not UTF-8, or no header.
+    """
+    delimiter, rows = split_rows(path)
+    cells = [row for _, row in rows]
+    if delimiter != ",":
+        cells = [[cell.replace(",", ".") for cell in row] for row in cells]
+    columns = zip(*cells, strict=False)  # of rows of unequal length, what all have
+    return list(
+        _make_entries(
+            (title.strip(), [(float(row), cell) for row, cell in enumerate(column)])
+            for title, *column in columns
+        )
+    )
+
+
 def _read_times(
     rows: Iterable[tuple[int, list[str]]], column: int, *, width: int, where: str
 ) -> tuple[list[float], list[list[str]]]:

@@ -23,7 +23,7 @@ SIGNALS = ("run", *NEEDED, *EXTRA)
 KNOWN = (*SIGNALS, *STATED)
 WORDS = ("run", "test", *STATED)  # columns of texts; the others hold numbers
 
-_ENTRY = {"state": "test"}  # name of a signal -> its column, if they differ
+_ENTRY = {"state": "test", "time": "time_s"}  # name of a signal -> its column, if they differ
 
 # Other names of the kinds and directions of tests, as in tools before 2024.
 _SAME = {

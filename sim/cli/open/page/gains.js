@@ -1,0 +1,109 @@
+// The gains: sliders, simulation error, feedback, robot code.
+
+import { addressOf, askLog } from "./api.js";
+import { capital, figure, prose, sentence, text } from "./elements.js";
+import { modelQuery, shownLog } from "./logs.js";
+import { at, copy } from "./page.js";
+import { simulate } from "./simulation.js";
+import { Sliders } from "./sliders.js";
+import { chart, showCursor } from "./stage.js";
+import { showDoubts } from "./verdict.js";
+
+export const sliders = new Sliders(at("sliders"), moveGains);
+
+export function showFit() {
+  const log = shownLog();
+  const { fit, fitRefused } = log;
+  at("paste").disabled = !fit;
+  at("reset").hidden = true;
+  const report = at("report");
+  report.toggleAttribute("href", false);
+  report.setAttribute("aria-disabled", String(!fit));
+  showDoubts();
+  if (!fit) {
+    for (const id of ["sliders", "meter", "feedback"]) at(id).replaceChildren();
+    at("verdict").textContent = fitRefused ? capital(sentence(fitRefused)) : log.summary.compiles
+      ? "The simulation is compiled first. That is done once, and takes about twenty seconds." : "";
+    return;
+  }
+  report.href = addressOf(log.id, "report.html", modelQuery(log));
+  report.download = `${log.name}.html`;
+  sliders.show(fit.gains, log.gains, { fixed: Boolean(fit.tracks) });
+  log.moved = sliders.isMoved;
+  at("verdict").replaceChildren(...prose(fit.verdict));
+  showFeedback(fit);
+  showSimulation(log);
+  chart.redraw();
+}
+
+/** Feedback gains to start with, as SysId suggests them. */
+function showFeedback({ feedback }) {
+  const rows = Object.entries(feedback).map(([loop, { kP, kD }]) => {
+    const pair = document.createElement("div");
+    const gains = [`kP ${figure(kP)}`, ...(kD ? [`kD ${figure(kD)}`] : [])];
+    pair.append(text("dt", `${loop} loop`), text("dd", gains.join("  ")));
+    return pair;
+  });
+  at("feedback").replaceChildren(...rows);
+}
+
+function moveGains(values) {
+  const log = shownLog();
+  if (!log?.fit) return;
+  log.gains = values;
+  log.moved = sliders.isMoved;
+  if (moveGains.waiting) return;
+  moveGains.waiting = requestAnimationFrame(() => {
+    moveGains.waiting = 0;
+    if (log === shownLog()) showSimulation(log);
+  });
+}
+
+function showSimulation(log) {
+  const error = simulate(log, log.gains);
+  const without = log.fit.tracks ? log.plainSimulated : [];
+  chart.setSimulation(log.simulated, log.fit.noise === null ? null : log.fit.noise / log.summary.units.si, without);
+  document.querySelector(".legend .without").hidden = !without.length;
+  showMeter(log, error);
+  showCursor(chart.cursor);
+  at("reset").hidden = !sliders.isMoved;
+}
+
+function showMeter(log, error) {
+  if (error === null) {
+    const why = log.fit.tracks
+      ? "The search took the mean of several motors, so the curves of this model are not drawn."
+      : "Nothing moves with these gains: kV and kA have to be above zero.";
+    at("meter").replaceChildren(text("p", why, "quiet"));
+    return;
+  }
+  const { si, symbol } = log.summary.units;
+  const floors = (error * si) / log.fit.noise;
+  const gap = text("p", "", "gap");
+  gap.append(text("b", floors.toPrecision(floors < 10 ? 2 : 3)), " × sensor noise, ", text("b", (100 * error / log.top).toPrecision(2)), "\u00a0% of top speed");
+  const ratio = error / log.fitError;
+  const moved = log.moved ? `, ${ratio >= 10 ? Math.round(ratio) : ratio.toFixed(2)} × that of the fit` : "";
+  const bar = text("div", "", "bar-of-error");
+  bar.style.setProperty("--share", Math.min(1, Math.max(0.04, 1 / floors)));
+  bar.classList.toggle("far", floors > 2);
+  at("meter").replaceChildren(gap, text("p", `simulation error ${figure(error)} ${symbol}/s${moved}`, "quiet"), bar);
+}
+
+/** Robot code with the gains; those that the user moved replace those of the fit. */
+async function showCode() {
+  const log = shownLog();
+  const moved = log.fit.gains.map(({ name, value }) => [name, log.gains[name] === value ? undefined : log.gains[name]]);
+  const [language, season] = [at("language").value, at("season").value];
+  at("radius-row").hidden = ["java", "python"].includes(language);
+  const query = { ...modelQuery(log), ...Object.fromEntries(moved), language, season, radius: at("radius").value.replace(",", ".") };
+  try {
+    at("code-text").textContent = (await askLog(log.id, "code", query)).code;
+  } catch (problem) {
+    at("code-text").textContent = sentence(problem);
+  }
+}
+
+at("reset").addEventListener("click", () => sliders.reset());
+at("paste").addEventListener("click", async () => { await showCode(); at("code").showModal(); });
+at("copy").addEventListener("click", () => copy(at("code-text")));
+for (const id of ["language", "season", "radius"]) at(id).addEventListener("change", showCode);

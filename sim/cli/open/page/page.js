@@ -1,0 +1,65 @@
+// The page itself: its elements, messages, and the clipboard.
+
+import { Refused } from "./api.js";
+import { button, text } from "./elements.js";
+
+export const at = (id) => document.getElementById(id);
+
+/** Do something for one file; an error is shown, and the rest of the page keeps working. */
+export async function guarded(name, work) {
+  try {
+    await work();
+  } catch (problem) {
+    if (!(problem instanceof Refused)) console.error(problem);
+    showRefusal(name, problem);
+  }
+}
+
+function showRefusal(name, problem) {
+  const card = text("article", "", "refusal");
+  card.setAttribute("role", "alert");
+  card.append(text("h3", name), text("p", `${problem.what ?? problem.message}.`), text("p", problem.advice ?? "", "advice"));
+  const close = button("close", "×", () => card.remove());
+  close.setAttribute("aria-label", "Close this message");
+  card.append(close);
+  at("refusals").prepend(card);
+}
+
+/** Say something for a moment. */
+export function say(words) {
+  const toast = at("toast");
+  toast.textContent = words;
+  toast.classList.add("seen");
+  clearTimeout(say.waiting);
+  say.waiting = setTimeout(() => toast.classList.remove("seen"), 2600);
+}
+
+export async function copy(place) {
+  try {
+    await navigator.clipboard.writeText(place.textContent);
+    say("Copied.");
+  } catch {
+    getSelection().selectAllChildren(place);
+    say("Selected. Copy it with the keyboard.");
+  }
+}
+
+/** Of several buttons, press the one with this value. */
+export function pressOne(place, value) {
+  for (const one of place.children) one.setAttribute("aria-pressed", String(one.value === value));
+}
+
+/** What a store of the browser keeps under a name; null if it keeps nothing. */
+export function recall(store, name) {
+  try {
+    return window[store].getItem(name);
+  } catch {
+    return null;
+  }
+}
+
+export function keep(store, name, value) {
+  try {
+    window[store].setItem(name, value);
+  } catch { /* a browser that keeps nothing */ }
+}

@@ -1,0 +1,152 @@
+// The card of the chart: the log's name, its runs, the values at the cursor, marked spans, other logs.
+
+import { Chart } from "./chart.js";
+import { button, figure, text } from "./elements.js";
+import { leaveOut, logs, shownLog, state } from "./logs.js";
+import { at, copy, pressOne, say } from "./page.js";
+import { writeSpans } from "./spans.js";
+
+const OTHERS = ["#9b5de5", "#c08a00", "#2a9d8f", "#d0539a"]; // colors of other logs
+
+export const chart = new Chart(at("still"), at("moving"), { onCursor: showCursor, onSpans: showSpans });
+
+export function showStage() {
+  const log = shownLog();
+  const { summary } = log;
+  at("title").textContent = log.name;
+  const runs = `${log.runs.length} run${log.runs.length === 1 ? "" : "s"}`;
+  const facts = [runs, `${summary.samples.toLocaleString("en")} samples`];
+  if (summary.mechanism) facts.unshift(summary.mechanism);
+  at("facts").textContent = facts.join(" · ");
+  at("type").value = log.query.type ?? summary.type;
+  at("units").value = summary.units.name;
+  at("rechoose").hidden = !["voltage", "position", "velocity", "state", "time"].some((role) => log.query[role]);
+  chart.setLog({ runs: log.runs, faults: listMarks(log), symbol: summary.units.symbol });
+  showRuns(log);
+  showCursor(null);
+  showSpans(chart.spans);
+  showOthers();
+}
+
+/** Show a log that is still being read. */
+export function showReading(log) {
+  at("title").textContent = log?.name ?? "";
+  at("facts").textContent = "Reading…";
+  for (const id of ["runs", "faults", "fault-lines", "doubts", "feedback", "sliders", "word", "meter", "readout", "story"]) at(id).replaceChildren();
+  at("verdict").textContent = "";
+}
+
+function showRuns(log) {
+  const chips = log.runs.map((run, k) => {
+    const way = run.test.endsWith("forward") ? "→" : "←";
+    const label = `${run.part ? `${run.part} ` : ""}${run.test.replace(/-\w+$/, "")} ${way}`;
+    const chip = button("chip", label, () => chart.showRun(k));
+    chip.setAttribute("aria-label", `Show run ${k}, ${run.part} ${run.test}`);
+    return chip;
+  });
+  at("runs").replaceChildren(button("chip all", "All", () => chart.showAll()), ...chips);
+}
+
+/** The faults that have a place on the time axis. */
+export function listMarks(log) {
+  return (log.faults?.faults ?? [])
+    .filter((one) => one.run !== null && one.test)
+    .map((one) => ({ run: one.run, start: one.start_s, end: one.end_s, name: one.fault }));
+}
+
+/** Show the signals of a log, or its fit. */
+export function showSignals(on) {
+  chart.showSignals(on);
+  document.body.classList.toggle("signals", on);
+  pressOne(at("views"), on ? "signals" : "fit");
+  showCursor(chart.cursor);
+  showSpans(chart.spans);
+}
+
+/** Show the text of the marked spans. */
+function showSpans(spans) {
+  const log = shownLog();
+  if (!log?.runs) return;
+  const { raw, span_text: pattern } = state.view;
+  const words = writeSpans(pattern, log, spans);
+  at("span-text").textContent = words;
+  at("span-text").hidden = at("span-copy").hidden = at("span-clear").hidden = !words;
+  at("span-leave").hidden = !words || raw;
+  at("span-hint").textContent = words ? pattern.hint : "Drag across a test to mark a part of it. Its times then stand here, ready to copy.";
+}
+
+export function showCursor(cursor) {
+  const log = shownLog();
+  if (!log?.runs) return;
+  const { symbol } = log.summary.units;
+  const run = cursor && log.runs[cursor.run];
+  const k = cursor?.sample;
+  const one = cursor && log.simulated?.[cursor.run];
+  const guess = one && k >= one.first ? one.velocity[k - one.first] : undefined;
+  const derived = run && chart.derived?.runs[cursor.run];
+  const value = (number, unit) => (number === undefined ? "–" : `${figure(number)} ${unit}`);
+  const time = ["time", run ? `${run.time[k].toFixed(3)} s` : "–", ""];
+  const of = {
+    run: ["run", run ? run.test : "point at the curve", "run"],
+    volts: ["voltage", value(run?.voltage[k], "V"), "volts"],
+    position: ["position", value(run?.position[k], symbol), chart.showsSignals ? "place" : ""],
+    measured: [chart.showsSignals ? "velocity" : "measured", value(run?.velocity[k], `${symbol}/s`), "measured"],
+  };
+  const rows = chart.showsSignals
+    ? [
+        of.run,
+        ["time in the test", run ? `${(run.time[k] - run.time[0]).toFixed(3)} s` : "–", ""],
+        of.volts,
+        of.measured,
+        of.position,
+        ["slope of position", value(derived?.slope[k], `${symbol}/s`), "place"],
+        ["time step", run && k ? `${derived.step[k - 1].toFixed(1)} ms` : "–", ""],
+        ["time in the log", time[1], ""],
+      ]
+    : [
+        of.run, time, of.volts, of.measured,
+        ["simulated", value(guess, `${symbol}/s`), "simulated"],
+        ["error", value(guess === undefined ? undefined : run.velocity[k] - guess, `${symbol}/s`), "left"],
+        of.position,
+      ];
+  at("readout").replaceChildren(...rows.map(([name, value, kind]) => {
+    const pair = text("div", "", kind);
+    pair.append(text("dt", name), text("dd", value));
+    return pair;
+  }));
+}
+
+/** Draw the runs of other logs over those of the same test, in their order. */
+export function showOthers() {
+  const log = shownLog();
+  if (!log?.runs) return;
+  const laid = [];
+  const others = [...logs.values()].filter((one) => one.others && one !== log && one.runs);
+  for (const [k, other] of others.entries()) {
+    const used = new Set();
+    for (const [run, mine] of log.runs.entries()) {
+      const theirs = other.runs.find((one) => one.test === mine.test && !used.has(one));
+      if (!theirs) continue;
+      used.add(theirs);
+      const factor = other.summary.units.si / log.summary.units.si;
+      laid.push({ color: OTHERS[k % OTHERS.length], run, time: theirs.time, velocity: theirs.velocity.map((value) => value * factor) });
+    }
+  }
+  chart.setOthers(laid);
+  document.querySelector(".legend .other").hidden = !others.length;
+}
+
+at("views").addEventListener("click", ({ target }) => { if (target.value) showSignals(target.value === "signals"); });
+at("drag").addEventListener("click", ({ target }) => {
+  if (!target.value) return;
+  chart.dragMarks = target.value === "mark";
+  pressOne(at("drag"), target.value);
+});
+at("span-copy").addEventListener("click", () => copy(at("span-text")));
+at("span-leave").addEventListener("click", () => {
+  const log = shownLog();
+  const marked = [...chart.spans].map(([run, [first, last]]) => ({ test: log.runs[run].test, start: log.runs[run].time[first], end: log.runs[run].time[last] }));
+  leaveOut(log, [...log.leftOut, ...marked]);
+  say("Left out. The gains are those of the rest.");
+});
+at("span-clear").addEventListener("click", () => { for (const run of [...chart.spans.keys()]) chart.setSpan(run, null); });

@@ -1,0 +1,100 @@
+// The verdict and its warnings, and the faults of the log.
+
+import { button, foldedItem, item, prose, text } from "./elements.js";
+import { choose, leaveOut, nameOfPart, shownLog } from "./logs.js";
+import { at } from "./page.js";
+import { chart, listMarks } from "./stage.js";
+
+const MOST_SHOWN = 12; // faults in the list; further ones are collapsed
+const MOST_LINES = 3; // faults named under the verdict
+
+export function showFaults() {
+  const log = shownLog();
+  const place = at("faults");
+  if (!log.faults) {
+    for (const one of [place, at("fault-lines")]) one.replaceChildren(item("busy", "Looking for faults…"));
+    return;
+  }
+  chart.setFaults(listMarks(log));
+  const growing = log.revision > 0; // then a missing test is not a fault
+  const faults = log.faults.faults.filter(({ fault }) => !(growing && fault === "missing-test"));
+  const rows = faults.slice(0, MOST_SHOWN).map((one) => faultCard(log, one));
+  if (faults.length > MOST_SHOWN) rows.push(item("busy", `${faults.length - MOST_SHOWN} more are marked on the time axis.`));
+  const none = `No fault in ${log.runs.length === 1 ? "this run" : `these ${log.runs.length} runs`}.`;
+  place.replaceChildren(...rows.length ? rows : [item("well", none)]);
+  const lines = faults.slice(0, MOST_LINES).map((one) => {
+    const line = item("grave");
+    line.append(button("link", `${one.fault.replaceAll("-", " ")} (${surenessOf(one)})${one.test ? `: ${one.test}` : ""}`, () => showFault(one)));
+    return line;
+  });
+  if (faults.length > MOST_LINES) lines.push(item("busy", `${faults.length - MOST_LINES} more below`));
+  at("fault-lines").replaceChildren(...lines.length ? lines : [item("well", none)], ...leftOutLines(log));
+  showDoubts();
+}
+
+function surenessOf({ confidence }) {
+  return confidence >= 0.9 ? "sure" : confidence >= 0.7 ? "likely" : "perhaps";
+}
+
+/** Show where a fault is on the time axis; one without a place, its card. */
+function showFault(one) {
+  const placed = one.run !== null && one.test;
+  if (placed) chart.showFault({ run: one.run, start: one.start_s, end: one.end_s });
+  at(placed ? "plot" : "faults").scrollIntoView({ block: "center", behavior: "smooth" });
+}
+
+function faultCard(log, one) {
+  const card = item("fault");
+  const name = text("h3", one.fault.replaceAll("-", " "));
+  name.append(text("span", surenessOf(one), "badge"));
+  card.append(name);
+  if (one.test) {
+    const where = one.run === null ? one.test : `${one.test}, ${one.start_s.toFixed(2)} to ${one.end_s.toFixed(2)} s`;
+    card.append(text("p", where, "where"));
+  }
+  const advice = text("p", "", "advice");
+  advice.append(...prose(one.advice));
+  card.append(text("p", one.evidence), advice);
+  if (one.run !== null && one.test) {
+    const part = { test: one.test, start: one.start_s, end: one.end_s };
+    const leave = button("button small leave", "Leave out", () => leaveOut(log, [...log.leftOut, part]));
+    leave.disabled = log.leftOut.some((other) => nameOfPart(other) === nameOfPart(part));
+    card.append(button("button small", "Show", () => showFault(one)), " ", leave);
+  }
+  return card;
+}
+
+/** A line for each part that was left out, with a button to take it in again. */
+function leftOutLines(log) {
+  return log.leftOut.map((part) => {
+    const line = item("busy", `Left out: ${part.test}, ${part.start.toFixed(2)} to ${part.end.toFixed(2)} s `);
+    line.append(button("link", "Take in again", () => leaveOut(log, log.leftOut.filter((one) => one !== part))));
+    return line;
+  });
+}
+
+/** The verdict in a word, and the warnings of fit and inspection, each once, the worst first. */
+export function showDoubts() {
+  const log = shownLog();
+  const { fit, fitRefused, faults } = log;
+  const sure = faults?.faults.some((one) => one.confidence >= 0.9);
+  const word = fitRefused ? "No gains" : !fit ? "Fitting…" : sure && fit.word !== "Do not use" ? "Check first" : fit.word;
+  at("word").textContent = word;
+  at("verdict-card").classList.toggle("wrong", Boolean(fitRefused) || word === "Do not use");
+  at("verdict-card").classList.toggle("well", word === "Usable");
+  const said = new Map([...fit?.doubts ?? [], ...faults?.doubts ?? []].map((one) => [one.message, one]));
+  const known = [...said.values()].sort((a, b) => Number(b.grave) - Number(a.grave));
+  const notes = (fit?.notes ?? []).map((note) => foldedItem("well", "Note", note));
+  const parts = fit?.parts.length
+    ? [foldedItem("busy", "Note", `The fit also allows for ${fit.parts.map((one) => one.replaceAll("-", " ")).join(", ")}; the curve here leaves them out.`)]
+    : [];
+  const open = [...at("doubts").querySelectorAll("[open] > summary")].map((one) => one.textContent);
+  at("doubts").replaceChildren(...known.map((one) => doubtItem(log, one)), ...parts, ...notes);
+  for (const one of at("doubts").querySelectorAll("details")) one.open = open.includes(one.firstChild.textContent);
+}
+
+function doubtItem(log, { message, grave, advice, type }) {
+  const made = foldedItem(grave ? "grave" : "look", grave ? "Wrong" : "Warning", `${message} ${advice ?? ""}`);
+  if (type) made.firstChild.append(button("button small", `Fit as ${type}`, () => choose(log, "type", type)));
+  return made;
+}

@@ -1,0 +1,80 @@
+"""Every page for everybody: axe-core finds nothing wrong, and no console has an error."""
+
+import nbformat
+import pytest
+from chromium import list_violations
+from open_page import drive_log, served, slipped_log, write_log
+from test_class_exports import student
+from test_edition_in_browser import CODE, WIDE
+from test_open_in_browser import DESKTOP, PHONE, drop, opened, write_strange
+
+from grader.classroom.result_pages import write_pages
+from grader.classroom.results import ClassResults
+from grader.edition import build_pages
+from sim.cli.open.saved_page import save_page
+from sim.cli.open.session import OpenLog
+
+pytestmark = [pytest.mark.slow, pytest.mark.browser]
+
+
+@pytest.mark.parametrize(("viewport", "theme"), [(DESKTOP, "light"), (PHONE, "dark")])
+def test_the_page_of_open_in_each_of_its_views(browser, tmp_path, viewport, theme):
+    (tmp_path / "session").mkdir()
+    with served(tmp_path / "session") as server:
+        server.session.warm_up()
+        with opened(browser, server.address, viewport, theme) as page:
+            found = {"empty": list_violations(page)}
+            drop(page, write_log(slipped_log(), tmp_path / "slipped.csv"))
+            page.locator("#gain-kV").wait_for()
+            page.locator("li.fault h3").wait_for()
+            found["log"] = list_violations(page)
+            page.locator("#views [value=signals]").click()
+            found["signals"] = list_violations(page)
+            page.locator("#paste").click()
+            page.locator("#code-text", has_text="kV").wait_for()
+            found["code"] = list_violations(page)
+            page.get_by_role("button", name="Close", exact=True).click()
+            assert page.complaints == []
+            drop(page, write_strange(tmp_path))
+            page.get_by_text("Which entries are the signals?").wait_for()
+            found["wizard"] = list_violations(page)
+
+    assert {name: wrong for name, wrong in found.items() if wrong} == {}
+
+
+def write_files(folder):
+    """A saved page, the pages of a class, and a page of the edition with its slides."""
+    save_page(OpenLog(1, "log.csv", write_log(drive_log(), folder / "log.csv")), folder / "s.html")
+    people = (student("Ada", [1.0, 2.0]), student("Bo", [0.0, 2.0]))
+    write_pages(ClassResults("Robotics 1", people, ("exercise1",)), folder)
+    cells = [nbformat.v4.new_markdown_cell(WIDE), nbformat.v4.new_code_cell(CODE)]
+    notebook = folder / "lessons" / "01_arm.ipynb"
+    notebook.parent.mkdir()
+    nbformat.write(nbformat.v4.new_notebook(cells=cells), notebook)
+    build_pages([notebook], folder / "edition", print)
+    return sorted(folder.rglob("*.html"))
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_every_page_that_is_a_file(browser, tmp_path, theme):
+    wrong, complaints = {}, []
+    for file in write_files(tmp_path):
+        page = browser.new_page(viewport=DESKTOP, color_scheme=theme)
+        page.on("pageerror", lambda one: complaints.append(str(one)))
+        page.goto(file.as_uri())
+        if file.name == "s.html":
+            page.locator("#gain-kV").wait_for()
+        if found := list_violations(page):
+            wrong[file.name] = found
+        page.close()
+
+    assert wrong == {}
+    assert complaints == []
+
+
+def test_a_picture_without_words_is_seen(browser):
+    page = browser.new_page()
+    page.set_content("<html lang=en><title>a</title><main><h1>a</h1><img src=x></main>")
+
+    assert [rule for rule, _ in list_violations(page)] == ["image-alt"]
+    page.close()
