@@ -14,10 +14,10 @@ import numpy as np
 from sim.core.errors import BadRequest
 from sim.core.log import Array, Log, Run
 from sim.core.units import UNITS
-from sim.io.entries.entry import NEEDED, OPTIONAL
+from sim.io.entries.entry import NEEDED, OPTIONAL, Numbers
 from sim.io.entries.state import IDLE, WORD
 from sim.io.formats.wpilog.control import Start, make_start_payload
-from sim.io.formats.wpilog.records import MAGIC, MAJOR, Bytes, Numbers
+from sim.io.formats.wpilog.records import MAGIC, MAJOR, Bytes
 
 SECOND = 1e6  # [µs]
 PACKED = ".wpilogxz"  # suffix of a log compressed with xz
