@@ -18,7 +18,7 @@ from sim.core.errors import BadRequest
 from sim.feedback import PRESETS
 from sim.fit import fit
 from sim.fit.feedback_trial import try_feedback_gains
-from sim.report import write_picture
+from sim.report.fit_picture import write_picture
 from sim.report.page_file import choose_page_path, write_page_file
 
 pytestmark = pytest.mark.slow
