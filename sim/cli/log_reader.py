@@ -6,7 +6,7 @@ is every motor.
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import reduce, wraps
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -19,7 +19,8 @@ from sim.core.log import Log
 from sim.core.units import UNITS
 from sim.core.vocabulary import TYPES
 from sim.inspect.log_units import doubt_units
-from sim.io import read, read_motors
+from sim.io import read_motors, read_with
+from sim.io.format import ReadOptions
 from sim.io.motion import leave_out_falls, mend_motion, scale_velocity
 
 Parts: TypeAlias = Mapping[str, Log]  # name of a side, module or repetition -> its log
@@ -74,7 +75,8 @@ def reading_options(command: Callable[..., Any]) -> Callable[..., Any]:
 
     @wraps(command)
     def call_with_reader(*args: Any, **options: Any) -> Any:  # noqa: ANN401 - passed on
-        entries = {name: options.pop(name) for name in ("voltage", "position", "velocity", "state")}
+        named = {name: options.pop(name) for name in ("voltage", "position", "velocity", "state")}
+        entries = {name: entry for name, entry in named.items() if entry}
         how = {name: options.pop(name) for name in READING}
         reader = LogReader(**how, type=options.pop("type_"), entries=entries)
         return command(*args, reader=reader, **options)
@@ -83,26 +85,14 @@ def reading_options(command: Callable[..., Any]) -> Callable[..., Any]:
 
 
 @dataclass(frozen=True)
-class LogReader:
+class LogReader(ReadOptions):
     """Reads the logs of a mechanism, as the options of the command line say.
 
     Args:
-        units: unit of the positions in them; None takes the one in each file.
-        type: type of the mechanism; None takes the one in each file.
-        motor: name of the only motor to read; None reads all.
-        entries: signal -> name of its entry; None finds it by name.
         velocity_scale: factor of the velocity.
-        ignore_velocity: use the slope of the position as the velocity.
-        pick: number of the mechanism to read, counted from 1; None if the log has only one.
     """
 
-    units: str | None = None
-    type: str | None = None
-    motor: str | None = None
-    entries: Mapping[str, str | None] = field(default_factory=dict)
     velocity_scale: float = 1.0
-    ignore_velocity: bool = False
-    pick: int | None = None
 
     def read_recorded(self, file: Path) -> Log:
         """The log in one file as it was recorded; several motors count as their mean.
@@ -110,7 +100,7 @@ class LogReader:
         Raises:
             Refusal: the file cannot be read.
         """
-        return self._scale(read(file, **self._choices))
+        return self._scale(read_with(file, self))
 
     def read_joined(self, files: Sequence[Path]) -> Log:
         """The logs in all files as one, with what can be mended in it mended.
@@ -140,24 +130,12 @@ class LogReader:
         Raises:
             Refusal: the file cannot be read.
         """
-        logs = read_motors(file, **self._choices)
+        logs = read_motors(file, self)
         return {name: _check_signals(self._scale(log)) for name, log in logs.items()}
-
-    @property
-    def _choices(self) -> dict[str, Any]:
-        """The keyword arguments of ``sim.io.read``."""
-        entries = {signal: entry for signal, entry in self.entries.items() if entry}
-        return {
-            "units": self.units, "type": self.type, "motor": self.motor, "entries": entries,
-            "ignore_velocity": self.ignore_velocity, "pick": self.pick,
-        }  # fmt: skip
 
     def _scale(self, log: Log) -> Log:
         """The log with the velocity times the factor that the user gave."""
-        if self.velocity_scale == 1.0:
-            return log
-
-        return scale_velocity(log, self.velocity_scale)
+        return log if self.velocity_scale == 1.0 else scale_velocity(log, self.velocity_scale)
 
 
 def _check_signals(log: Log) -> Log:

@@ -71,7 +71,9 @@ def watch(
         raise click.UsageError("--save keeps what NetworkTables sends, so it needs --nt.")
 
     with ExitStack() as stack:
-        source = _open_source(place, nt=nt, save=save, state=reader.entries["state"], stack=stack)
+        source = _open_source(
+            place, nt=nt, save=save, state=reader.entries.get("state"), stack=stack
+        )
         live = LiveFit(source, reader.read_file, type=reader.type or "")
         session = _open_page(port, stack=stack, no_browser=no_browser) if page else None
         if not as_json:
