@@ -30,6 +30,7 @@ PIECE = 1 << 20  # [bytes] decompressed at a time
 IN_MEMORY = 1 << 26  # [bytes] a larger decompressed log is stored on the disk
 PREFACE = 12  # [bytes] magic, version (2), length of the extra header (4)
 MAJOR = 1  # the only version is 1.0
+FILE_HEADER = MAGIC + struct.pack("<HI", MAJOR << 8, 0)
 PAD = 32  # [bytes] zeros after a window, so that an incomplete header can be read
 LONG_SIZE = 0b1100  # bits of a record whose payload size takes more than one byte
 
@@ -38,6 +39,15 @@ SIZE_AT = [2 + (bits & 3) for bits in range(256)]
 TIME_AT = [SIZE_AT[bits] + 1 + (bits >> 2 & 3) for bits in range(256)]
 PAYLOAD_AT = [TIME_AT[bits] + 1 + (bits >> 4 & 7) for bits in range(256)]
 MASK = np.array([(1 << 8 * length) - 1 for length in range(9)], dtype=np.uint64)
+
+
+def pack_record(number: int, time: int, payload: bytes) -> bytes:
+    """A record; each field of its header has as few bytes as it needs, as WPILib writes it."""
+    fields = (number, len(payload), time)
+    lengths = [max(1, (field.bit_length() + 7) // 8) for field in fields]
+    bits = lengths[0] - 1 | lengths[1] - 1 << 2 | lengths[2] - 1 << 4
+    packed = [field.to_bytes(n, "little") for field, n in zip(fields, lengths, strict=True)]
+    return b"".join((bytes((bits,)), *packed, payload))
 
 
 def find_records(window: bytes) -> tuple[Numbers, int]:
