@@ -6,12 +6,10 @@ from open_page import drive_log, slipped_log, write_log
 
 from sim.bench.mechanisms import MECHANISMS
 from sim.cli import sysid
-from sim.core.errors import BadRequest
 from sim.fit import fit
 from sim.fit.innovations import compute_innovations
 from sim.fit.replay import replay_fit
 from sim.io import list_entries, read
-from sim.io.formats.wpilog.signals import SignalGroup, write_signals
 from sim.support.command_line import run_command
 
 RESIDUAL = 1e-9  # [m/s] of a double after a division and a difference
@@ -104,10 +102,3 @@ def test_a_place_that_cannot_be_written_is_refused_in_one_line(tmp_path, capsys,
     said = capsys.readouterr().err
     assert says in said
     assert said.count("\n") == 1
-
-
-def test_too_many_entries_are_refused(tmp_path):
-    group = SignalGroup(np.zeros(1), {f"/sysid/{k}": np.zeros(1) for k in range(300)})
-
-    with pytest.raises(BadRequest, match="300 entries are too many"):
-        write_signals([group], tmp_path / "out.wpilog", units={})

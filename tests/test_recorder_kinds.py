@@ -13,7 +13,7 @@ from sim.bench.recorder import RECORDERS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.cli import sysid
-from sim.cli.options import LogReader
+from sim.cli.log_reader import LogReader
 from sim.core.log import Log, Run
 from sim.fit import fit
 from sim.inspect.detect_faults import inspect

@@ -16,7 +16,7 @@ from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.core.errors import BadRequest
 from sim.fit import fit
-from sim.report import write_picture
+from sim.report.fit_picture import write_picture
 from sim.report.page_file import choose_page_path, write_page_file
 
 pytestmark = pytest.mark.slow

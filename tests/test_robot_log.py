@@ -14,7 +14,6 @@ import sim
 from sim.core.log import Log, Run
 from sim.fit import fit
 from sim.io.formats.wpilog.contents import read_contents
-from sim.io.formats.wpilog.records import load_records
 
 pytestmark = pytest.mark.robot
 
@@ -72,7 +71,7 @@ def ours(path: Path) -> dict[str, tuple[str, str, list[int], list[object]]]:
             entry.time.tolist(),
             entry.texts() if entry.type in {"string", "json"} else entry.values().tolist(),
         )
-        for entry in read_contents(load_records(path)).entries
+        for entry in read_contents(path).entries
     }
 
 

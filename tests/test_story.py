@@ -181,7 +181,7 @@ def reconcile(capsys, monkeypatch):
             asked.append(how | {"log": log})
             return one
 
-        monkeypatch.setattr("sim.reconcile.reconcile", solve)
+        monkeypatch.setattr("sim.cli.reconcile.solve", solve)
         capsys.readouterr()
         code = run_command(sysid, name="sysid", arguments=["reconcile", *map(str, arguments)])
         said = capsys.readouterr()
@@ -277,7 +277,7 @@ from sim.cli import sysid
 from sim.cli.open.reconcile_job import describe_story
 from sim.support.command_line import run_command
 run_command(sysid, name="sysid", arguments=["reconcile", {path!r}, "--json"])
-seen = [name for name in ("matplotlib", "jinja2", "rich", "IPython") if name in sys.modules]
+seen = [name for name in ("matplotlib", "IPython") if name in sys.modules]
 print(seen, file=sys.stderr)
 """
 

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.cli.options import LogReader
+from sim.cli.log_reader import LogReader
 from sim.cli.watch.live_fit import LiveFit
 from sim.cli.watch.recordings import FileSource
 from sim.core.errors import UnreadableFile

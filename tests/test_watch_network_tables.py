@@ -13,7 +13,7 @@ import pytest
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.cli.options import LogReader
+from sim.cli.log_reader import LogReader
 from sim.cli.watch.live_fit import LiveFit
 from sim.cli.watch.network_tables import INTERRUPTED, NetworkTablesSource
 from sim.core.errors import BadRequest

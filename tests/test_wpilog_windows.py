@@ -12,10 +12,8 @@ import sim
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.io.formats.wpilog import windows
+from sim.io.formats.wpilog import contents
 from sim.io.formats.wpilog.contents import read_contents
-from sim.io.formats.wpilog.records import load_records
-from sim.io.formats.wpilog.windows import load_wanted_records
 
 TMP = settings(
     suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None, max_examples=200
@@ -39,8 +37,8 @@ def shape(found, wanted):
     rows = [
         (
             entry.name, entry.type, entry.metadata, entry.time.tolist(),
-            [bytes(entry.file.content[at : at + size]) for at, size in
-             zip(entry.payload.tolist(), entry.size.tolist(), strict=True)],
+            [entry.payloads[at : at + size] for at, size in
+             zip(entry.begin.tolist(), entry.size.tolist(), strict=True)],
         )
         for entry in found.entries if wanted(entry)
     ]  # fmt: skip
@@ -63,14 +61,10 @@ def test_windows_change_nothing(tmp_path, several, cut, tail, name):
         return not name or entry.name == name
 
     with pytest.MonkeyPatch.context() as patched:
-        patched.setattr(windows, "FIRST", 24)
-        patched.setattr(windows, "LARGEST", 64)
-        parts = read_contents(load_wanted_records(path, wanted))
+        patched.setattr(contents, "WINDOW", 24)
+        parts = read_contents(path, wanted)
 
-    whole, damage, orphans = shape(read_contents(load_records(path)), wanted)
-    assert shape(parts, wanted)[:2] == (whole, damage)
-    if not name:
-        assert parts.orphans == orphans
+    assert shape(parts, wanted) == shape(read_contents(path), wanted)
 
 
 def test_a_log_of_other_things_takes_no_more_memory_than_a_window(tmp_path):

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING
 import click
 import numpy as np
 
-from sim.cli.open import serve_page
+from sim.cli.open.command import serve_page
 from sim.cli.open.view import PageView, SpanText
 from sim.core.errors import Refusal
 from sim.core.units import find_unit

@@ -3,8 +3,12 @@
 from pathlib import Path
 
 import click
+import numpy as np
 
-from sim.cli.options import FAULT_NAMES, FILE, LogReader, reading_options, refuse_overwriting
+from sim.cli.log_reader import LogReader, reading_options
+from sim.cli.options import FAULT_NAMES, FILE, refuse_overwriting
+from sim.inspect.contaminate import contaminate_all, parse_fault_request
+from sim.io import write
 from sim.support.command_line import quote_path
 
 
@@ -40,11 +44,6 @@ def contaminate(
 
     For example: sysid contaminate drive.csv --fault encoder-slip:0.5@dynamic-forward+0.4 -o bad.csv
     """
-    import numpy as np  # noqa: PLC0415 - as all below: --help must not wait for it
-
-    from sim.inspect.contaminate import contaminate_all, parse_fault_request  # noqa: PLC0415
-    from sim.io import write  # noqa: PLC0415
-
     refuse_overwriting(output, inputs=[file])
     asked = [parse_fault_request(text) for text in faults]
     log, where = contaminate_all(reader.read_recorded(file), asked, rng=np.random.default_rng(seed))

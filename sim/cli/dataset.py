@@ -1,19 +1,22 @@
 """``sysid dataset``."""
 
 from contextlib import closing
+from importlib.resources import files
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
+from sim.bench.dataset.folder import DatasetPlace, check_separation
+from sim.bench.dataset.key import choose_key_path
+from sim.bench.dataset.making import make_log, rehearse_logs
+from sim.bench.dataset.plan import LogJob, plan_jobs
+from sim.bench.dataset.spec import read_spec
 from sim.cli.options import FILE
 from sim.support.command_line import DONE, INTERRUPTED, NOT_RIGHT, print_error, quote_path
 from sim.support.os_errors import refuse_os_errors
-
-if TYPE_CHECKING:
-    from sim.bench.dataset.folder import DatasetPlace
-    from sim.bench.dataset.plan import LogJob
-
+from sim.support.work.executor import count_available_cores, run_jobs
+from sim.support.work.interrupt import deferred_interrupt
+from sim.support.work.progress_bar import progress_bar
 
 WORTH = 50  # [logs] per process at least: for fewer, starting it takes longer than it saves
 
@@ -56,10 +59,6 @@ def dataset(  # noqa: PLR0917 - click passes options by name
         return _write_example(spec)
     if output is None:
         raise click.UsageError("Missing option '-o': a folder for the logs.")
-    from sim.bench.dataset.folder import DatasetPlace, check_separation  # noqa: PLC0415 - as all below: --help must not wait
-    from sim.bench.dataset.key import choose_key_path  # noqa: PLC0415
-    from sim.bench.dataset.plan import plan_jobs  # noqa: PLC0415
-    from sim.bench.dataset.spec import read_spec  # noqa: PLC0415
 
     asked = read_spec(spec)
     key = key or choose_key_path(output)
@@ -73,18 +72,13 @@ def dataset(  # noqa: PLR0917 - click passes options by name
 
 
 def _make(
-    place: "DatasetPlace",
-    jobs: "tuple[LogJob, ...]",
+    place: DatasetPlace,
+    jobs: tuple[LogJob, ...],
     *,
     processes: int | None,
     cluster: str | None,
 ) -> int:
     """Make the logs that are missing, with a progress bar; the exit code."""
-    from sim.bench.dataset.making import make_log, rehearse_logs  # noqa: PLC0415 - --help must not wait
-    from sim.support.work.executor import count_available_cores, run_jobs  # noqa: PLC0415 - the same
-    from sim.support.work.interrupt import deferred_interrupt  # noqa: PLC0415 - the same
-    from sim.support.work.progress_bar import progress_bar  # noqa: PLC0415 - the same
-
     kept = place.survey(jobs)
     todo = [job for job in jobs if job.name not in kept]
     rehearse_logs(todo)
@@ -120,7 +114,7 @@ def _make(
     return DONE
 
 
-def _check(place: "DatasetPlace", jobs: "tuple[LogJob, ...]") -> int:
+def _check(place: DatasetPlace, jobs: tuple[LogJob, ...]) -> int:
     """Print which logs have changed or are missing; the exit code."""
     wrong = list(place.verify(jobs))
     for line in wrong:
@@ -136,8 +130,6 @@ def _write_example(path: Path) -> int:
     Raises:
         BadRequest: the file exists, or cannot be written.
     """
-    from importlib.resources import files  # noqa: PLC0415 - few ask for it
-
     text = files("sim.bench.dataset").joinpath("example.toml").read_text(encoding="utf-8")
     advice = "Name a new file, in a folder you may write to."
     with (

@@ -3,6 +3,7 @@
 import click
 
 from sim.cli.options import as_json, list_catalogue
+from sim.physics.effects import EFFECTS
 
 
 @click.command()
@@ -12,8 +13,6 @@ def effects(*, as_json: bool) -> None:
 
     You can hide an effect in a simulated mechanism, and add it to a model.
     """
-    from sim.physics.effects import EFFECTS  # noqa: PLC0415 - --help must not wait for it
-
     list_catalogue(
         (
             {

@@ -2,14 +2,15 @@
 
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
 from sim.cli.options import FILE, as_json
-
-if TYPE_CHECKING:
-    from sim.io.entries.entry import Entry
+from sim.io import list_entries
+from sim.io.entries.discovery import identify_signal
+from sim.io.entries.entry import NUMBERS, STRING, Entry
+from sim.io.entries.state import names_tests
+from sim.io.entries.units import find_unit_text
 
 
 @click.command()
@@ -24,8 +25,6 @@ def entries(file: Path, *, as_json: bool) -> None:
 
     Pass the right entries to `sysid fit` with --voltage, --position and --velocity.
     """
-    from sim.io import list_entries  # noqa: PLC0415 - --help must not wait for it
-
     rows = [describe_entry(entry) for entry in list_entries(file)]
     rows.sort(key=lambda row: (not row["signal"], row["name"]))
     if as_json:
@@ -38,13 +37,8 @@ def entries(file: Path, *, as_json: bool) -> None:
         click.echo(f"{line} {row['unit']}".rstrip())
 
 
-def describe_entry(entry: "Entry") -> dict[str, object]:
+def describe_entry(entry: Entry) -> dict[str, object]:
     """An entry as plain data; ``signal`` is empty if it is not a motor's signal."""
-    from sim.io.entries.discovery import identify_signal  # noqa: PLC0415 - --help must not wait for it
-    from sim.io.entries.entry import NUMBERS, STRING  # noqa: PLC0415 - the same
-    from sim.io.entries.state import names_tests  # noqa: PLC0415 - the same
-    from sim.io.entries.units import find_unit_text  # noqa: PLC0415 - the same
-
     device, signal = (identify_signal(entry) if entry.type in NUMBERS else None) or ("", "")
     if entry.type == STRING and names_tests(entry):
         signal = "state"

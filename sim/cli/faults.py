@@ -3,6 +3,7 @@
 import click
 
 from sim.cli.options import as_json, list_catalogue
+from sim.inspect.faults import FAULTS
 
 
 @click.command()
@@ -12,8 +13,6 @@ def faults(*, as_json: bool) -> None:
 
     `sysid inspect` looks for these faults.
     """
-    from sim.inspect.faults import FAULTS  # noqa: PLC0415 - --help must not wait for it
-
     list_catalogue(
         (
             {

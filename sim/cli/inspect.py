@@ -1,22 +1,18 @@
 """``sysid inspect``."""
 
 import json
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import accumulate
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
-from sim.cli.options import FILE, LogReader, as_json, reading_options, refuse_duplicates
-from sim.core.doubt import SHOWN_FIRST
+from sim.cli.log_reader import LogReader, reading_options, refuse_duplicates
+from sim.cli.options import FILE, as_json
+from sim.core.doubt import SHOWN_FIRST, Doubt
+from sim.inspect.detect_faults import Inspection, inspect_together
+from sim.inspect.fault import Damage
 from sim.support.command_line import DONE, NOT_RIGHT
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
-
-    from sim.core.doubt import Doubt
-    from sim.inspect.detect_faults import Inspection
-    from sim.inspect.fault import Damage
 
 SURE, LIKELY = 0.9, 0.7  # [1] lowest confidence that is called sure, or likely
 LINES = 40  # [lines] of a report at most: it should fit on one screen of a terminal
@@ -45,8 +41,6 @@ def inspect(
     Exit code 0 means that no fault was found; 1 that there is a fault, or that the log could not
     be checked.
     """
-    from sim.inspect.detect_faults import inspect_together  # noqa: PLC0415 - --help must not wait for it
-
     refuse_duplicates(files)
     logs = [reader.read_recorded(file) for file in files]
     found = inspect_together(logs)
@@ -57,7 +51,7 @@ def inspect(
     return DONE if found.is_clean else NOT_RIGHT
 
 
-def _show(found: "Inspection", *, runs: "Mapping[str, int]") -> None:
+def _show(found: Inspection, *, runs: Mapping[str, int]) -> None:
     """Print one paragraph for each kind of fault, the worst first; then the doubts, on one screen.
 
     Args:
@@ -88,7 +82,7 @@ def _show(found: "Inspection", *, runs: "Mapping[str, int]") -> None:
     _show_doubts(found.doubts, lines_left=lines_left, cut=any(len(kind) > PLACES for kind in kinds))
 
 
-def _name_runs(runs: "Mapping[str, int]") -> str:
+def _name_runs(runs: Mapping[str, int]) -> str:
     """The runs of each file, as ``Runs 0 to 3: a.wpilog; runs 4 to 7: b.wpilog``."""
     ends = list(accumulate(runs.values()))
     parts = [
@@ -99,7 +93,7 @@ def _name_runs(runs: "Mapping[str, int]") -> str:
     return f"{text[:1].upper()}{text[1:]}."
 
 
-def _show_doubts(doubts: "Iterable[Doubt]", *, lines_left: int, cut: bool) -> None:
+def _show_doubts(doubts: Iterable[Doubt], *, lines_left: int, cut: bool) -> None:
     """Print the doubts that fit into the lines left, grave ones first.
 
     If doubts are left out, or places were (``cut``), a line says how to list everything.
@@ -120,7 +114,7 @@ def _show_doubts(doubts: "Iterable[Doubt]", *, lines_left: int, cut: bool) -> No
         click.echo(ALL_IN_JSON)
 
 
-def _write_paragraph(kind: "Sequence[Damage]") -> list[str]:
+def _write_paragraph(kind: Sequence[Damage]) -> list[str]:
     """The lines on the faults of one kind: where, what happened, what to do."""
     worst, several = kind[0], len(kind) > 1
     where = _list_runs(kind) if several else _describe_place(worst)
@@ -140,7 +134,7 @@ def _write_paragraph(kind: "Sequence[Damage]") -> list[str]:
     return lines
 
 
-def _list_runs(kind: "Sequence[Damage]") -> str:
+def _list_runs(kind: Sequence[Damage]) -> str:
     """The runs that have faults of a kind; for faults of no single run, the tests."""
     runs = sorted({damage.where.run for damage in kind if damage.where.run is not None})
     if not runs:
@@ -150,17 +144,17 @@ def _list_runs(kind: "Sequence[Damage]") -> str:
     return f"{count}run{'s' * (len(runs) > 1)} {', '.join(shown)}"
 
 
-def _example(worst: "Damage") -> str:
+def _example(worst: Damage) -> str:
     run = worst.where.run
     return worst.evidence if run is None else f"In run {run}: {worst.evidence}"
 
 
-def _sort_key(damage: "Damage") -> tuple[int, float]:
+def _sort_key(damage: Damage) -> tuple[int, float]:
     run = damage.where.run
     return (-1 if run is None else run, damage.where.start)
 
 
-def _describe_place(damage: "Damage") -> str:
+def _describe_place(damage: Damage) -> str:
     """Where a fault is: a stretch of a run, a test, or the whole log."""
     where = damage.where
     if not where.test:

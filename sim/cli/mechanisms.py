@@ -2,6 +2,7 @@
 
 import click
 
+from sim.bench.mechanisms import MECHANISMS
 from sim.cli.options import as_json, list_catalogue
 
 
@@ -9,8 +10,6 @@ from sim.cli.options import as_json, list_catalogue
 @as_json
 def mechanisms(*, as_json: bool) -> None:
     """List the mechanisms that can be simulated."""
-    from sim.bench.mechanisms import MECHANISMS  # noqa: PLC0415 - --help must not wait for it
-
     list_catalogue(
         ({"name": name, "summary": found.summary} for name, found in MECHANISMS.items()),
         as_json=as_json,

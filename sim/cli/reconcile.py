@@ -1,37 +1,29 @@
 """``sysid reconcile``."""
 
 import json
-from collections.abc import Callable
-from contextlib import nullcontext
-from dataclasses import replace
+from collections.abc import Callable, Mapping
+from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
 from sim.cli.fit.paste import make_paste_text, paste_options
-from sim.cli.options import (
-    FILE,
-    LogReader,
-    as_json,
-    combine_options,
-    reading_options,
-    refuse_overwriting,
-)
+from sim.cli.log_reader import LogReader, reading_options
+from sim.cli.open.page_data import replace_gains
+from sim.cli.open.reconcile_job import inspect_damage
+from sim.cli.open.saved_page import save_page
+from sim.cli.open.session import OpenLog
+from sim.cli.options import FILE, as_json, combine_options, refuse_overwriting
+from sim.core.log import Log
+from sim.fit import Fit, fit
+from sim.physics.engine import engine_can_compile
+from sim.reconcile import Story
+from sim.reconcile import reconcile as solve
+from sim.report.page_file import choose_page_path
+from sim.report.story_terminal import show_progress, show_story
 from sim.support.command_line import DONE, NOT_RIGHT, print_error
 from sim.support.extras import format_install_command
 
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-    from contextlib import AbstractContextManager
-
-    from sim.core.log import Log
-    from sim.fit import Fit
-    from sim.physics.model import Part
-    from sim.reconcile import DamagedInterval, Story
-    from sim.reconcile.story import ParameterEstimate
-
-DROPOUT = "voltage-dropout"  # an inspection reports many short dropouts as one interval
 UNSURE = ("unexplained", "ambiguous")  # verdicts with exit code 1
 
 
@@ -90,8 +82,6 @@ def reconcile(  # noqa: PLR0917 - click passes options by name
     """
     refuse_overwriting(html, inputs=[*files, validation, held_out])
     if html is not None:
-        from sim.report.page_file import choose_page_path  # noqa: PLC0415 - --help must not wait for it
-
         choose_page_path(html)  # refuse a wrong name before the search, not after it
 
     logs = {"log": reader.read_joined(files)}
@@ -104,9 +94,6 @@ def reconcile(  # noqa: PLR0917 - click passes options by name
     with _progress_display(visible=not (as_json or paste)) as progress:
         story = _solve(logs, type_=reader.type, travel=travel, effort=effort, progress=progress)
     if html is not None:
-        from sim.cli.open.saved_page import save_page  # noqa: PLC0415 - once it is needed
-        from sim.cli.open.session import OpenLog  # noqa: PLC0415 - the same
-
         names = ", ".join(file.name for file in files)  # a page travels; folders are private
         save_page(OpenLog(1, names, files[0], finished={"": logs["log"]}), html, story)
     if paste:
@@ -117,20 +104,17 @@ def reconcile(  # noqa: PLR0917 - click passes options by name
     return NOT_RIGHT if story.verdict in UNSURE or story.remainder else DONE
 
 
-def _print_story(story: "Story", files: tuple[Path, ...], *, as_json: bool) -> None:
+def _print_story(story: Story, files: tuple[Path, ...], *, as_json: bool) -> None:
     """Print a story as JSON or as readable text."""
     if as_json:
         click.echo(json.dumps(story.to_json(), allow_nan=False))
         return
-    from sim.report.story_terminal import show_story  # noqa: PLC0415 - only for people
 
     show_story(story, title=", ".join(map(str, files)))
 
 
 def _warn_uncompiled() -> None:
     """Warn that the search is slow without Numba: it simulates thousands of times."""
-    from sim.physics.engine import engine_can_compile  # noqa: PLC0415 - --help must not wait for it
-
     if not engine_can_compile():
         print_error(
             "Numba is not installed, so this takes minutes instead of seconds; the result is the "
@@ -139,22 +123,19 @@ def _warn_uncompiled() -> None:
         )
 
 
-def _progress_display(*, visible: bool) -> "AbstractContextManager[Callable[[str, float], None]]":
+def _progress_display(*, visible: bool) -> AbstractContextManager[Callable[[str, float], None]]:
     """A progress bar, or without output for people (``visible``) a function that does nothing."""
     if not visible:
         return nullcontext(lambda _, __: None)
-    from sim.report.story_terminal import show_progress  # noqa: PLC0415 - only for people
 
     return show_progress()
 
 
 def _solve(
-    logs: "Mapping[str, Log]", *, type_: str | None, travel: float | None, effort: float,
+    logs: Mapping[str, Log], *, type_: str | None, travel: float | None, effort: float,
     progress: Callable[[str, float], None],
-) -> "Story":  # fmt: skip
+) -> Story:  # fmt: skip
     """The story of these logs; intervals in which an inspection finds damage are excluded."""
-    from sim.reconcile import reconcile as solve  # noqa: PLC0415 - --help must not wait for it
-
     progress("looking for damage", 0.0)
     log = logs["log"]
     return solve(
@@ -169,50 +150,9 @@ def _solve(
     )
 
 
-def _make_fit(story: "Story", log: "Log") -> "Fit":
+def _make_fit(story: Story, log: Log) -> Fit:
     """The fit of a log, with the gains of a story's last model."""
-    from sim.fit import fit  # noqa: PLC0415 - --help must not wait for it
-
     plain = fit(log, type=story.model.type).in_log_units()
     if story.gains == story.gains_without:
         return plain
     return replace_gains(plain, story.gains, story.model.parts)
-
-
-def replace_gains(
-    plain: "Fit", gains: "Mapping[str, ParameterEstimate]", parts: "tuple[Part, ...]"
-) -> "Fit":
-    """A fit with the gains and effects of another model, in the same unit.
-
-    Warnings about the model without effects do not concern these gains, unless they are grave.
-    """
-    return replace(
-        plain,
-        gains={name: one.value for name, one in gains.items()},
-        errors={name: one.error for name, one in gains.items() if one.error is not None},
-        parts=parts,
-        doubts=tuple(doubt for doubt in plain.doubts if doubt.grave),
-    )
-
-
-def inspect_damage(log: "Log") -> "tuple[DamagedInterval, ...]":
-    """The damaged intervals that an inspection finds in a log, as ``reconcile`` takes them."""
-    from sim.inspect.detect_faults import inspect  # noqa: PLC0415 - --help must not wait for it
-    from sim.inspect.dropout_intervals import find_dropout_intervals  # noqa: PLC0415
-    from sim.reconcile import DamagedInterval  # noqa: PLC0415
-
-    found = []
-    for one in inspect(log).damages:
-        where = one.where
-        intervals: tuple[tuple[float, float], ...] = ((where.start, where.end),)
-        if one.fault == DROPOUT and where.run is not None:
-            intervals = find_dropout_intervals(
-                log.runs[where.run], start=where.start, end=where.end
-            )
-        found += [
-            DamagedInterval(
-                where.run, *interval, one.fault, one.confidence, one.evidence, one.advice
-            )
-            for interval in intervals
-        ]
-    return tuple(found)

@@ -3,19 +3,24 @@
 from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
+import numpy as np
 
+from sim.bench.ground_truth import write_ground_truth
+from sim.bench.mechanism import Mechanism
+from sim.bench.mechanisms import find_mechanism as find
+from sim.bench.recorder import find_recorder
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate as record
 from sim.cli.options import EFFECT_NAMES, FAULT_NAMES, FILE, MECHANISM_NAMES, refuse_overwriting
 from sim.core.errors import BadRequest, Refusal
+from sim.core.log import Log
 from sim.core.vocabulary import KINDS
+from sim.inspect.contaminate import contaminate_all, parse_fault_request
+from sim.io import write
 from sim.physics.battery import CONTROLLERS, Battery
 from sim.support.command_line import quote_path
-
-if TYPE_CHECKING:
-    from sim.bench.mechanism import Mechanism
-    from sim.core.log import Log
 
 PERIOD = 0.02  # [s] loop period of a robot program by default
 
@@ -109,16 +114,6 @@ def simulate(  # noqa: PLR0917 - click passes options by name
 
     For example: sysid simulate drivetrain --hide drag --fault encoder-slip --seed 1 -o drive.wpilog
     """
-    import numpy as np  # noqa: PLC0415 - as all below: --help must not wait for it
-
-    from sim.bench.ground_truth import write_ground_truth  # noqa: PLC0415
-    from sim.bench.mechanisms import find_mechanism as find  # noqa: PLC0415
-    from sim.bench.recorder import find_recorder  # noqa: PLC0415
-    from sim.bench.routine import Routine  # noqa: PLC0415
-    from sim.bench.simulate import simulate as record  # noqa: PLC0415
-    from sim.inspect.contaminate import contaminate_all, parse_fault_request  # noqa: PLC0415
-    from sim.io import write  # noqa: PLC0415
-
     if seed is not None and seed < 0:
         raise click.BadParameter("a seed is zero or more.", param_hint="'--seed'")
     refuse_overwriting(output, truth)
@@ -146,7 +141,7 @@ def simulate(  # noqa: PLR0917 - click passes options by name
     _echo_written(log, output, after="inspect" if faults else "fit")
 
 
-def _echo_written(log: "Log", output: Path, *, after: str) -> None:
+def _echo_written(log: Log, output: Path, *, after: str) -> None:
     """Print the doubts about a log, what was written, and the command for it."""
     samples = sum(len(part) for part in log.runs)
     for doubt in log.doubts:
@@ -155,7 +150,7 @@ def _echo_written(log: "Log", output: Path, *, after: str) -> None:
     click.echo(f"{output}: {len(log.runs)} tests, {samples} samples. Next: {following}")
 
 
-def _set_battery(mechanism: "Mechanism", battery: str | None, controller: str) -> "Mechanism":
+def _set_battery(mechanism: Mechanism, battery: str | None, controller: str) -> Mechanism:
     """The mechanism with the brownout voltage of a controller and the battery of an option.
 
     Args:
@@ -179,7 +174,7 @@ def _set_battery(mechanism: "Mechanism", battery: str | None, controller: str) -
     return replace(mechanism, battery=chosen, brownout=stop)
 
 
-def _hide_effects(mechanism: "Mechanism", asked: Iterable[str]) -> "Mechanism":
+def _hide_effects(mechanism: Mechanism, asked: Iterable[str]) -> Mechanism:
     """The mechanism with hidden effects, each written as ``NAME`` or ``NAME:SIZE``.
 
     Raises:

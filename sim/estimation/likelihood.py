@@ -16,11 +16,11 @@ a normal prior. The backlash phase of a run has one, too (``run_nuisance.py``).
 import math
 import os
 from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
 from itertools import pairwise
 from threading import Lock
-from typing import TYPE_CHECKING
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -35,9 +35,6 @@ from sim.estimation.run_nuisance import RunNuisance
 from sim.estimation.run_records import RunRecord
 from sim.physics.engine import RunBatch, Track, filter_runs
 from sim.physics.model import Model
-
-if TYPE_CHECKING:
-    from concurrent.futures import ThreadPoolExecutor
 
 START_SD = 2.0  # [noises of a position] standard deviation of a start position
 TOP = 0.98  # quantile of the speeds that is the top speed, so that one bad sample is not
@@ -617,8 +614,6 @@ class PredictionErrorProblem:
 
 
 @cache
-def _threads() -> "ThreadPoolExecutor":
+def _threads() -> ThreadPoolExecutor:
     """A pool with one thread for each core, for long logs."""
-    from concurrent.futures import ThreadPoolExecutor  # noqa: PLC0415 - only long logs wait for it
-
     return ThreadPoolExecutor(os.cpu_count(), thread_name_prefix="simulate")

@@ -18,8 +18,6 @@ from typing import Protocol, cast
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, Refusal, UnreadableFile
 from sim.core.log import Log
-from sim.core.units import find_unit
-from sim.core.vocabulary import TYPES
 from sim.io import formats
 from sim.io.entries.entry import Entry
 from sim.io.foreign import FOREIGN
@@ -84,36 +82,33 @@ def read(
         BadSample: the file holds a number that cannot be a measurement.
         BadRequest: an unknown unit, type, motor or mechanism.
     """
-    options = _make_options(
-        units=units, type=type, motor=motor, entries=entries,
-        ignore_velocity=ignore_velocity, pick=pick,
+    return read_with(
+        path,
+        ReadOptions(
+            units=units, type=type, motor=motor, entries=dict(entries or {}),
+            ignore_velocity=ignore_velocity, pick=pick,
+        ),
     )  # fmt: skip
+
+
+def read_with(path: str | os.PathLike[str], options: ReadOptions) -> Log:
+    """Read a log as ``read`` does.
+
+    Raises:
+        Refusal: as ``read``.
+    """
     given = os.fspath(path)
     with _readable(given) as (module, file):
         log = _name_source(module.read(file, options), file, given)
     return _finish(log, options)
 
 
-def read_motors(
-    path: str | os.PathLike[str],
-    *,
-    units: str | None = None,
-    type: str | None = None,  # noqa: A002 - as above
-    motor: str | None = None,
-    entries: Mapping[str, str] | None = None,
-    ignore_velocity: bool = False,
-    pick: int | None = None,
-) -> dict[str, Log]:
+def read_motors(path: str | os.PathLike[str], options: ReadOptions | None = None) -> dict[str, Log]:
     """Read a file of any format as a log for each motor of a mechanism or side of a drivetrain.
 
     Args:
         path: the file.
-        units: as of ``read``, like all that follow.
-        type: the same.
-        motor: name of the only motor to read.
-        entries: the same.
-        ignore_velocity: the same.
-        pick: the same.
+        options: how it is read; None leaves every choice to the file.
 
     Returns:
         The name of each motor -> its log; a log with one motor that has no name is under ``""``.
@@ -121,10 +116,7 @@ def read_motors(
     Raises:
         Refusal: as ``read``.
     """
-    options = _make_options(
-        units=units, type=type, motor=motor, entries=entries,
-        ignore_velocity=ignore_velocity, pick=pick,
-    )  # fmt: skip
+    options = options or ReadOptions()
     given = os.fspath(path)
     with _readable(given) as (module, file):
         if hasattr(module, "read_motors"):
@@ -133,32 +125,6 @@ def read_motors(
             logs = {"": module.read(file, options)}
         logs = {name: _name_source(log, file, given) for name, log in logs.items()}
     return {name: _finish(log, options) for name, log in logs.items()}
-
-
-def _make_options(
-    *,
-    units: str | None,
-    type: str | None,  # noqa: A002 - as above
-    motor: str | None,
-    entries: Mapping[str, str] | None,
-    ignore_velocity: bool,
-    pick: int | None,
-) -> ReadOptions:
-    """The user's options as one object.
-
-    Raises:
-        BadRequest: an unknown unit or type.
-    """
-    if type is not None and type not in TYPES:
-        raise BadRequest(f"unknown type {type!r}", advice=f"Choose one of: {', '.join(TYPES)}.")
-    return ReadOptions(
-        units=None if units is None else find_unit(units).name,
-        type=type,
-        motor=motor,
-        entries=dict(entries or {}),
-        ignore_velocity=ignore_velocity,
-        pick=pick,
-    )
 
 
 def list_entries(path: str | os.PathLike[str]) -> list[Entry]:

@@ -22,6 +22,8 @@ import numpy as np
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, BadSample, MissingSignal
 from sim.core.log import LARGEST, Array, Log, Run
+from sim.core.units import find_unit
+from sim.core.vocabulary import TYPES
 from sim.io.motion import MADE_FROM, compute_position_slope, integrate_velocity
 
 HEAD = 4096  # [bytes] length of the beginning of a file that `recognizes` gets
@@ -40,6 +42,9 @@ class ReadOptions:
             for logs that do not use SysId's names.
         ignore_velocity: the velocity is the slope of the position, and the file needs none.
         pick: number of the mechanism to read, counted from 1 as in the message that lists them.
+
+    Raises:
+        BadRequest: an unknown unit or type.
     """
 
     units: str | None = None
@@ -48,6 +53,13 @@ class ReadOptions:
     entries: Mapping[str, str] = field(default_factory=dict)
     ignore_velocity: bool = False
     pick: int | None = None
+
+    def __post_init__(self) -> None:
+        if self.type is not None and self.type not in TYPES:
+            advice = f"Choose one of: {', '.join(TYPES)}."
+            raise BadRequest(f"unknown type {self.type!r}", advice=advice)
+        if self.units is not None:
+            object.__setattr__(self, "units", find_unit(self.units).name)
 
     @property
     def units_or_default(self) -> str:

@@ -29,7 +29,7 @@ from pathlib import Path
 import numpy as np
 
 import sim
-from sim.cli.options import LogReader
+from sim.cli.log_reader import LogReader
 from sim.cli.reconcile import inspect_damage
 from sim.core.errors import Refusal
 from sim.core.log import Log, Run

@@ -4,18 +4,18 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial, wraps
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
 from sim.cli.fit.parts import fit_parts
-from sim.cli.options import FILE, LogReader, combine_options
+from sim.cli.log_reader import LogReader
+from sim.cli.options import FILE, combine_options
 from sim.core.errors import BadRequest
-
-if TYPE_CHECKING:
-    from sim.core.log import Log
-    from sim.fit import Fit
-    from sim.fit.physics.inertia import MomentOfInertia
+from sim.core.log import Log
+from sim.fit import Fit
+from sim.fit import fit as find_gains
+from sim.fit.physics.inertia import MomentOfInertia, compute_moment_of_inertia
 
 FINEST = 0.005  # [1] smaller relative errors are not printed: no scale weighs a robot better
 
@@ -90,8 +90,8 @@ def _read_turning(
 
 
 def find_inertia(
-    found: "Fit", log: "Log", turning: Turning | None, *, method: str
-) -> "MomentOfInertia | None":
+    found: Fit, log: Log, turning: Turning | None, *, method: str
+) -> MomentOfInertia | None:
     """The moment of inertia, from a turning fit and a straight log; None without ``turning``.
 
     Raises:
@@ -100,8 +100,6 @@ def find_inertia(
     """
     if turning is None:
         return None
-    from sim.fit import fit as find_gains  # noqa: PLC0415 - as below: --help must not wait for it
-    from sim.fit.physics.inertia import compute_moment_of_inertia  # noqa: PLC0415
 
     if any(doubt.code == "rate-as-voltage" for doubt in log.doubts):
         raise BadRequest(
@@ -119,8 +117,8 @@ def find_inertia(
 
 
 def add_inertia(
-    found: "Fit", notes: tuple[str, ...], log: "Log", turning: Turning | None, *, method: str
-) -> "tuple[Fit, tuple[str, ...], MomentOfInertia | None]":
+    found: Fit, notes: tuple[str, ...], log: Log, turning: Turning | None, *, method: str
+) -> tuple[Fit, tuple[str, ...], MomentOfInertia | None]:
     """A fit with the doubts about its moment of inertia, its notes, and that moment or None.
 
     Raises:
@@ -133,7 +131,7 @@ def add_inertia(
     return doubted, (describe_inertia(turned), *notes), turned
 
 
-def describe_inertia(turned: "MomentOfInertia") -> str:
+def describe_inertia(turned: MomentOfInertia) -> str:
     """The moment of inertia in a sentence, with the share of rotors and wheels."""
     least, most = turned.without_rotors
     share = turned.error / turned.value

@@ -1,71 +1,20 @@
-"""Equal parts of a robot: sides, modules or repetitions; each is fitted, then the fits are pooled.
+"""Equal parts of a robot, as sides and modules: each is fitted, then the fits are pooled."""
 
-Files that hold one test each are joined. A file with a whole recording is a part of its own, and so
-is every motor.
-"""
-
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from pathlib import Path
-from typing import TYPE_CHECKING
 
+from sim.cli.log_reader import Parts
 from sim.core.doubt import Doubt
 from sim.core.errors import Refusal
-
-if TYPE_CHECKING:
-    from sim.core.log import Log
-    from sim.fit import Fit
-
-Parts = Mapping[str, "Log"]  # name -> its log
+from sim.core.log import Log
+from sim.fit import Fit
+from sim.fit.physics import compare_parts
+from sim.fit.pooled import pool_fits
 
 SIDE, MOTOR, FILE = "side", "motor", "file"
 SIDES = ("left", "right")
 SIGNIFICANT = 3.0  # [standard errors] smaller differences can be noise
 MOST_LISTED = 4  # [parts] in a sentence; of more parts, it lists the lowest and the highest
-
-
-def list_parts(logs: Sequence[tuple[Path, Parts]]) -> Parts:
-    """The parts of a robot that some files hold, in the order of the files.
-
-    Args:
-        logs: each file, and the logs of its motors by name.
-    """
-    if len(logs) == 1:
-        return logs[0][1]
-    if all(log.has_ramps_and_steps for _, motors in logs for log in motors.values()):
-        stems = [path.stem for path, _ in logs]
-        unique = len(set(stems)) == len(stems)
-        return {
-            f"{path.stem if unique else path} {name}".strip(): log
-            for path, motors in logs
-            for name, log in motors.items()
-        }
-    joined: dict[str, Log] = {}
-    for _, motors in logs:
-        for name, log in motors.items():
-            joined[name] = _join_logs(joined[name], log) if name in joined else log
-    return joined
-
-
-def join_parts(parts: Parts) -> "Log":
-    """All runs of all parts as one log for display; a doubt about several parts appears once.
-
-    Args:
-        parts: the logs by the name of each part; at least one.
-    """
-    first, *others = parts.values()
-    for log in others:
-        first = _join_logs(first, log)
-    return first
-
-
-def _join_logs(first: "Log", other: "Log") -> "Log":
-    """The runs of two logs; doubts that differ only in the name of the file appear once."""
-    said = {(one.code, one.message.replace(first.source, "")) for one in first.doubts}
-    new = tuple(
-        one for one in other.doubts if (one.code, one.message.replace(other.source, "")) not in said
-    )
-    return first.join(replace(other, doubts=new))
 
 
 @dataclass(frozen=True)
@@ -78,8 +27,8 @@ class PooledParts:
         notes: sentences about parts that agree.
     """
 
-    found: "Fit"
-    fits: "Mapping[str, Fit]"
+    found: Fit
+    fits: Mapping[str, Fit]
     notes: tuple[str, ...] = ()
 
     def to_json(self) -> dict[str, dict[str, object]]:
@@ -94,7 +43,7 @@ class PooledParts:
         }
 
 
-def fit_parts(parts: Parts, find: Callable[["Log"], "Fit"], *, files: int = 1) -> PooledParts:
+def fit_parts(parts: Parts, find: Callable[[Log], Fit], *, files: int = 1) -> PooledParts:
     """Fit every mechanism or side of a robot, compare the fits and pool them.
 
     Args:
@@ -105,9 +54,6 @@ def fit_parts(parts: Parts, find: Callable[["Log"], "Fit"], *, files: int = 1) -
     Raises:
         Refusal: no part can be fitted; it gives the reason for the first.
     """
-    from sim.fit.physics import compare_parts  # noqa: PLC0415 - --help must not wait for it
-    from sim.fit.pooled import pool_fits  # noqa: PLC0415 - the same
-
     fits: dict[str, Fit] = {}
     refused: dict[str, Refusal] = {}
     for name, log in parts.items():
@@ -140,7 +86,7 @@ def _kind(parts: Parts, files: int) -> str:
     return FILE if files > 1 and len(parts) >= files else MOTOR
 
 
-def _add_unit_advice(refusal: Refusal, log: "Log") -> Refusal:
+def _add_unit_advice(refusal: Refusal, log: Log) -> Refusal:
     """The refusal; if the log has a doubt about its units or velocity, with that advice."""
     for doubt in log.doubts:
         if doubt.code in {"unit-error", "contradicting-units"}:
@@ -151,7 +97,7 @@ def _add_unit_advice(refusal: Refusal, log: "Log") -> Refusal:
     return refusal
 
 
-def _describe_agreement(fits: Mapping[str, "Fit"], kind: str) -> str:
+def _describe_agreement(fits: Mapping[str, Fit], kind: str) -> str:
     """The sentence that parts agree, with the gains of each."""
     units = next(iter(fits.values())).log_units
     alike = {name: one.in_units(units) for name, one in fits.items()}

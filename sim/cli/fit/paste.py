@@ -1,13 +1,11 @@
 """``--paste``: the code to paste, for robot programs and for motor controllers."""
 
-from typing import TYPE_CHECKING
-
 import click
 
 from sim.cli.options import combine_options
-
-if TYPE_CHECKING:
-    from sim.fit import Fit
+from sim.fit import Fit
+from sim.report.controller_snippet import write_controller_code
+from sim.report.robot_code_snippet import write_robot_code
 
 LANGUAGES = ("java", "python")  # WPILib's feedforward, in the robot program
 SEASONS = ("2026", "2027")
@@ -29,7 +27,7 @@ paste_options = combine_options(
 )
 
 
-def make_paste_text(found: "Fit", target: str, *, season: int) -> str:
+def make_paste_text(found: Fit, target: str, *, season: int) -> str:
     """The text to print for ``--paste``.
 
     The radius is read from the current command's ``--radius``; its default value is not used.
@@ -49,7 +47,7 @@ def make_paste_text(found: "Fit", target: str, *, season: int) -> str:
     )
 
 
-def write_snippet(found: "Fit", target: str, *, season: int, radius: float | None) -> str:
+def write_snippet(found: Fit, target: str, *, season: int, radius: float | None) -> str:
     """The code for one of ``LANGUAGES`` or ``CONTROLLERS``.
 
     Args:
@@ -62,9 +60,6 @@ def write_snippet(found: "Fit", target: str, *, season: int, radius: float | Non
         BadRequest: no code can be written for these gains.
     """
     if target in LANGUAGES:
-        from sim.report.robot_code_snippet import write_robot_code  # noqa: PLC0415 - once needed
-
         return write_robot_code(found, language=target, season=season)
-    from sim.report.controller_snippet import write_controller_code  # noqa: PLC0415 - the same
 
     return write_controller_code(found, target=target, radius=radius, season=season)

@@ -1,25 +1,25 @@
 """Plausibility of a fit: its gains against physics, and forward against reverse runs."""
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import click
+import numpy as np
 
+from sim.core.doubt import Doubt
+from sim.core.log import Log
 from sim.core.vocabulary import METHODS
+from sim.fit import Fit
+from sim.fit.physics import Parts, check_plausibility, compare_directions, compare_with_theory
+from sim.physics.engine import engine_can_compile
+from sim.physics.motors import find_motor
 from sim.support.extras import format_install_command
-
-if TYPE_CHECKING:
-    from sim.core.doubt import Doubt
-    from sim.core.log import Log
-    from sim.fit import Fit
-    from sim.fit.physics import Parts
 
 LONG = 20_000  # [samples] comparing the directions of a longer log takes seconds
 
 
 def read_motor_parts(
     name: str | None, *, count: int, ratio: float | None, radius: float, load: float | None
-) -> "Parts | None":
+) -> Parts | None:
     """The motor, gearing and load that the options name; None without ``--driven-by``.
 
     Args:
@@ -35,8 +35,6 @@ def read_motor_parts(
     """
     if name is None:
         return None
-    from sim.fit.physics import Parts  # noqa: PLC0415 - only with --driven-by
-    from sim.physics.motors import find_motor  # noqa: PLC0415
 
     found = find_motor(name)
     if ratio is None:
@@ -45,8 +43,8 @@ def read_motor_parts(
 
 
 def check_against_physics(
-    found: "Fit", log: "Log", *, parts: "Parts | None", notes: tuple[str, ...] = ()
-) -> "tuple[Fit, tuple[str, ...]]":
+    found: Fit, log: Log, *, parts: Parts | None, notes: tuple[str, ...] = ()
+) -> tuple[Fit, tuple[str, ...]]:
     """The fit with the doubts of the plausibility checks before its own, and its notes.
 
     Args:
@@ -56,18 +54,14 @@ def check_against_physics(
             are the first note.
         notes: sentences about checks that passed; they come last.
     """
-    import numpy as np  # noqa: PLC0415 - --help must not wait for it
-
-    from sim.fit.physics import check_plausibility, compare_with_theory  # noqa: PLC0415
-
     period = float(np.median(np.concatenate([np.diff(run.time) for run in log.runs])))
     doubts = check_plausibility(found, parts=parts, period=period)
     return _add_doubts(found, *doubts, first=True), (*compare_with_theory(found, parts), *notes)
 
 
 def compare_directions_alone(
-    found: "Fit", log: "Log", notes: tuple[str, ...] = (), *, include_long: bool
-) -> "tuple[Fit, tuple[str, ...]]":
+    found: Fit, log: Log, notes: tuple[str, ...] = (), *, include_long: bool
+) -> tuple[Fit, tuple[str, ...]]:
     """The fit, with a doubt if forward and reverse runs disagree when fitted alone; and notes.
 
     Args:
@@ -77,9 +71,6 @@ def compare_directions_alone(
         include_long: compare the directions also where that takes long: of a log of more than
             20 000 samples, or without Numba.
     """
-    from sim.fit.physics import compare_directions  # noqa: PLC0415 - --help must not wait for it
-    from sim.physics.engine import engine_can_compile  # noqa: PLC0415 - the same
-
     if found.method != METHODS[0]:
         return found, notes
     if not (include_long or engine_can_compile()):
@@ -93,6 +84,6 @@ def compare_directions_alone(
     return found, ("Forward and reverse were not compared, because this log is long.", *notes)
 
 
-def _add_doubts(found: "Fit", *doubts: "Doubt", first: bool = False) -> "Fit":
+def _add_doubts(found: Fit, *doubts: Doubt, first: bool = False) -> Fit:
     both = (doubts, found.doubts) if first else (found.doubts, doubts)
     return replace(found, doubts=tuple(doubt for part in both for doubt in part))

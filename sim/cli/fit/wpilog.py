@@ -1,30 +1,25 @@
 """``sysid fit --wpilog``: measured, simulated, residual and innovation as entries of one log."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from sim.cli.fit.layout import write_layout
+from sim.core.log import Log, Run
 from sim.core.units import Unit, find_unit
 from sim.estimation.measurements import MIN_SAMPLES
+from sim.fit import Fit
 from sim.fit.innovations import RunInnovations, compute_innovations
 from sim.fit.replay import RunReplay, replay_fit
 from sim.inspect.detect_faults import inspect
+from sim.inspect.fault import Damage
 from sim.io.formats.wpilog.signals import SignalGroup, write_signals
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from sim.core.log import Log, Run
-    from sim.fit import Fit
-    from sim.inspect.fault import Damage
 
 TOP = "/sysid"  # path above all entries
 
 
-def write_replay(found: "Fit", parts: "Mapping[str, Log]", path: Path) -> None:
+def write_replay(found: Fit, parts: Mapping[str, Log], path: Path) -> None:
     """Write every run, measured and simulated, at the log's own times, and a layout to show it.
 
     Where there are several parts, the entries of each stand below its name:
@@ -53,7 +48,7 @@ def write_replay(found: "Fit", parts: "Mapping[str, Log]", path: Path) -> None:
     write_layout(path, tuple(tops.values()))
 
 
-def _list_groups(found: "Fit", log: "Log", top: str, unit: Unit) -> Iterator[SignalGroup]:
+def _list_groups(found: Fit, log: Log, top: str, unit: Unit) -> Iterator[SignalGroup]:
     """The entries of each run that is long enough to be simulated."""
     faults = inspect(log).faults
     runs = [(k, run) for k, run in enumerate(log.runs) if len(run) >= MIN_SAMPLES]
@@ -64,7 +59,7 @@ def _list_groups(found: "Fit", log: "Log", top: str, unit: Unit) -> Iterator[Sig
 
 
 def _make_group(
-    replay: RunReplay, run: "Run", faults: "list[Damage]", top: str, unit: Unit
+    replay: RunReplay, run: Run, faults: list[Damage], top: str, unit: Unit
 ) -> SignalGroup:
     """The entries of one run: signals, the name of its test, and start and end of its faults."""
     signals = {

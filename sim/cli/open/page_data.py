@@ -6,26 +6,29 @@ Samples are in SI; gains and their unit are those of the log, with the factor be
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from sim.cli.entries import describe_entry
 from sim.cli.fit.paste import SEASONS, write_snippet
+from sim.cli.fit.plausibility import compare_directions_alone
+from sim.cli.open.session import OpenLog, Reading, Session
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, Refusal
 from sim.core.leave_out import LeftOutPart, leave_out
+from sim.core.log import Array, Log
 from sim.core.units import find_unit
 from sim.estimation.measurements import MIN_SAMPLES
-from sim.io.entries.entry import NUMBERS, STRING
-
-if TYPE_CHECKING:
-    from sim.cli.open.session import OpenLog, Reading, Session
-    from sim.core.log import Array, Log
-    from sim.fit import Fit
-    from sim.inspect.detect_faults import Inspection
-    from sim.io.entries.entry import Entry
-    from sim.reconcile.model_variant import ModelVariant
+from sim.fit import Fit
+from sim.fit.replay import replay_fit
+from sim.inspect.detect_faults import Inspection
+from sim.io.entries.entry import NUMBERS, STRING, Entry
+from sim.physics.engine import engine_can_compile, engine_is_cached
+from sim.physics.model import Part
+from sim.reconcile.model_variant import ModelVariant
+from sim.reconcile.story import ParameterEstimate
+from sim.report.gain_verdicts import judge_gains, write_gain_verdict
 
 SIGNALS = ("time", "voltage", "position", "velocity")
 MOST_ENTRIES = 400  # entries listed to choose from
@@ -41,14 +44,12 @@ MEANS = {
 LAGS = 1e-5  # [s] a shorter lag is shown as 0
 
 
-def describe_log(one: "OpenLog", reading: "Reading", *, doubts: bool = True) -> dict[str, Any]:
+def describe_log(one: OpenLog, reading: Reading, *, doubts: bool = True) -> dict[str, Any]:
     """Name, unit, type and runs of a log, with its doubts if wanted.
 
     Raises:
         Refusal: the log cannot be read with these options.
     """
-    from sim.physics.engine import engine_can_compile, engine_is_cached  # noqa: PLC0415 - once needed
-
     log = one.combine_runs(reading)
     unit = find_unit(log.units)
     runs = [
@@ -76,7 +77,7 @@ def describe_log(one: "OpenLog", reading: "Reading", *, doubts: bool = True) -> 
     }
 
 
-def describe_live(session: "Session") -> dict[str, Any]:
+def describe_live(session: Session) -> dict[str, Any]:
     """The status of the source that is followed, and its growing logs with their revisions."""
     live = session.live
     if live is None:
@@ -95,7 +96,7 @@ def describe_live(session: "Session") -> dict[str, Any]:
     }
 
 
-def pack_samples(log: "Log") -> bytes:
+def pack_samples(log: Log) -> bytes:
     """Time, voltage, position and velocity of every run, one after another, as doubles in SI.
 
     The least significant byte comes first.
@@ -104,7 +105,7 @@ def pack_samples(log: "Log") -> bytes:
     return b"".join(np.asarray(one, dtype="<f8").tobytes() for one in signals)
 
 
-def describe_faults(found: "Inspection", one: "OpenLog") -> dict[str, Any]:
+def describe_faults(found: Inspection, one: OpenLog) -> dict[str, Any]:
     """The faults of a log with their times, and its other warnings."""
     data = found.to_json()
     for fault in data["faults"]:
@@ -113,7 +114,7 @@ def describe_faults(found: "Inspection", one: "OpenLog") -> dict[str, Any]:
 
 
 def describe_fit(
-    one: "OpenLog", reading: "Reading", chosen: "ModelVariant | None" = None
+    one: OpenLog, reading: Reading, chosen: ModelVariant | None = None
 ) -> dict[str, Any]:
     """The gains with verdict and doubts, and the simulated initial state of each run.
 
@@ -125,8 +126,6 @@ def describe_fit(
     Raises:
         Refusal: the log cannot be read or fitted.
     """
-    from sim.report.gain_verdicts import judge_gains, write_gain_verdict  # noqa: PLC0415 - only for people
-
     pooled, log = one.fit(reading), one.combine_runs(reading)
     found = _apply_model(pooled.found.in_log_units(), chosen)
     gains = [
@@ -158,26 +157,23 @@ def describe_fit(
     }
 
 
-def _list_tracks(chosen: "ModelVariant", log: "Log") -> list[list[float]]:
+def _list_tracks(chosen: ModelVariant, log: Log) -> list[list[float]]:
     """The simulated velocity [SI] of each run; empty if motors were averaged."""
     tracks = [run[:, 1].tolist() for run in chosen.tracks]
     return tracks if list(map(len, tracks)) == list(map(len, log.runs)) else []
 
 
-def _apply_model(found: "Fit", chosen: "ModelVariant | None") -> "Fit":
-    from sim.cli.reconcile import replace_gains  # noqa: PLC0415 - once it is needed
+def _apply_model(found: Fit, chosen: ModelVariant | None) -> Fit:
 
     return found if chosen is None else replace_gains(found, chosen.gains, chosen.parts)
 
 
-def describe_directions(one: "OpenLog", reading: "Reading") -> dict[str, Any]:
+def describe_directions(one: OpenLog, reading: Reading) -> dict[str, Any]:
     """The gains of forward and reverse runs, each fitted alone, where they disagree with the fit.
 
     Raises:
         Refusal: the log cannot be read or fitted.
     """
-    from sim.cli.fit.plausibility import compare_directions_alone  # noqa: PLC0415 - once it is needed
-
     found, log = one.fit(reading).found, one.combine_runs(reading)
     log = leave_out({"": log}, map(LeftOutPart.parse, reading.left_out))[""]
     doubted, notes = compare_directions_alone(found, log, include_long=False)
@@ -185,13 +181,11 @@ def describe_directions(one: "OpenLog", reading: "Reading") -> dict[str, Any]:
     return {"doubts": _doubts(more, one), "notes": list(notes)}
 
 
-def _describe_starts(found: "Fit", log: "Log") -> dict[str, Any]:
+def _describe_starts(found: Fit, log: Log) -> dict[str, Any]:
     """Simulated position and velocity at the start of each run, and velocity noise, in SI.
 
     A run that is not simulated has None; the velocity noise is None if no run is simulated.
     """
-    from sim.fit.replay import replay_fit  # noqa: PLC0415 - simulates
-
     try:
         replays = iter(replay_fit(found, log))
     except BadRequest:  # the doubts say which gain is below zero
@@ -214,10 +208,10 @@ def _describe_starts(found: "Fit", log: "Log") -> dict[str, Any]:
 
 
 def write_code(
-    one: "OpenLog",
-    reading: "Reading",
+    one: OpenLog,
+    reading: Reading,
     query: Mapping[str, str],
-    chosen: "ModelVariant | None" = None,
+    chosen: ModelVariant | None = None,
 ) -> dict[str, str]:
     """Robot code for the gains of a log, or for values that the user set with the sliders.
 
@@ -254,7 +248,7 @@ def _is_number(text: str) -> bool:
         return False
 
 
-def describe_entries(entries: "Sequence[Entry]") -> list[dict[str, Any]]:
+def describe_entries(entries: Sequence[Entry]) -> list[dict[str, Any]]:
     """Entries that can be signals, each with points for a small plot; likely signals first.
 
     Numbers that never change are left out.
@@ -272,7 +266,7 @@ def describe_entries(entries: "Sequence[Entry]") -> list[dict[str, Any]]:
     return rows[:MOST_ENTRIES]
 
 
-def _decimate(values: "Array") -> list[float]:
+def _decimate(values: Array) -> list[float]:
     """Every n-th value, 120 to 240 of a long entry; values that are not finite are left out."""
     step = max(1, values.size // PICTURE)
     return [float(f"{value:.4g}") for value in values[::step].tolist() if math.isfinite(value)]
@@ -295,7 +289,7 @@ def describe_refusal(refusal: Refusal, folder: str) -> dict[str, Any]:
     }
 
 
-def _doubts(doubts: Sequence[Doubt], one: "OpenLog") -> list[dict[str, Any]]:
+def _doubts(doubts: Sequence[Doubt], one: OpenLog) -> list[dict[str, Any]]:
     return [
         {
             "message": _without_path(doubt.message, one),
@@ -309,7 +303,7 @@ def _doubts(doubts: Sequence[Doubt], one: "OpenLog") -> list[dict[str, Any]]:
     ]
 
 
-def _without_path(text: str, one: "OpenLog") -> str:
+def _without_path(text: str, one: OpenLog) -> str:
     """A message without the file's path: the page shows its name."""
     short = text.removeprefix(f"{one.path}: ")
     start = short[:1].upper() if short != text else short[:1]
@@ -319,3 +313,19 @@ def _without_path(text: str, one: "OpenLog") -> str:
 def _finite(value: float) -> float | None:
     """The value, or None if it is not finite, which JSON cannot hold."""
     return value if math.isfinite(value) else None
+
+
+def replace_gains(
+    plain: Fit, gains: Mapping[str, ParameterEstimate], parts: tuple[Part, ...]
+) -> Fit:
+    """A fit with the gains and effects of another model, in the same unit.
+
+    Warnings about the model without effects do not concern these gains, unless they are grave.
+    """
+    return replace(
+        plain,
+        gains={name: one.value for name, one in gains.items()},
+        errors={name: one.error for name, one in gains.items() if one.error is not None},
+        parts=parts,
+        doubts=tuple(doubt for doubt in plain.doubts if doubt.grave),
+    )

@@ -2,17 +2,26 @@
 
 import math
 import threading
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Collection, Mapping
+from typing import Any
 
 from sim.core.errors import BadRequest, Refusal
+from sim.core.log import Log
+from sim.inspect.detect_faults import inspect
+from sim.inspect.dropout_intervals import find_dropout_intervals
+from sim.reconcile import DamagedInterval, Story, reconcile
+from sim.reconcile.model_variant import ModelVariant
+from sim.reconcile.story_text import (
+    format_gap,
+    format_parameter,
+    list_inspections,
+    list_next_tests,
+    list_remarks,
+    write_gain_caution,
+    write_headline,
+)
 
-if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Mapping
-
-    from sim.core.log import Log
-    from sim.reconcile import Story
-    from sim.reconcile.model_variant import ModelVariant
-
+DROPOUT = "voltage-dropout"  # an inspection reports many short dropouts as one interval
 PLACES = 5  # places listed where the base model's residual is largest
 
 
@@ -28,7 +37,7 @@ class ReconcileJob:
 
     def __init__(
         self,
-        read: "Callable[[], Mapping[str, Log]]",
+        read: Callable[[], Mapping[str, Log]],
         *,
         name: str,
         type: str | None,  # noqa: A002 - the field's own word
@@ -57,7 +66,7 @@ class ReconcileJob:
         """Let the search end soon, with the best model so far."""
         self._stopped.set()
 
-    def refit(self, effects: "Collection[str]") -> "ModelVariant":
+    def refit(self, effects: Collection[str]) -> ModelVariant:
         """The model of the story with some of its effects.
 
         Raises:
@@ -69,9 +78,6 @@ class ReconcileJob:
 
     def _run(self) -> None:
         """Run the search; an error is reported when the page asks for its progress."""
-        from sim.cli.reconcile import inspect_damage  # noqa: PLC0415 - once it is needed
-        from sim.reconcile import reconcile  # noqa: PLC0415 - the same
-
         try:
             logs = self._read()
             self._said = {doubt.text for log in logs.values() for doubt in log.doubts}
@@ -100,23 +106,13 @@ class ReconcileJob:
         self._words, self._share = words, share
 
 
-def describe_story(story: "Story", said: "Collection[str]" = ()) -> dict[str, Any]:
+def describe_story(story: Story, said: Collection[str] = ()) -> dict[str, Any]:
     """A story as plain data: sentences, and gaps in times the noise of the velocity.
 
     Args:
         story: the result of reconcile.
         said: remarks to leave out.
     """
-    from sim.reconcile.story_text import (  # noqa: PLC0415 - once it is needed
-        format_gap,
-        format_parameter,
-        list_inspections,
-        list_next_tests,
-        list_remarks,
-        write_gain_caution,
-        write_headline,
-    )
-
     remarks = list_remarks(story) if story.complete else story.notes
     names = ["base model", *(f"+ {one.added}" for one in story.chapters[1:])]
     findings = [
@@ -157,3 +153,22 @@ def describe_story(story: "Story", said: "Collection[str]" = ()) -> dict[str, An
         "remarks": [one for one in remarks if one not in said],
         "how": story.how,
     }
+
+
+def inspect_damage(log: Log) -> tuple[DamagedInterval, ...]:
+    """The damaged intervals that an inspection finds in a log, as ``reconcile`` takes them."""
+    found = []
+    for one in inspect(log).damages:
+        where = one.where
+        intervals: tuple[tuple[float, float], ...] = ((where.start, where.end),)
+        if one.fault == DROPOUT and where.run is not None:
+            intervals = find_dropout_intervals(
+                log.runs[where.run], start=where.start, end=where.end
+            )
+        found += [
+            DamagedInterval(
+                where.run, *interval, one.fault, one.confidence, one.evidence, one.advice
+            )
+            for interval in intervals
+        ]
+    return tuple(found)

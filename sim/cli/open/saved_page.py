@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import asdict
 from itertools import combinations, product
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 from urllib.parse import urlencode
 
 from sim.cli.fit.paste import CONTROLLERS, LANGUAGES, SEASONS
@@ -16,10 +16,9 @@ from sim.cli.open.reconcile_job import describe_story
 from sim.cli.open.session import OpenLog, Reading
 from sim.cli.open.view import PageView
 from sim.core.errors import Refusal
-
-if TYPE_CHECKING:
-    from sim.reconcile.model_variant import ModelVariant
-    from sim.reconcile.story import Story
+from sim.reconcile.model_variant import ModelVariant
+from sim.reconcile.story import Story
+from sim.report.page_file import choose_page_path, write_page_file
 
 PAGE = Path(__file__).with_name("page")
 ENGINE = Path(__file__).parents[2] / "physics" / "engine" / "simulate.js"  # the page uses it, too
@@ -31,7 +30,7 @@ SCRIPTS = """<script type="application/json" id="saved">{}</script>
 <script"""
 
 
-def save_page(one: OpenLog, target: Path, story: "Story | None" = None) -> None:
+def save_page(one: OpenLog, target: Path, story: Story | None = None) -> None:
     """Write the page of one log; if that fails, an existing file stays as it was.
 
     Args:
@@ -42,12 +41,10 @@ def save_page(one: OpenLog, target: Path, story: "Story | None" = None) -> None:
     Raises:
         Refusal: the log cannot be read, the name does not end in .html, or it cannot be written.
     """
-    from sim.report.page_file import choose_page_path, write_page_file  # noqa: PLC0415 - only here
-
     write_page_file(render_saved_page(one, Reading(), story), choose_page_path(target))
 
 
-def render_saved_page(one: OpenLog, reading: Reading, story: "Story | None" = None) -> str:
+def render_saved_page(one: OpenLog, reading: Reading, story: Story | None = None) -> str:
     """The page of one log as HTML.
 
     Raises:
@@ -77,7 +74,7 @@ def _make_address(path: Path) -> str:
     return f"data:{kind};base64,{base64.b64encode(text.encode()).decode()}"
 
 
-def _collect_answers(one: OpenLog, reading: Reading, story: "Story | None") -> dict[str, Any]:
+def _collect_answers(one: OpenLog, reading: Reading, story: Story | None) -> dict[str, Any]:
     """The address of each request that the page can make -> its answer."""
     of_log, log = f"logs/{one.number}", one.combine_runs(reading)
     answers = {
@@ -104,7 +101,7 @@ def _collect_answers(one: OpenLog, reading: Reading, story: "Story | None") -> d
 
 
 def _collect_model(
-    one: OpenLog, reading: Reading, effects: str, chosen: "ModelVariant | None"
+    one: OpenLog, reading: Reading, effects: str, chosen: ModelVariant | None
 ) -> dict[str, Any]:
     """The answers about a model: its gains and curves, and its robot code."""
     of_model = {"effects": effects} if effects else {}

@@ -14,7 +14,7 @@ from dataclasses import asdict, replace
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 from urllib.parse import parse_qs, urlsplit
 
 from sim.cli.open import page_data
@@ -23,9 +23,7 @@ from sim.cli.open.saved_page import ENGINE, PAGE, render_saved_page
 from sim.cli.open.session import OpenLog, Reading, Session
 from sim.core.errors import BadRequest, Refusal
 from sim.io.format import LARGEST_FILE
-
-if TYPE_CHECKING:
-    from sim.reconcile.model_variant import ModelVariant
+from sim.reconcile.model_variant import ModelVariant
 
 KINDS = {
     ".html": "text/html; charset=utf-8",
@@ -166,7 +164,6 @@ class PageRequest(BaseHTTPRequestHandler):
                 self._send_json(_name(self.server.session.add(name, path)))
             case ["example"]:
                 self._drain()
-                self.server.session.import_everything()
                 self._send_json(_name(self.server.session.add_example()))
             case _:
                 self._refuse(HTTPStatus.NOT_FOUND, "there is nothing here")
@@ -194,14 +191,12 @@ class PageRequest(BaseHTTPRequestHandler):
         """
         session, reading = self.server.session, Reading.from_query(query)
         if what in RAW:
-            session.import_reading()
             self._send_data(one, reading, what)
         elif session.view.raw:
             raise BadRequest(
                 "this page shows the data alone", advice="Open the log with sysid open FILE."
             )
         else:
-            session.import_everything()
             self._send_findings(one, reading, what, query)
 
     def _send_data(self, one: OpenLog, reading: Reading, what: str) -> None:
@@ -246,7 +241,7 @@ class PageRequest(BaseHTTPRequestHandler):
         reading = replace(Reading.from_query(query), left_out=())  # it excludes damage itself
         return one.reconcile(reading, others, effort)
 
-    def _choose_model(self, one: OpenLog, query: Mapping[str, str]) -> "ModelVariant | None":
+    def _choose_model(self, one: OpenLog, query: Mapping[str, str]) -> ModelVariant | None:
         """The model with the effects that a request names; None for the fit, which has none."""
         effects = query.get("effects", "")
         return self._search(one, query).refit(effects.split(",")) if effects else None

@@ -8,18 +8,26 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from itertools import count
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, TypeVar
 
+import numpy as np
+
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
+from sim.cli.fit.parts import PooledParts, fit_parts
+from sim.cli.log_reader import LogReader, join_parts
+from sim.cli.open.reconcile_job import ReconcileJob
 from sim.cli.open.view import PageView
 from sim.core.errors import BadRequest, Refusal
-from sim.io.entries.entry import NEEDED
-
-if TYPE_CHECKING:
-    from sim.cli.fit.parts import PooledParts
-    from sim.cli.open.reconcile_job import ReconcileJob
-    from sim.core.log import Log
-    from sim.inspect.detect_faults import Inspection
-    from sim.io.entries.entry import Entry
+from sim.core.leave_out import LeftOutPart, leave_out
+from sim.core.log import Log
+from sim.fit import fit
+from sim.inspect.contaminate import contaminate
+from sim.inspect.detect_faults import Inspection, inspect
+from sim.io import list_entries, write
+from sim.io.entries.entry import NEEDED, Entry
+from sim.physics.engine import load_engine
 
 Result = TypeVar("Result")
 
@@ -84,38 +92,35 @@ class OpenLog:
     name: str
     path: Path
     revision: int = 0
-    finished: "Mapping[str, Log] | None" = None
+    finished: Mapping[str, Log] | None = None
     _results: dict[Hashable, Any] = field(default_factory=dict)
     _locks: dict[Hashable, threading.Lock] = field(default_factory=dict)
 
-    def read_parts(self, reading: Reading) -> "dict[str, Log]":
+    def read_parts(self, reading: Reading) -> dict[str, Log]:
         """The log of each mechanism, side or motor by its name.
 
         Raises:
             Refusal: the file cannot be read with these options.
         """
 
-        def read() -> "dict[str, Log]":
+        def read() -> dict[str, Log]:
             if self.finished is not None and reading == Reading():
                 return dict(self.finished)
-            from sim.cli.options import LogReader  # noqa: PLC0415 - reads formats
 
             reader = LogReader(reading.units, reading.type, entries=dict(reading.entries))
             return dict(reader.read_parts([self.path]))
 
         return self._compute_once(("parts", reading), read)
 
-    def combine_runs(self, reading: Reading) -> "Log":
+    def combine_runs(self, reading: Reading) -> Log:
         """All runs of all mechanisms in the file as one log.
 
         Raises:
             Refusal: as ``read_parts``.
         """
-        from sim.cli.fit.parts import join_parts  # noqa: PLC0415 - with the formats
-
         return self._compute_once(("log", reading), lambda: join_parts(self.read_parts(reading)))
 
-    def read_mechanism(self, reading: Reading) -> "Log":
+    def read_mechanism(self, reading: Reading) -> Log:
         """The log of one mechanism; several motors in the file are averaged.
 
         Raises:
@@ -123,42 +128,34 @@ class OpenLog:
         """
         if len(self.read_parts(reading)) == 1:
             return self.combine_runs(reading)
-        from sim.cli.options import LogReader  # noqa: PLC0415 - reads formats
 
         reader = LogReader(reading.units, reading.type, entries=dict(reading.entries))
         return reader.read_joined([self.path])
 
-    def list_entries(self) -> "list[Entry]":
+    def list_entries(self) -> list[Entry]:
         """The entries of the file, for choosing signals.
 
         Raises:
             Refusal: the file cannot be read, or has no entries with names.
         """
-        from sim.io import list_entries  # noqa: PLC0415 - reads formats
-
         return self._compute_once("entries", lambda: list_entries(self.path))
 
-    def inspect(self, reading: Reading) -> "Inspection":
+    def inspect(self, reading: Reading) -> Inspection:
         """The faults and warnings found in the log.
 
         Raises:
             Refusal: as ``read_parts``.
         """
-        from sim.inspect.detect_faults import inspect  # noqa: PLC0415 - once it is needed
-
         return self._compute_once(("faults", reading), lambda: inspect(self.combine_runs(reading)))
 
-    def fit(self, reading: Reading) -> "PooledParts":
+    def fit(self, reading: Reading) -> PooledParts:
         """The gains, in the unit of the log.
 
         Raises:
             Refusal: as ``read_parts``, or the log cannot be fitted.
         """
 
-        def find() -> "PooledParts":
-            from sim.cli.fit.parts import fit_parts  # noqa: PLC0415 - once it is needed
-            from sim.core.leave_out import LeftOutPart, leave_out  # noqa: PLC0415 - the same
-            from sim.fit import fit  # noqa: PLC0415 - the same
+        def find() -> PooledParts:
 
             logs = self.read_parts(replace(reading, left_out=()))
             logs = leave_out(logs, map(LeftOutPart.parse, reading.left_out))
@@ -166,13 +163,13 @@ class OpenLog:
 
         return self._compute_once(("fit", reading), find)
 
-    def keep_fit(self, pooled: "PooledParts") -> None:
+    def keep_fit(self, pooled: PooledParts) -> None:
         """Take a fit that was already computed, of the log as it is."""
         self._results[self.revision, ("fit", Reading())] = pooled
 
     def reconcile(
-        self, reading: Reading, others: "Mapping[str, OpenLog]", effort: float
-    ) -> "ReconcileJob":
+        self, reading: Reading, others: Mapping[str, "OpenLog"], effort: float
+    ) -> ReconcileJob:
         """The search for missing effects; the first call starts it.
 
         Args:
@@ -180,9 +177,8 @@ class OpenLog:
             others: ``validation`` and ``held_out`` -> another open log, where one is chosen.
             effort: [1] as of ``reconcile``.
         """
-        from sim.cli.open.reconcile_job import ReconcileJob  # noqa: PLC0415 - once it is needed
 
-        def read_logs() -> "dict[str, Log]":
+        def read_logs() -> dict[str, Log]:
             alike = Reading(reading.units, reading.type)
             more = {role: one.read_mechanism(alike) for role, one in others.items()}
             return {"log": self.read_mechanism(reading), **more}
@@ -193,7 +189,7 @@ class OpenLog:
             lambda: ReconcileJob(read_logs, name=self.name, type=reading.type, effort=effort),
         )
 
-    def renew(self, finished: "Mapping[str, Log]", path: Path) -> None:
+    def renew(self, finished: Mapping[str, Log], path: Path) -> None:
         """Replace the finished tests; results computed from fewer tests are dropped."""
         self.finished, self.path, self.revision = finished, path, self.revision + 1
         self._results = {}
@@ -235,7 +231,6 @@ class Session:
         self._numbers = count(1)
         self._logs: dict[int, OpenLog] = {}
         self._lock = threading.Lock()
-        self._imports = threading.Lock()
         self._growing: dict[Hashable, int] = {}
         self.live: LiveView | None = None
         for file in files:
@@ -264,7 +259,7 @@ class Session:
             self._logs[one.number] = one
             return one
 
-    def renew(self, key: Hashable, path: Path, finished: "Mapping[str, Log]") -> None:
+    def renew(self, key: Hashable, path: Path, finished: Mapping[str, Log]) -> None:
         """Show the finished tests of a log that grows; a log that was closed stays closed.
 
         Args:
@@ -311,14 +306,6 @@ class Session:
 
     def add_example(self) -> OpenLog:
         """Open a simulated drivetrain's log in which the encoder slipped."""
-        import numpy as np  # noqa: PLC0415 - once it is needed
-
-        from sim.bench.mechanisms import MECHANISMS  # noqa: PLC0415 - the same
-        from sim.bench.routine import Routine  # noqa: PLC0415 - the same
-        from sim.bench.simulate import simulate  # noqa: PLC0415 - the same
-        from sim.inspect.contaminate import contaminate  # noqa: PLC0415 - the same
-        from sim.io import write  # noqa: PLC0415 - the same
-
         rng = np.random.default_rng(4)
         log = simulate(MECHANISMS["drivetrain"], Routine(), rng=rng)
         contaminated = contaminate(
@@ -328,43 +315,7 @@ class Session:
         write(contaminated.log, path)
         return self.add(name, path)
 
-    def import_reading(self) -> None:
-        """Import the modules that read logs, once and in one thread.
-
-        Requests run in threads. If two threads import modules that import one another, one of them
-        can see a module that is only partly initialized.
-        """
-        with self._imports:
-            import sim.cli.fit.parts  # noqa: PLC0415 - so that the address is printed at once
-            import sim.cli.options  # noqa: PLC0415 - the same
-            import sim.io.formats.csv  # noqa: PLC0415 - the same
-            import sim.io.formats.revlog  # noqa: PLC0415 - the same
-            import sim.io.formats.sysid_json  # noqa: PLC0415 - the same
-            import sim.io.formats.wpilog  # noqa: PLC0415 - the same
-            import sim.physics.engine  # noqa: F401, PLC0415 - the same
-
-    def import_everything(self) -> None:
-        """Import the modules that requests need, once and in one thread."""
-        self.import_reading()
-        with self._imports:
-            import sim.bench.mechanisms  # noqa: PLC0415 - as above
-            import sim.bench.simulate  # noqa: PLC0415 - the same
-            import sim.cli.fit.plausibility  # noqa: PLC0415 - the same
-            import sim.cli.open.reconcile_job  # noqa: PLC0415 - the same
-            import sim.cli.reconcile  # noqa: PLC0415 - the same
-            import sim.fit.physics  # noqa: PLC0415 - the same
-            import sim.fit.pooled  # noqa: PLC0415 - the same
-            import sim.inspect.contaminate  # noqa: PLC0415 - the same
-            import sim.inspect.dropout_intervals  # noqa: PLC0415 - the same
-            import sim.reconcile.story_text  # noqa: PLC0415 - the same
-            import sim.report  # noqa: F401, PLC0415 - the same
-
     def warm_up(self) -> None:
-        """Import modules and load the engine in advance, so that the first log opens fast."""
-        self.import_reading()
-        if self.view.raw:
-            return
-        self.import_everything()
-        from sim.physics.engine import load_engine  # noqa: PLC0415 - that is the point of it
-
-        load_engine()
+        """Load the engine in advance, so that the first log opens fast."""
+        if not self.view.raw:
+            load_engine()

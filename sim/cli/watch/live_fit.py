@@ -4,15 +4,17 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from sim.cli.fit.parts import fit_parts, join_parts, list_parts
+from sim.cli.fit.parts import PooledParts, fit_parts
+from sim.cli.log_reader import join_parts, list_parts
 from sim.cli.watch.recordings import Recording, Source, split_finished_tests
 from sim.core.errors import Refusal
 from sim.core.log import Log
-
-if TYPE_CHECKING:
-    from sim.cli.fit.parts import PooledParts
+from sim.fit import fit
+from sim.inspect.detect_faults import inspect
+from sim.report.gain_verdicts import write_gain_verdict
+from sim.report.next_test import advise_next
 
 GROWING = ("truncated", "unfinished-run")  # doubts that only mean that the file still grows
 
@@ -34,7 +36,7 @@ class WatchUpdate:
 
     tests: tuple[str, ...]
     parts: Mapping[str, Log]
-    pooled: "PooledParts | None"
+    pooled: PooledParts | None
     refusal: Refusal | None
     advice: str
     paths: tuple[Path, ...]
@@ -46,8 +48,6 @@ class WatchUpdate:
 
     def to_json(self) -> dict[str, Any]:
         """The update as plain data, as ``sysid watch --json`` prints it."""
-        from sim.report.gain_verdicts import write_gain_verdict  # noqa: PLC0415 - once it is needed
-
         log = self.log
         data: dict[str, Any] = {
             "tests": list(self.tests),
@@ -120,10 +120,6 @@ class LiveFit:
         self, recordings: Sequence[Recording], ended: tuple[str, ...], refusals: Sequence[Refusal]
     ) -> WatchUpdate:
         """Fit and inspect all recordings, and write the advice."""
-        from sim.fit import fit  # noqa: PLC0415 - the command prints its status before it loads this
-        from sim.inspect.detect_faults import inspect  # noqa: PLC0415 - the same
-        from sim.report.next_test import advise_next  # noqa: PLC0415 - the same
-
         files = [(one.path, one.logs) for one in recordings if one.logs]
         paths = tuple(path for path, _ in files)
         if not files:

@@ -1,6 +1,6 @@
 """WPILOG: WPILib's log format, with the entries that SysIdRoutine adds.
 
-Bytes are parsed into records (``records``, ``windows``), records into entries (``contents``), and
+Bytes are parsed into records (``records``), records into entries (``contents``), and
 entries into a Log (``sim/io/entries``).
 """
 
@@ -22,8 +22,7 @@ from sim.io.format import ReadOptions
 from sim.io.formats.wpilog.contents import FileDamage, read_contents
 from sim.io.formats.wpilog.control import Start
 from sim.io.formats.wpilog.entry import FileEntry
-from sim.io.formats.wpilog.records import MAGIC, XZ_MAGIC, load_records
-from sim.io.formats.wpilog.windows import load_wanted_records
+from sim.io.formats.wpilog.records import MAGIC, XZ_MAGIC
 from sim.io.formats.wpilog.writing import write
 
 __all__ = ["SUFFIXES", "entries", "read", "read_motors", "recognizes", "write"]
@@ -52,7 +51,7 @@ def entries(path: Path) -> list[FileEntry]:
     Raises:
         UnreadableFile: the file is empty, or not a WPILOG file.
     """
-    return list(read_contents(load_records(path)).entries)
+    return list(read_contents(path).entries)
 
 
 def read(path: Path, options: ReadOptions) -> Log:
@@ -97,23 +96,22 @@ def _read(
     """
     where = str(path)
     named = set(options.entries.values())
-    records = load_wanted_records(path, partial(_is_wanted, named=named))
-    found = read_contents(records)
+    found = read_contents(path, partial(_is_wanted, named=named))
     damage = found.damage
     lost = tuple(_doubt_orphans(found.orphans, where))
     if not found.entries:
-        raise _make_unreadable_error(damage, records.end, where, "there is no record before it")
+        raise _make_unreadable_error(damage, found.end, where, "there is no record before it")
     try:
         with np.errstate(all="ignore"):  # values that are not finite are refused later
             made, spans = make(found.entries, options=options, where=where)
     except MissingSignal as missing:
         if damage is None:
             raise
-        raise _make_unreadable_error(damage, records.end, where, missing.what) from None
+        raise _make_unreadable_error(damage, found.end, where, missing.what) from None
     if damage is None:
         return made, (*lost, *_doubt_unfinished_run(spans[-1], where))
     if not damage.torn and spans[0].end == NO_END:
-        raise _make_unreadable_error(damage, records.end, where, "no run is whole before it")
+        raise _make_unreadable_error(damage, found.end, where, "no run is whole before it")
     return made, (*lost, _doubt_damage(damage, where))
 
 

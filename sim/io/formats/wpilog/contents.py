@@ -1,20 +1,38 @@
 """Group the records of a WPILOG file into entries, up to the first invalid record.
 
-After an entry is finished, its id can be used for another entry, and an entry can be started again
-with another id. Samples of entries with the same name and type are joined in the order of time.
+The file is read once, window by window. A match's log has hundreds of entries, of which a fit needs
+four, so only the values of wanted entries are kept. After an entry is finished, its id can be used
+for another entry, and an entry can be started again with another id. Samples of entries with the
+same name and type are joined in the order of time.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from itertools import chain
-from typing import TypeAlias
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import partial
+from itertools import pairwise
+from os import SEEK_END
+from pathlib import Path
+from typing import IO, TypeAlias
 
 import numpy as np
 
+from sim.io.entries.entry import Numbers
 from sim.io.formats.wpilog.control import Metadata, Start, parse_control_record
-from sim.io.formats.wpilog.entry import SIZES, FileEntry
-from sim.io.formats.wpilog.records import File, Numbers, RecordHeaders, Records
+from sim.io.formats.wpilog.entry import KINDS, SIZES, FileEntry
+from sim.io.formats.wpilog.records import (
+    PAD,
+    Bytes,
+    find_first_record,
+    find_records,
+    open_log,
+    pad,
+    read_headers,
+    view_numbers,
+)
 
+Wanted: TypeAlias = Callable[[Start], bool]
+
+WINDOW = 1 << 21  # [bytes] read at a time; a longer record gets a window of its own
 SMALL_IDS = 1 << 16  # smaller ids fit 16 bits, which NumPy sorts by radix sort
 LIKELY_SIZE = 1 << 16  # [bytes] of a text or array; a larger size is taken for damage
 
@@ -42,175 +60,224 @@ class Contents:
 
     Args:
         entries: the entries in the order in which they first appear.
+        end: the offset up to which the file was read.
         damage: why the rest of the file was not read; None if all was read.
         orphans: number of records before the start of their entry, as in the continuation of
             another file.
     """
 
     entries: tuple[FileEntry, ...]
+    end: int
     damage: FileDamage | None
-    orphans: int = 0
-
-
-@dataclass(frozen=True, order=True)
-class _Stop:
-    """The index of an invalid record, and the reason."""
-
-    index: int
-    what: str
+    orphans: int
 
 
 @dataclass
-class _EntryLife:
-    """An entry from its start record to its finish record, by index."""
+class _Series:
+    """The samples of an entry so far, in pieces: one for each window.
 
-    start: Start
-    metadata: str
-    first: int
-    last: int
-
-
-@dataclass(frozen=True, eq=False)
-class _Group:
-    """The records with one id, in order: their indices and header fields."""
-
-    index: Numbers
-    size: Numbers
-    time: Numbers
-    payload: Numbers
-
-    def select_life(self, life: _EntryLife) -> "_Group":
-        """The records within one life of an entry."""
-        if life.first < self.index[0] and self.index[-1] < life.last:
-            return self
-        first, last = self.index.searchsorted((life.first, life.last))
-        return self.select(slice(first, last))
-
-    def select(self, which: slice | Numbers) -> "_Group":
-        """The records at some positions."""
-        return _Group(self.index[which], self.size[which], self.time[which], self.payload[which])
-
-
-_Lives: TypeAlias = dict[int, list[_EntryLife]]
-
-
-def read_contents(records: Records) -> Contents:
-    """Group the records of a file into entries, up to the first invalid record."""
-    head = records.head
-    groups = _groups(head)
-    lives, stop = _find_lives(records, head, before=head.id.size)
-    stops = [stop] if stop else []
-    for number, group in groups.items():
-        stops += _find_misfits(number, group, lives.get(number, ()))
-    if stops:
-        stop = min(stops)
-        lives, _ = _find_lives(records, head, before=stop.index)
-    orphans = sum(
-        int(np.count_nonzero(groups[number].index < several[0].first))
-        for number, several in lives.items()
-        if several and number in groups
-    )
-    entries = tuple(_join_lives(lives, groups, records.file))
-    return Contents(entries, _damage(records, lives, stop), orphans)
-
-
-def _groups(head: RecordHeaders) -> dict[int, _Group]:
-    """The records of each entry id, control records left out."""
-    if not head.id.size:
-        return {}
-    keys = head.id.astype(np.uint16) if int(head.id.max()) < SMALL_IDS else head.id
-    order = np.argsort(keys, kind="stable")
-    whole = _Group(order, head.size[order], head.time[order], head.payload[order])
-    ids = head.id[order]
-    first = np.flatnonzero(np.diff(ids, prepend=-1)).tolist()
-    bounds = zip(first, [*first[1:], ids.size], strict=True)
-    return {int(ids[a]): whole.select(slice(a, b)) for a, b in bounds if ids[a]}
-
-
-def _find_lives(
-    records: Records, head: RecordHeaders, *, before: int
-) -> tuple[_Lives, _Stop | None]:
-    """The lives of the entries, by the control records up to the first malformed one."""
-    lives: _Lives = {}
-    for index in np.flatnonzero(head.id[:before] == 0).tolist():
-        begin = int(head.payload[index])
-        control = parse_control_record(
-            bytes(records.file.content[begin : begin + int(head.size[index])])
-        )
-        if control is None:
-            return lives, _Stop(index, "a control record that makes no sense")
-        known = lives.setdefault(control.id, [])
-        current = known[-1] if known and known[-1].last == before else None
-        if current and isinstance(control, Metadata):
-            current.metadata = control.metadata
-        elif current:
-            current.last = index
-        if isinstance(control, Start):
-            known.append(_EntryLife(control, control.metadata, index, before))
-    return lives, None
-
-
-def _find_misfits(number: int, group: _Group, lives: Sequence[_EntryLife]) -> Iterator[_Stop]:
-    """The first record of an id without an entry, and the first with a wrong size for its type.
-
-    Records before a start, or between a finish and the next start, are ignored, as in WPILib's
-    tools.
+    Args:
+        type: the entry's type.
+        metadata: its last metadata that is not empty.
+        is_wanted: whether its values are kept.
+        headers: (2, n) payload size [bytes] and time [µs].
+        payloads: the payloads, joined.
     """
-    if not lives:
-        yield _Stop(int(group.index[0]), f"a record of the unknown entry {number}")
-    for life in lives:
-        if life.start.type in SIZES:
-            part = group.select_life(life)
-            wrong = part.size != SIZES[life.start.type]
-            if wrong.any():
-                at = int(wrong.argmax())
-                what = f"a {life.start.type} of {part.size[at]} bytes"
-                yield _Stop(int(part.index[at]), what)
+
+    type: str
+    metadata: str = ""
+    is_wanted: bool = True
+    headers: list[Numbers] = field(default_factory=list)
+    payloads: list[bytes] = field(default_factory=list)
+
+    def add(self, head: Numbers, window: bytes, buffer: Bytes) -> None:
+        """Add samples of a window with these headers."""
+        _, _, size, _, payload = head
+        if self.type in SIZES:
+            values = view_numbers(buffer, KINDS[self.type])[payload].tobytes()
+        else:
+            spans = zip(payload.tolist(), (payload + size).tolist(), strict=True)
+            values = b"".join([window[begin:end] for begin, end in spans])
+        self.headers.append(head[2:4].copy())  # of the window, no more is kept
+        self.payloads.append(values)
+
+    def make_entry(self, name: str) -> FileEntry:
+        """The samples so far, in the order of time."""
+        size, time = np.concatenate([np.zeros((2, 0), dtype=np.int64), *self.headers], axis=1)
+        payload = np.cumsum(size) - size
+        if (time[1:] < time[:-1]).any():
+            order = np.argsort(time, kind="stable")
+            size, time, payload = size[order], time[order], payload[order]
+        return FileEntry(
+            name, self.type, self.metadata, time, payload, size, b"".join(self.payloads)
+        )
 
 
-def _join_lives(lives: _Lives, groups: Mapping[int, _Group], file: File) -> Iterator[FileEntry]:
-    """One entry for all lives with the same name and type, in the order of appearance."""
-    named: dict[tuple[str, str], list[_EntryLife]] = {}
-    for life in sorted(chain.from_iterable(lives.values()), key=lambda life: life.first):
-        named.setdefault((life.start.name, life.start.type), []).append(life)
-    none = np.zeros(0, dtype=np.int64)
-    for (name, kind), several in named.items():
-        parts = [
-            groups[life.start.id].select_life(life) for life in several if life.start.id in groups
-        ] or [_Group(none, none, none, none)]
-        whole = parts[0] if len(parts) == 1 else _concatenate_groups(parts)
-        if (whole.time[1:] < whole.time[:-1]).any():
-            whole = whole.select(np.argsort(whole.time, kind="stable"))
-        metadata = next((life.metadata for life in reversed(several) if life.metadata), "")
-        yield FileEntry(name, kind, metadata, whole.time, whole.payload, whole.size, file)
+def read_contents(path: Path, wanted: Wanted = bool) -> Contents:
+    """The entries of a file up to its first invalid record, without the values of unwanted ones.
+
+    Args:
+        path: the file.
+        wanted: tells whether the values of an entry are wanted.
+
+    Raises:
+        UnreadableFile: the file is not a WPILOG file, of a later version, damaged, too large, or
+            ends before its first record.
+    """
+    with open_log(path) as stream:
+        reader = RecordReader(wanted)
+        reader.read(stream, where=str(path))
+        if reader.unknown:
+            # The first record of an entry that was not started later either is invalid
+            number, (offset, _) = min(reader.unknown.items(), key=lambda item: item[1])
+            reader = RecordReader(wanted)
+            reader.read(stream, where=str(path), before=offset)
+            reader.problem = f"a record of the unknown entry {number}"
+        return Contents(
+            reader.list_entries(), reader.end, reader.find_damage(stream), reader.orphans
+        )
 
 
-def _concatenate_groups(parts: Sequence[_Group]) -> _Group:
-    """Several groups as one."""
-    columns = ("index", "size", "time", "payload")
-    return _Group(*(np.concatenate([getattr(part, one) for part in parts]) for one in columns))
+class RecordReader:
+    """Groups the whole records of a file, and later those that were appended.
+
+    Args:
+        wanted: tells whether the values of an entry are wanted.
+    """
+
+    def __init__(self, wanted: Wanted) -> None:
+        self.end = 0  # the offset up to which the file was read
+        self.problem = ""  # of the record there, as a clause
+        self.unknown: dict[int, tuple[int, int]] = {}  # id -> offset of its first record, count
+        self.orphans = 0
+        self._wanted = wanted
+        self._series: dict[tuple[str, str], _Series] = {}
+        self._open: dict[int, _Series | None] = {}  # id -> its entry; None after it is finished
+
+    def list_entries(self) -> tuple[FileEntry, ...]:
+        """The entries so far."""
+        return tuple(series.make_entry(name) for (name, _), series in self._series.items())
+
+    def read(self, stream: IO[bytes], *, where: str, before: int | None = None) -> None:
+        """Read on to the first invalid record, the last whole one, or the offset ``before``.
+
+        Raises:
+            UnreadableFile: the file is not a WPILOG file, of a later version, or ends before its
+                first record.
+        """
+        size = stream.seek(0, SEEK_END)
+        self.end = self.end or find_first_record(stream, size=size, where=where)
+        length = WINDOW
+        while not self.problem and self.end < (before or size):
+            stream.seek(self.end)
+            window = stream.read(min(length, (before or size) - self.end))
+            starts, end = find_records(window)
+            if end:
+                self._add_window(window, starts, end)
+                length = WINDOW
+                continue
+            _, _, payload_size, _, payload = self._read_header(stream)
+            length = payload + payload_size
+            if length > size - self.end or length <= len(window):
+                break  # the record is longer than the file, or its header is incomplete
+
+    def find_damage(self, stream: IO[bytes]) -> FileDamage | None:
+        """Why the rest of the file was not read; None if all was read."""
+        unread_bytes = stream.seek(0, SEEK_END) - self.end
+        if not unread_bytes:
+            return None
+        what, torn = self._explain_end(stream, unread_bytes)
+        return FileDamage(self.end, unread_bytes, what, torn)
+
+    def _explain_end(self, stream: IO[bytes], unread_bytes: int) -> tuple[str, bool]:
+        """The problem of the record at the end, and whether the file only ends too soon."""
+        stream.seek(self.end)
+        blocks = iter(partial(stream.read, WINDOW), b"")
+        if all(block.count(0) == len(block) for block in blocks):
+            return "nothing but zero bytes", True
+        if self.problem:
+            return self.problem, False
+        _, number, size, _, payload = self._read_header(stream)
+        if payload > unread_bytes:
+            return "a record that stops within its header", True
+        entry = self._open.get(number)
+        fixed = SIZES.get(entry.type) if entry else None
+        known = number == 0 or entry is not None
+        torn = known and (size == fixed if fixed else size <= LIKELY_SIZE)
+        return f"a record that claims {size} bytes", torn
+
+    def _read_header(self, stream: IO[bytes]) -> list[int]:
+        """The header of the record at the end, which may be incomplete."""
+        stream.seek(self.end)
+        header: list[int] = read_headers(pad(stream.read(PAD)), np.array([0]))[:, 0].tolist()
+        return header
+
+    def _add_window(self, window: bytes, starts: Numbers, end: int) -> None:
+        """Add the samples of a window's records, and follow its control records."""
+        buffer = pad(window)
+        head = read_headers(buffer, starts)
+        controls = np.flatnonzero(head[1] == 0).tolist()
+        for control, following in pairwise([-1, *controls, starts.size]):
+            if control >= 0:
+                self._follow_control(head[:, control], window)
+            if not self.problem:
+                self._add_samples(head[:, control + 1 : following], window, buffer)
+            if self.problem:
+                return
+        self.end += end
+
+    def _follow_control(self, head: Numbers, window: bytes) -> None:
+        """Start or finish an entry, or change its metadata."""
+        start, _, size, _, payload = head.tolist()
+        control = parse_control_record(window[payload : payload + size])
+        if control is None:
+            self._stop(start, "a control record that makes no sense")
+        elif isinstance(control, Start):
+            _, orphans = self.unknown.pop(control.id, (0, 0))
+            self.orphans += orphans
+            new = _Series(control.type)
+            series = self._series.setdefault((control.name, control.type), new)
+            series.is_wanted = self._wanted(control)
+            series.metadata = control.metadata or series.metadata
+            self._open[control.id] = series
+        elif open_now := self._open.get(control.id):
+            if isinstance(control, Metadata):
+                open_now.metadata = control.metadata
+            else:
+                self._open[control.id] = None
+
+    def _add_samples(self, head: Numbers, window: bytes, buffer: Bytes) -> None:
+        """Add samples, up to the first with a wrong size for its type."""
+        groups = [(self._open.get(int(part[1, 0])), part) for part in _split_by_id(head)]
+        misfits = [
+            (int(part[0, wrong.argmax()]), f"a {series.type} of {part[2, wrong.argmax()]} bytes")
+            for series, part in groups
+            if series and series.type in SIZES
+            if (wrong := part[2] != SIZES[series.type]).any()
+        ]
+        if misfits:
+            start, problem = min(misfits)
+            self._add_samples(head[:, head[0] < start], window, buffer)
+            self._stop(start, problem)
+            return
+        for series, part in groups:
+            number, first = int(part[1, 0]), self.end + int(part[0, 0])
+            if number not in self._open:
+                first, count = self.unknown.get(number, (first, 0))
+                self.unknown[number] = first, count + part.shape[1]
+            elif series and series.is_wanted:
+                series.add(part, window, buffer)
+
+    def _stop(self, start: int, problem: str) -> None:
+        """Stop reading at a record of the window, because of a problem."""
+        self.end += start
+        self.problem = problem
 
 
-def _damage(records: Records, lives: _Lives, stop: _Stop | None) -> FileDamage | None:
-    """Why the rest of the file was not read; None if all was read."""
-    offset = int(records.start[stop.index]) if stop else records.end
-    unread_bytes = records.size - offset
-    if not unread_bytes:
-        return None
-    if records.has_only_zeros_from(offset):
-        return FileDamage(offset, unread_bytes, "nothing but zero bytes", torn=True)
-    if stop:
-        return FileDamage(offset, unread_bytes, stop.what, torn=False)
-    return _overrun(records, lives, offset, unread_bytes)
-
-
-def _overrun(records: Records, lives: _Lives, offset: int, unread_bytes: int) -> FileDamage:
-    """The damage by a record that is longer than the rest of the file: cut off, or invalid."""
-    head = records.read_header_at(offset)
-    number, size = int(head.id[0]), int(head.size[0])
-    if int(head.payload[0]) > records.size:
-        return FileDamage(offset, unread_bytes, "a record that stops within its header", torn=True)
-    open_now = [life for life in lives.get(number, ()) if life.last == records.start.size]
-    sizes = [SIZES.get(life.start.type) for life in open_now] or [None] * (number == 0)
-    torn = any(size == fixed if fixed else size <= LIKELY_SIZE for fixed in sizes)
-    return FileDamage(offset, unread_bytes, f"a record that claims {size} bytes", torn=torn)
+def _split_by_id(head: Numbers) -> list[Numbers]:
+    """The headers of each entry id."""
+    if not head.size:
+        return []
+    ids = head[1].astype(np.uint16) if head[1].max() < SMALL_IDS else head[1]
+    head = head[:, np.argsort(ids, kind="stable")]
+    return np.split(head, np.flatnonzero(np.diff(head[1])) + 1, axis=1)

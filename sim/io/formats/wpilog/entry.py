@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from sim.core.log import Array
 from sim.io.entries.entry import Entry, Numbers
-from sim.io.formats.wpilog.records import File, view_numbers
+from sim.io.formats.wpilog.records import view_numbers
 
 KINDS: dict[str, type[np.generic]] = {
     "double": np.float64,
@@ -16,7 +16,6 @@ KINDS: dict[str, type[np.generic]] = {
     "boolean": np.bool_,
 }
 SIZES = {kind: np.dtype(dtype).itemsize for kind, dtype in KINDS.items()}  # [bytes] of one value
-SCATTERED = 4096  # [bytes of the file per string] strings that are rarer are decoded one by one
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,21 +23,23 @@ class FileEntry(Entry):
     """A named series of values in a file.
 
     Args:
-        payload: (n,) offset of each value in the file.
+        begin: (n,) offset of each value in ``payloads``.
         size: (n,) length of each value [bytes].
-        file: the file that holds them.
+        payloads: the values as they are in the file.
     """
 
-    payload: Numbers
+    begin: Numbers
     size: Numbers
-    file: File
+    payloads: bytes
 
     def values(self) -> NDArray[np.generic]:
         """The values (n,) of an entry with a type in ``KINDS``."""
-        buffer = self.file.buffer
+        if not len(self):
+            return np.zeros(0, dtype=KINDS[self.type])
+        buffer = np.frombuffer(self.payloads, dtype=np.uint8)
         if self.type == "boolean":
-            return np.not_equal(buffer[self.payload], 0)
-        return view_numbers(buffer, KINDS[self.type])[self.payload]
+            return np.not_equal(buffer[self.begin], 0)
+        return view_numbers(buffer, KINDS[self.type])[self.begin]
 
     def numbers(self) -> Array:
         """The values (n,) of an entry with a type in ``KINDS``, in double precision."""
@@ -46,12 +47,8 @@ class FileEntry(Entry):
 
     def texts(self) -> list[str]:
         """The values of an entry of type string."""
-        spans = zip(self.payload.tolist(), (self.payload + self.size).tolist(), strict=True)
-        if len(self) * SCATTERED < self.file.size:
-            content = self.file.content
-            return [content[begin:end].decode("utf-8", "replace") for begin, end in spans]
-        letters = self.file.latin1_text
-        texts = [letters[begin:end] for begin, end in spans]
-        if all(map(str.isascii, texts)):
-            return texts
-        return [text.encode("latin-1").decode("utf-8", "replace") for text in texts]
+        spans = list(zip(self.begin.tolist(), (self.begin + self.size).tolist(), strict=True))
+        if self.payloads.isascii():
+            letters = self.payloads.decode("ascii")
+            return [letters[begin:end] for begin, end in spans]
+        return [self.payloads[begin:end].decode("utf-8", "replace") for begin, end in spans]

@@ -7,9 +7,8 @@ from sim.core.errors import MissingSignal
 from sim.io.entries.entry import STRING
 from sim.io.entries.state import RunInterval, find_run_intervals, find_state_entries
 from sim.io.format import ReadOptions
-from sim.io.formats.wpilog.contents import read_contents
-from sim.io.formats.wpilog.records import PREFACE
-from sim.io.formats.wpilog.windows import GrowingFile
+from sim.io.formats.wpilog.contents import RecordReader
+from sim.io.formats.wpilog.records import PREFACE, open_log
 
 
 class GrowingLog:
@@ -25,16 +24,8 @@ class GrowingLog:
     def __init__(self, path: Path, *, state: str | None = None) -> None:
         self._options = ReadOptions(entries={"state": state} if state else {})
         self._size = 0  # [bytes] at the last call
-        self._file = GrowingFile(path, lambda entry: entry.type == STRING)
-
-    @property
-    def path(self) -> Path:
-        """The path of the file, which may be renamed while it grows."""
-        return self._file.path
-
-    @path.setter
-    def path(self, path: Path) -> None:
-        self._file.path = path
+        self._reader = RecordReader(lambda entry: entry.type == STRING)
+        self.path = path  # the file may be renamed while it grows
 
     def list_tests(self) -> tuple[RunInterval, ...]:
         """The tests so far, sorted by start; one that is still running ends at ``NO_END``.
@@ -47,8 +38,10 @@ class GrowingLog:
         self._size = self.path.stat().st_size
         if self._size <= PREFACE:
             return ()
-        entries = read_contents(self._file.read_appended_records()).entries
         where = str(self.path)
+        with open_log(self.path) as stream:
+            self._reader.read(stream, where=where)
+        entries = self._reader.list_entries()
         with suppress(MissingSignal):
             states = find_state_entries(entries, options=self._options, where=where)
             found = [one for state in states for one in find_run_intervals(state, where=where)[0]]

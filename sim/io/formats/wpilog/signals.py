@@ -12,12 +12,10 @@ from pathlib import Path
 from sim.core.errors import BadRequest
 from sim.core.log import Array
 from sim.io.formats.wpilog.control import Start, make_start_payload
-from sim.io.formats.wpilog.records import MAGIC, MAJOR
+from sim.io.formats.wpilog.records import FILE_HEADER, pack_record
 from sim.support.atomic_file import write_atomically
 
 SECOND = 1e6  # [µs]
-MOST = 255  # [entries] at most, so that an id takes one byte
-PREFACE = MAGIC + struct.pack("<HI", MAJOR << 8, 0)
 # Type of an entry -> format of a value
 PACKING = {"double": "<d", "float": "<f", "int64": "<q", "boolean": "<?"}
 
@@ -48,8 +46,7 @@ def write_signals(groups: Sequence[SignalGroup], path: Path, *, units: Mapping[s
         units: name of an entry -> its unit, for the entry's metadata.
 
     Raises:
-        BadRequest: the name does not end in .wpilog, there are too many entries, or the file
-            cannot be written.
+        BadRequest: the name does not end in .wpilog, or the file cannot be written.
     """
     if path.suffix.lower() != ".wpilog":
         raise BadRequest(
@@ -60,12 +57,6 @@ def write_signals(groups: Sequence[SignalGroup], path: Path, *, units: Mapping[s
     kinds: dict[str, str] = {}
     for group in groups:
         kinds |= dict.fromkeys(group.signals, "double") | dict.fromkeys(group.texts, "string")
-    if len(kinds) > MOST:
-        raise BadRequest(
-            f"{len(kinds)} entries are too many: at most {MOST} can be written",
-            where=str(path),
-            advice="Fit fewer motors at a time.",
-        )
     ids = {name: number for number, name in enumerate(kinds, start=1)}
     starts = [
         (0, 0, make_start_payload(Start(number, name, kinds[name], units.get(name, ""))))
@@ -73,10 +64,12 @@ def write_signals(groups: Sequence[SignalGroup], path: Path, *, units: Mapping[s
     ]
     records = sorted(
         (record for group in groups for record in _list_records(group, ids)),
-        key=lambda record: record[0],
+        key=lambda record: record[1],
     )
     try:
-        write_atomically(path, PREFACE + b"".join(_pack(*one) for one in (*starts, *records)))
+        write_atomically(
+            path, FILE_HEADER + b"".join(pack_record(*one) for one in (*starts, *records))
+        )
     except OSError as error:
         raise BadRequest(
             f"cannot be written ({error.strerror or error})",
@@ -86,19 +79,14 @@ def write_signals(groups: Sequence[SignalGroup], path: Path, *, units: Mapping[s
 
 
 def _list_records(group: SignalGroup, ids: Mapping[str, int]) -> Iterator[tuple[int, int, bytes]]:
-    """Time [µs], entry id, and payload of each record."""
+    """Entry id, time [µs] and payload of each record."""
     times = [round(SECOND * time) for time in group.time.tolist()]
     for name, values in group.signals.items():
         for time, value in zip(times, values.tolist(), strict=True):
-            yield max(time, 0), ids[name], struct.pack("<d", value)
+            yield ids[name], max(time, 0), struct.pack("<d", value)
     for name, changes in group.texts.items():
         for when, text in changes:
-            yield max(round(SECOND * when), 0), ids[name], text.encode()
-
-
-def _pack(time: int, number: int, payload: bytes) -> bytes:
-    """One record with four bytes for its size, eight for its time, and one for the entry id."""
-    return struct.pack("<BBIQ", 0b01111100, number, len(payload), time) + payload
+            yield ids[name], max(round(SECOND * when), 0), text.encode()
 
 
 class SignalRecorder:
@@ -122,7 +110,7 @@ class SignalRecorder:
                 where=str(path),
                 advice="Choose a folder that exists and that you may write to.",
             ) from None
-        self._stream.write(PREFACE)
+        self._stream.write(FILE_HEADER)
 
     def record(
         self, name: str, kind: str, time: int, value: float | str, *, metadata: str = ""
@@ -139,12 +127,12 @@ class SignalRecorder:
         if (name, kind) not in self._numbers:
             self._numbers[name, kind] = number = len(self._numbers) + 1
             start = make_start_payload(Start(number, name, kind, metadata))
-            self._stream.write(_pack_long(time, 0, start))
+            self._stream.write(pack_record(0, time, start))
         if isinstance(value, str):
             payload = value.encode("utf-8", "replace")
         else:
             payload = struct.pack(PACKING[kind], value)
-        self._stream.write(_pack_long(time, self._numbers[name, kind], payload))
+        self._stream.write(pack_record(self._numbers[name, kind], time, payload))
 
     def flush(self) -> None:
         """Write the values so far to the file, so that others can read them."""
@@ -153,8 +141,3 @@ class SignalRecorder:
     def close(self) -> None:
         """Write buffered values and close the file."""
         self._stream.close()
-
-
-def _pack_long(time: int, number: int, payload: bytes) -> bytes:
-    """One record with four bytes for its size and for the entry id, and eight for its time."""
-    return struct.pack("<BIIQ", 0b01111111, number, len(payload), time) + payload

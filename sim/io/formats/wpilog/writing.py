@@ -5,7 +5,6 @@ loop, so the first loop of every test is lost. Here, both have the same time.
 """
 
 import lzma
-import struct
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
@@ -14,13 +13,14 @@ import numpy as np
 from sim.core.errors import BadRequest
 from sim.core.log import Array, Log, Run
 from sim.core.units import UNITS
-from sim.io.entries.entry import NEEDED, OPTIONAL
+from sim.io.entries.entry import NEEDED, OPTIONAL, Numbers
 from sim.io.entries.state import IDLE, WORD
 from sim.io.formats.wpilog.control import Start, make_start_payload
-from sim.io.formats.wpilog.records import MAGIC, MAJOR, Bytes, Numbers
+from sim.io.formats.wpilog.records import FILE_HEADER, pack_record
 
 SECOND = 1e6  # [µs]
 PACKED = ".wpilogxz"  # suffix of a log compressed with xz
+LONG_TIME = 0b0111_0000  # bits of a record with eight bytes for its time, and one for id and size
 REST = 1_000_000  # [µs] pause before a run that is moved after the run before it
 LOOP = 20_000  # [µs] duration of a run with only one sample
 MECHANISM, MOTOR = "Mechanism", "motor"  # names if the log has none
@@ -56,15 +56,13 @@ def write(log: Log, path: Path) -> None:
     ends = [_end(time, after) for time, after in zip(times, [*times[1:], None], strict=True)]
     names = [*NEEDED, *(one for one in OPTIONAL if _has_signal(log, one))]
     ids = {name: number for number, name in enumerate([*names, "state"], start=1)}
-    width = _width(ends[-1])
-    parts = [MAGIC + struct.pack("<HI", MAJOR << 8, 0)]
+    parts = [FILE_HEADER]
     parts += [
-        _pack_record(0, int(times[0][0]), make_start_payload(entry), width)
-        for entry in _entries(log, ids)
+        pack_record(0, int(times[0][0]), make_start_payload(entry)) for entry in _entries(log, ids)
     ]
     for run, time, end in zip(log.runs, times, ends, strict=True):
-        parts.append(_pack_loops(run, time, ids, width=width, si=UNITS[log.units].si))
-        parts.append(_pack_record(ids["state"], end, IDLE[0].encode(), width))
+        parts.append(_pack_loops(run, time, ids, si=UNITS[log.units].si))
+        parts.append(pack_record(ids["state"], end, IDLE[0].encode()))
     content = b"".join(parts)
     path.write_bytes(lzma.compress(content) if path.suffix.lower() == PACKED else content)
 
@@ -114,40 +112,19 @@ def _entries(log: Log, ids: dict[str, int]) -> Iterator[Start]:
             yield Start(number, f"{name}-{motor}-{mechanism}", "double", metadatum)
 
 
-def _pack_loops(run: Run, time: Numbers, ids: dict[str, int], *, width: int, si: float) -> bytes:
+def _pack_loops(run: Run, time: Numbers, ids: dict[str, int], *, si: float) -> bytes:
     """All loops of a run: one record for each signal it has, then one for the test's name."""
     signals = {name: getattr(run, name) for name in ids if name != "state"}
     signals |= {"position": run.position / si, "velocity": run.velocity / si}
     values = {name: array.astype("<f8") for name, array in signals.items() if array is not None}
     values["state"] = np.full(time.size, run.test.encode())
-    header = [("bits", "u1"), ("id", "u1"), ("size", "u1"), ("time", "u1", (width,))]
+    header = [("bits", "u1"), ("id", "u1"), ("size", "u1"), ("time", "<u8")]
     kinds = [(name, [*header, ("value", array.dtype)]) for name, array in values.items()]
     table = np.zeros(time.size, dtype=kinds)
     for name, array in values.items():
-        table[name]["bits"] = _bits(width)
+        table[name]["bits"] = LONG_TIME
         table[name]["id"] = ids[name]
         table[name]["size"] = array.dtype.itemsize
-        table[name]["time"] = _low_bytes(time, width)
+        table[name]["time"] = time
         table[name]["value"] = array
     return table.tobytes()
-
-
-def _pack_record(number: int, time: int, payload: bytes, width: int) -> bytes:
-    """One record with four bytes for its size, because a name can be long."""
-    head = struct.pack("<BBI", _bits(width) | 3 << 2, number, len(payload))
-    return head + time.to_bytes(width, "little") + payload
-
-
-def _bits(width: int) -> int:
-    """The first byte of a record with one byte each for id and size."""
-    return width - 1 << 4
-
-
-def _width(last: int) -> int:
-    """Number of bytes for the latest time."""
-    return max(1, (last.bit_length() + 7) // 8)
-
-
-def _low_bytes(time: Numbers, width: int) -> Bytes:
-    """The low bytes of each time (n, width)."""
-    return time.astype("<u8").view(np.uint8).reshape(-1, 8)[:, :width]

@@ -1,0 +1,201 @@
+"""Options that say how logs are read, and the reader that follows them.
+
+Files that hold one test each are joined. A file with a whole recording is a part of its own, and so
+is every motor.
+"""
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import reduce, wraps
+from pathlib import Path
+from typing import Any, TypeAlias
+
+import click
+
+from sim.cli.options import combine_options, is_same_file
+from sim.core.errors import BadRequest
+from sim.core.log import Log
+from sim.core.units import UNITS
+from sim.core.vocabulary import TYPES
+from sim.inspect.log_units import doubt_units
+from sim.io import read_motors, read_with
+from sim.io.format import ReadOptions
+from sim.io.motion import leave_out_falls, mend_motion, scale_velocity
+
+Parts: TypeAlias = Mapping[str, Log]  # name of a side, module or repetition -> its log
+READING = ("units", "motor", "pick", "velocity_scale", "ignore_velocity")  # options of LogReader
+
+
+def _factor(_: click.Context, __: click.Parameter, value: float) -> float:
+    """The value, if it is finite and not zero.
+
+    Raises:
+        BadParameter: it is not.
+    """
+    if not (math.isfinite(value) and value):
+        raise click.BadParameter(f"{value:g} is not a finite number other than zero.")
+    return value
+
+
+_add_reading_options = combine_options(
+    click.option("--type", "type_", type=click.Choice(TYPES), help="What kind of mechanism."),
+    click.option(
+        "--units", type=click.Choice(tuple(UNITS)), help="Units of the positions in the file."
+    ),
+    click.option("--motor", help="Which motor, if the log has several: left, right, …"),
+    click.option(
+        "--pick",
+        type=click.IntRange(min=1),
+        metavar="N",
+        help="Which mechanism, if the log has several: its number in the message.",
+    ),
+    click.option("--voltage", metavar="ENTRY", help="Log entry with the applied voltage."),
+    click.option("--position", metavar="ENTRY", help="Log entry with the position."),
+    click.option("--velocity", metavar="ENTRY", help="Log entry with the velocity."),
+    click.option("--state", metavar="ENTRY", help="Log entry with the running test's name."),
+    click.option(
+        "--velocity-scale",
+        metavar="X",
+        type=float,
+        callback=_factor,
+        default=1.0,
+        help="Multiply the velocity by X, if its factor in the robot's code is wrong.",
+    ),
+    click.option(
+        "--ignore-velocity",
+        is_flag=True,
+        help="Use the slope of the position as the velocity.",
+    ),
+)
+
+
+def reading_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Decorator that adds the options for reading a log; the command gets a ``LogReader``."""
+
+    @wraps(command)
+    def call_with_reader(*args: Any, **options: Any) -> Any:  # noqa: ANN401 - passed on
+        named = {name: options.pop(name) for name in ("voltage", "position", "velocity", "state")}
+        entries = {name: entry for name, entry in named.items() if entry}
+        how = {name: options.pop(name) for name in READING}
+        reader = LogReader(**how, type=options.pop("type_"), entries=entries)
+        return command(*args, reader=reader, **options)
+
+    return _add_reading_options(call_with_reader)
+
+
+@dataclass(frozen=True)
+class LogReader(ReadOptions):
+    """Reads the logs of a mechanism, as the options of the command line say.
+
+    Args:
+        velocity_scale: factor of the velocity.
+    """
+
+    velocity_scale: float = 1.0
+
+    def read_recorded(self, file: Path) -> Log:
+        """The log in one file as it was recorded; several motors count as their mean.
+
+        Raises:
+            Refusal: the file cannot be read.
+        """
+        return self._scale(read_with(file, self))
+
+    def read_joined(self, files: Sequence[Path]) -> Log:
+        """The logs in all files as one, with what can be mended in it mended.
+
+        Raises:
+            Refusal: a file cannot be read or is given twice, or one measures a length and another
+                an angle.
+        """
+        refuse_duplicates(files)
+        return reduce(
+            lambda log, other: log.join(other),
+            (_check_signals(self.read_recorded(file)) for file in files),
+        )
+
+    def read_parts(self, files: Sequence[Path]) -> Mapping[str, Log]:
+        """The logs in all files, by the name of the mechanism, side or motor.
+
+        Raises:
+            Refusal: as ``read_joined``.
+        """
+        refuse_duplicates(files)
+        return list_parts([(file, self.read_file(file)) for file in files])
+
+    def read_file(self, file: Path) -> dict[str, Log]:
+        """The logs in one file, by the name of the mechanism, side or motor.
+
+        Raises:
+            Refusal: the file cannot be read.
+        """
+        logs = read_motors(file, self)
+        return {name: _check_signals(self._scale(log)) for name, log in logs.items()}
+
+    def _scale(self, log: Log) -> Log:
+        """The log with the velocity times the factor that the user gave."""
+        return log if self.velocity_scale == 1.0 else scale_velocity(log, self.velocity_scale)
+
+
+def _check_signals(log: Log) -> Log:
+    """The log with its motion mended where that is possible, and doubts about wrong units."""
+    mended = leave_out_falls(mend_motion(log))
+    return mended.add_doubts(*doubt_units(mended))
+
+
+def list_parts(logs: Sequence[tuple[Path, Parts]]) -> Parts:
+    """The parts of a robot that some files hold, in the order of the files.
+
+    Args:
+        logs: each file, and the logs of its motors by name.
+    """
+    if len(logs) == 1:
+        return logs[0][1]
+    if all(log.has_ramps_and_steps for _, motors in logs for log in motors.values()):
+        stems = [path.stem for path, _ in logs]
+        unique = len(set(stems)) == len(stems)
+        return {
+            f"{path.stem if unique else path} {name}".strip(): log
+            for path, motors in logs
+            for name, log in motors.items()
+        }
+    joined: dict[str, Log] = {}
+    for _, motors in logs:
+        for name, log in motors.items():
+            joined[name] = _join_logs(joined[name], log) if name in joined else log
+    return joined
+
+
+def join_parts(parts: Parts) -> Log:
+    """All runs of all parts as one log for display; a doubt about several parts appears once.
+
+    Args:
+        parts: the logs by the name of each part; at least one.
+    """
+    first, *others = parts.values()
+    for log in others:
+        first = _join_logs(first, log)
+    return first
+
+
+def _join_logs(first: Log, other: Log) -> Log:
+    """The runs of two logs; doubts that differ only in the name of the file appear once."""
+    said = {(one.code, one.message.replace(first.source, "")) for one in first.doubts}
+    new = tuple(
+        one for one in other.doubts if (one.code, one.message.replace(other.source, "")) not in said
+    )
+    return first.join(replace(other, doubts=new))
+
+
+def refuse_duplicates(files: Sequence[Path]) -> None:
+    """Refuse a file that is given twice: its samples would count twice.
+
+    Raises:
+        BadRequest: two of them are the same file.
+    """
+    for index, file in enumerate(files):
+        if any(is_same_file(file, other) for other in files[:index]):
+            raise BadRequest(
+                "this file is given twice", where=str(file), advice="Name each file once."
+            )
