@@ -71,7 +71,6 @@ def simulate(
     model, slips = mechanism.model, make_slip_effect(mechanism)
     wires = make_power_path_array(mechanism, duty_cycle=duty_cycle)
     parts = STEPS_PER_LOOP if mechanism.sensor.latency or mechanism.sensor.frame else 1
-    lag = sum(part.parameters["lag"] for part in model.parts if part.effect == "delay")
     runs: list[Run] = []
     state, start, last, cut, gripped = State(), PAUSE, 0.0, False, False
     for test in routine.tests:
@@ -89,9 +88,7 @@ def simulate(
         time, voltage = time[:end], voltage[:end]
         if end < track.position.size and state.memory.any():  # without heating after the end
             track, state = _move(active, time, voltage, begin=begin, wires=wires)
-        loops, seen = time[::parts], track.truncate(end)
-        applied = _delay_limits(voltage, seen.applied, time=time, lag=lag)
-        seen = replace(seen, applied=applied)
+        loops, seen = time[::parts], _delay_limits(track.truncate(end), voltage, time, model)
         run = _record_run(mechanism, test, time, seen, loops=loops, rng=rng, electrical=electrical)
         runs.append(replace(run, time=start + loops))
         cool_down(state, model, PAUSE)
@@ -124,13 +121,15 @@ def _is_cut(state: State) -> bool:
     return bool(state.body[OFF_UNTIL] > 0.0)
 
 
-def _delay_limits(voltage: Array, applied: Array, *, time: Array, lag: float) -> Array:
-    """(n,) [V] at the motors, as logged ``lag`` [s] before it acts.
+def _delay_limits(track: Track, voltage: Array, time: Array, model: Model) -> Track:
+    """The motion with the voltage at the motors as it is logged, a hidden delay before it acts.
 
     The delay lies between the log and the motion, so battery and limits reduce the voltage of one
     sample by what the motors lose when it acts, a delay later.
     """
-    return voltage + np.interp(time + lag, time, applied - voltage)
+    lag = sum(part.parameters["lag"] for part in model.parts if part.effect == "delay")
+    lost = np.interp(time + lag, time, track.applied - voltage)
+    return replace(track, applied=voltage + lost)
 
 
 def _record_run(

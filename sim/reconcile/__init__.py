@@ -12,19 +12,17 @@ After the prediction-error method (Kristensen, Madsen and Jørgensen 2004).
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
 
 from sim.core.errors import BadRequest
 from sim.core.log import Log
 from sim.core.vocabulary import TYPES
 from sim.estimation.likelihood import PredictionErrorProblem
-from sim.fit import Fit
 from sim.reconcile.backward_elimination import remove_needless_effects
 from sim.reconcile.base_model import fit_base_model, make_data_folds
 from sim.reconcile.damage import DamagedInterval, judge_damage
 from sim.reconcile.findings import make_findings
 from sim.reconcile.forward_selection import select_effects
-from sim.reconcile.gains import describe_fit, estimate_gains, fit_undamaged
+from sim.reconcile.gains import estimate_gains, fit_without_effects
 from sim.reconcile.held_out import HeldOutLog
 from sim.reconcile.input_checks import check_logs
 from sim.reconcile.model_variant import ModelVariants
@@ -88,8 +86,6 @@ def reconcile(
     damage = judge_damage(damages or {})
     recordings = Recordings(log, validation, held_out, type=type, damage=damage)
     check_logs(recordings, travel=travel)
-    fitted = fit_undamaged(recordings)
-    recordings = replace(recordings, lag_differs=fitted is not None and fitted.lag_differs)
     problem = recordings.make_problem()
     folds, budget = make_data_folds(problem, recordings), effort * SEARCH_BUDGET
     shown = HeldOutLog.choose(recordings)
@@ -100,7 +96,7 @@ def reconcile(
     complete = not data.is_budget_spent()  # before the refits that follow
     rounds = remove_needless_effects(data, rounds)
     progress("what remains", 0.9)
-    return _make_story(problem, rounds, shown, recordings, fitted, complete=complete)
+    return _make_story(problem, rounds, shown, recordings, complete=complete)
 
 
 def _make_story(
@@ -108,7 +104,6 @@ def _make_story(
     rounds: Sequence[SelectionRound],
     shown: HeldOutLog,
     recordings: Recordings,
-    fitted: Fit | None,
     *,
     complete: bool,
 ) -> Story:
@@ -119,7 +114,6 @@ def _make_story(
         rounds: the base model and the selection rounds.
         shown: the log that the gap is shown on.
         recordings: all logs.
-        fitted: what ``sysid fit`` finds in the log, if it fits.
         complete: whether the search ended before its budget.
     """
     unit = recordings.unit
@@ -132,12 +126,7 @@ def _make_story(
     )  # fmt: skip
     reported = select_reported_rounds(rounds, findings)
     chapters = chapters[: len(reported)]
-    gains_without = (
-        describe_fit(fitted, unit)
-        if fitted
-        else estimate_gains(problem, rounds[0].candidate.estimate, unit)
-    )
-    gains = gains_without
+    gains = gains_without = fit_without_effects(recordings, problem, rounds[0].candidate.estimate)
     if any(one.kind == "effect" for one in findings):
         gains = estimate_gains(problem, reported[-1].candidate.estimate, unit)
     verdict, remainder, remains = reach_verdict(

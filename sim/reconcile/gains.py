@@ -2,11 +2,9 @@
 
 from collections.abc import Mapping
 
-from sim.core.errors import Refusal
 from sim.core.units import Unit, convert_gains
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.run_variation import compute_run_variation_covariance
-from sim.fit import Fit, fit
 from sim.fit.output_error import compute_gains_with_errors
 from sim.fit.result import format_gain_unit
 from sim.reconcile.recordings import Recordings
@@ -24,19 +22,20 @@ def estimate_gains(
     )
 
 
-def fit_undamaged(recordings: Recordings) -> Fit | None:
-    """The result of ``sysid fit``; None if the log is damaged or the fit refuses it."""
-    if recordings.damage.excluded.get("log"):
-        return None
-    try:
-        return fit(recordings.log, type=recordings.type).in_units(recordings.unit.name)
-    except Refusal:
-        return None  # the base model has gains nevertheless
+def fit_without_effects(
+    recordings: Recordings, problem: PredictionErrorProblem, base: Estimate
+) -> dict[str, ParameterEstimate]:
+    """The gains of ``sysid fit``; those of the base model if the fit refuses or includes damage.
 
-
-def describe_fit(found: Fit, unit: Unit) -> dict[str, ParameterEstimate]:
-    """The gains of a fit, which is in the log's unit."""
-    return _describe(found.gains, found.errors, unit)
+    Args:
+        recordings: all logs.
+        problem: the measurements.
+        base: the best estimate without effects.
+    """
+    found = recordings.fitted
+    if found is None:
+        return estimate_gains(problem, base, recordings.unit)
+    return _describe(found.gains, found.errors, recordings.unit)
 
 
 def _describe(

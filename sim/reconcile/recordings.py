@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
+from sim.core.errors import Refusal
 from sim.core.log import Log, Run
 from sim.core.units import Unit, find_unit
 from sim.estimation.initial_guess import guess_gains
@@ -17,6 +18,7 @@ from sim.estimation.run_records import (
     join_records,
     make_run_records,
 )
+from sim.fit import Fit, fit
 from sim.reconcile.damage import DamageDecision
 from sim.reconcile.thresholds import LEAST_FLOOR, MOST_WANDERING
 
@@ -34,7 +36,6 @@ class Recordings:
         held_out: runs on which the gap is shown, if given.
         type: the base model: ``simple``, ``elevator`` or ``arm``.
         damage: excluded intervals of each of these logs, by its name.
-        lag_differs: whether the lag of the readings differs from run to run, by up to a period.
     """
 
     log: Log
@@ -42,7 +43,6 @@ class Recordings:
     held_out: Log | None
     type: str
     damage: DamageDecision = field(default_factory=DamageDecision)
-    lag_differs: bool = False
 
     @property
     def logs_by_name(self) -> Mapping[str, Log]:
@@ -63,6 +63,16 @@ class Recordings:
             NotIdentifiable: nothing moves for long enough, or the voltage never changes.
         """
         return guess_gains(self.log, type=self.type)
+
+    @cached_property
+    def fitted(self) -> Fit | None:
+        """What ``sysid fit`` finds in the log; None if the log is damaged or the fit refuses it."""
+        if self.damage.excluded.get("log"):
+            return None
+        try:
+            return fit(self.log, type=self.type).in_units(self.unit.name)
+        except Refusal:
+            return None
 
     @cached_property
     def fitted_runs(self) -> Log:
@@ -119,7 +129,7 @@ class Recordings:
             problem,
             noise=noise,
             max_process_noise=(MOST_WANDERING * top) ** 2,
-            lag_sd=problem.period / UNIFORM if self.lag_differs else 0.0,
+            lag_sd=problem.period / UNIFORM if self.fitted and self.fitted.lag_differs else 0.0,
         )
 
 
