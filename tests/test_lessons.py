@@ -181,7 +181,7 @@ def test_every_question_is_on_a_slide(text, run):
     starts = [re.sub(r"{.*", "", one["question"]) for one in list_questions(text)]
 
     assert [start for start in starts if not any(q.startswith(start) for q in questions)] == []
-    assert [words for words in questions if f"<pre>{words}</pre>" not in slides] == []
+    assert [words for words in questions if f">{words}</pre>" not in slides] == []
 
 
 @each_lesson
