@@ -127,7 +127,7 @@ def on_post_page(output: str, *, page: Page | None, config: MkDocsConfig) -> str
 
 
 def on_post_template(output_content: str, *, template_name: str, config: MkDocsConfig) -> str:  # noqa: ARG001 - the same
-    """The same for the page of a wrong address."""
+    """Say the same on the page that is shown for an address that does not exist."""
     return on_post_page(output_content, page=None, config=config)
 
 

@@ -223,7 +223,7 @@ def find_solution_flaws(solved: SolvedExercise) -> Iterator[str]:
 
 
 def find_mistake_flaws(solved: SolvedExercise, mistake: Mistake) -> Iterator[str]:
-    """Whether a mistake loses its check, and is named."""
+    """What is wrong with a planted mistake, which must fail its check and be named."""
     says = f"the mistake {mistake.name!r}, with the files of {solved.student}"
     try:
         text = mistake.edit_text(solved.right[mistake.file])
@@ -243,7 +243,7 @@ def find_mistake_flaws(solved: SolvedExercise, mistake: Mistake) -> Iterator[str
 
 
 def find_draw_flaws(one: Exercise) -> Iterator[str]:
-    """Whether each class has files of its own, and always the same."""
+    """What is wrong with a student's own files: each class gets others, and always the same."""
     if not one.is_personal:
         return
     made = []

@@ -578,14 +578,14 @@ forward = {test: part for test, part in all_rows.items() if test.endswith("forwa
 down = all_rows["quasistatic-reverse"]
 
 
-def scatter_gains(down_rows: int) -> Picture:
-    """How far the gains scatter that follow from the way up and some rows of the way down."""
+def show_gain_errors(down_rows: int) -> Picture:
+    """Bars of the gains' errors in a fit of the way up and some rows of the way down."""
     used = {**forward, "quasistatic-reverse": down.select(slice(down_rows))}
     return plot_gain_errors(compute_gain_errors(elevator, used))
 
 
 show_interactive(
-    scatter_gains,
+    show_gain_errors,
     down_rows=widgets.IntSlider(min=0, max=len(down), value=0, description="rows down"),
 )
 

@@ -292,14 +292,14 @@ display(ask_question("lesson3.drop"), ask_question("lesson3.ramps"))
 all_rows = simulate_rows(drivetrain, routine)
 
 
-def scatter_gains(**tests: bool) -> Picture:
-    """How far the gains scatter that a fit of the ticked tests finds."""
+def show_gain_errors(**tests: bool) -> Picture:
+    """Bars of the gains' errors in a fit of the ticked tests."""
     used = {test: all_rows[test] for test, ticked in tests.items() if ticked}
     return plot_gain_errors(compute_gain_errors(drivetrain, used))
 
 
 show_interactive(
-    scatter_gains,
+    show_gain_errors,
     **{test: widgets.Checkbox(value=True, description=test) for test in all_rows},
 )
 

@@ -177,6 +177,17 @@ def test_frames_of_a_motor_controller_are_no_missing_effect(name, step):
     assert story.gap_after < 2.0 * story.noise_floor
 
 
+@pytest.mark.parametrize(("name", "seed"), [("turret", 3), ("drivetrain", 0)])
+def test_lags_of_runs_hide_no_backlash(name, seed):
+    robot = MECHANISMS[name].hide("backlash", 1.0)
+    log = simulate(robot, Routine(step=4.0), rng=np.random.default_rng(seed))
+    assert fit(log, type=robot.type).lag_differs  # runs that begin in the play are late
+
+    story = reconcile(log, type=robot.type)
+
+    assert [one.effect for one in story.findings] == ["backlash"]
+
+
 def test_elevator_that_stays_on_its_stop_in_a_test_is_fitted_by_the_others():
     weak = Routine(step=0.2)
     log = simulate(MECHANISMS["elevator"], weak, rng=np.random.default_rng(1))

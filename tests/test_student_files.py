@@ -27,7 +27,7 @@ def test_files_are_written_once_and_again_when_they_were_changed(tmp_path):
     assert len(list(made.iterdir())) == 2
     assert [line.partition(": ")[0] for line in said] == [
         "Your own files for exercise 5",
-        "Your files were changed; written again",
+        "Your files were changed, so they are made again",
     ]
 
 

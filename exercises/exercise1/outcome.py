@@ -40,7 +40,7 @@ def find_outcome(given: Mapping[str, object], variant: Variant) -> Consequence |
 
 
 def _simulate_moment(name: str, volts: float, variant: Variant) -> tuple[tuple[Any, ...], str]:
-    """The velocity that is wanted and the one that comes, as a panel and in words."""
+    """The commanded and the simulated velocity, as a panel and in words."""
     at, gains = variant.moments[name], variant.gains
     lasts, begin = LONG * gains["kA"] / gains["kV"], 0.0
     if at.acceleration:

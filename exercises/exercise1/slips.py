@@ -1,4 +1,4 @@
-"""What slips would make of a voltage: one at a time, or two, term by term."""
+"""The voltages that a learner gets with one slip, or with two, in the terms of the motor model."""
 
 import math
 from collections.abc import Iterator

@@ -30,7 +30,7 @@ from sim.bench.swerve_logs import (
 
 from .drawn import draw
 from .drive import BATTERY, MODULES, Variant
-from .slips import list_lookalikes, list_rarer
+from .slips import list_lookalikes, list_rarer_slips
 
 FILES = ("answers.toml",)
 ANSWER_NAMES = (
@@ -52,7 +52,7 @@ class Answers(StudentAnswers):
             motors=4,
             ramp=RAMP,
             lookalikes=list_lookalikes(variant),
-            rarer=list_rarer(variant),
+            rarer=list_rarer_slips(variant),
         )
         return AnswerKey(variant.asked, scene)
 

@@ -51,8 +51,8 @@ def list_lookalikes(variant: Variant) -> Numbers:
     return {name: SLIPS.list_lookalikes(one.items()) for name, one in found.items()}
 
 
-def list_rarer(variant: Variant) -> Numbers:
-    """Name of a number -> what rarer slips make of it."""
+def list_rarer_slips(variant: Variant) -> Numbers:
+    """Name of a number -> its values with slips that are less common."""
     asked = {name: one.expected for name, one in variant.asked.items()}
     turning, motor = variant.drive.rotation.gains, variant.drive.motor
     lever, around = asked["lever"], 2.0 * math.pi * variant.radius

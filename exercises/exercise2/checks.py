@@ -18,7 +18,7 @@ from grader.check import WrongAnswer, check
 from grader.student_data.student_files import Made
 
 from .drawn import draw
-from .slips import list_lookalikes, list_rarer
+from .slips import list_lookalikes, list_rarer_slips
 from .team import FLAGS, VERDICTS, Variant, find_verdict
 
 FILES = ("answers.toml",)
@@ -70,7 +70,7 @@ def kv_theory(answers: StudentAnswers) -> str | None:
         {"kV_theory": replace(variant.asked, expected=nearest)},
         Scene(
             lookalikes={"kV_theory": list_lookalikes(variant)},
-            rarer={"kV_theory": list_rarer(variant)},
+            rarer={"kV_theory": list_rarer_slips(variant)},
         ),
     )
     return judge_number("kV_theory", {"kV_theory": answers.given["kv_theory"]}, key, points=3)

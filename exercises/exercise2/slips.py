@@ -55,8 +55,8 @@ def _list_skipped_steps(variant: Variant) -> Iterator[Lookalike]:
             yield Lookalike(value, SLIPS.name(code, missing=missing))
 
 
-def list_rarer(variant: Variant) -> tuple[Lookalike, ...]:
-    """What rarer slips make of the parts."""
+def list_rarer_slips(variant: Variant) -> tuple[Lookalike, ...]:
+    """The kV of the parts with slips that are less common."""
     kv = variant.parts.theoretical_kv
     found = [("free-speed", 12.0 / kv), ("upside-down", 1.0 / kv)]
     if variant.parts.diameter:

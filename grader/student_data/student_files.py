@@ -70,7 +70,7 @@ def write_student_files(
             write_cached_data(known, _digest_files(folder, files))
     number = exercise.name.removeprefix("exercise")
     if any(news) and there:
-        say(f"Your files were changed; written again: {place}")
+        say(f"Your files were changed, so they are made again: {place}")
     elif any(news):
         say(f"Your own files for exercise {number}: {place}")
 

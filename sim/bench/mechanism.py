@@ -114,8 +114,8 @@ class Mechanism:
         if self.type != "simple" and not self.lift:
             raise BadRequest(
                 f"{self.name} is of the type {self.type}, and has no lift: gravity would not pull",
-                advice="Say lift=9.81 for what goes up, and 9.81 over the distance of the center "
-                "of mass [m] for an arm.",
+                advice="Set lift=9.81 for an elevator. For an arm, divide 9.81 by the distance [m] "
+                "from the axis to the center of mass.",
             )
 
     @property

@@ -6,7 +6,7 @@ import click
 import numpy as np
 
 from sim.cli.log_reader import LogReader, reading_options
-from sim.cli.options import FAULT_NAMES, FILE, refuse_overwriting
+from sim.cli.options import FAULT_NAMES, FILE, output_option, refuse_overwriting
 from sim.inspect.contaminate import contaminate_all, parse_fault_request
 from sim.io import write
 from sim.support.command_line import quote_path
@@ -24,13 +24,7 @@ from sim.support.command_line import quote_path
     metavar="NAME[:SEVERITY][@TEST[+SECONDS]]",
     help="Fault to add; may be repeated. `sysid faults` lists them.",
 )
-@click.option(
-    "-o",
-    "--output",
-    type=FILE,
-    required=True,
-    help="Log to write; the ending says the format: .wpilog, .csv …",
-)
+@output_option
 @click.option("--seed", type=click.IntRange(min=0), help="The same seed gives the same damage.")
 def contaminate(
     file: Path,

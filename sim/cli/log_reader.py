@@ -103,7 +103,7 @@ class LogReader(ReadOptions):
         return self._scale(read_with(file, self))
 
     def read_joined(self, files: Sequence[Path]) -> Log:
-        """The logs in all files as one, with what can be mended in it mended.
+        """The logs in all files as one, repaired where that is possible.
 
         Raises:
             Refusal: a file cannot be read or is given twice, or one measures a length and another
@@ -139,7 +139,7 @@ class LogReader(ReadOptions):
 
 
 def _check_signals(log: Log) -> Log:
-    """The log with its motion mended where that is possible, and doubts about wrong units."""
+    """The log, repaired where that is possible, with doubts about wrong units."""
     mended = leave_out_falls(mend_motion(log))
     return mended.add_doubts(*doubt_units(mended))
 

@@ -20,6 +20,13 @@ EFFECT_NAMES = complete_members(SIM / "physics" / "effects")
 FAULT_NAMES = complete_members(SIM / "inspect" / "faults")
 
 
+output_option = click.option(
+    "-o",
+    "--output",
+    type=FILE,
+    required=True,
+    help="Log to write; the ending says the format: .wpilog, .csv …",
+)
 as_json = click.option("--json", "as_json", is_flag=True, help="Print JSON for other programs.")
 
 

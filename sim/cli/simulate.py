@@ -13,7 +13,14 @@ from sim.bench.mechanisms import find_mechanism as find
 from sim.bench.recorder import find_recorder
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate as record
-from sim.cli.options import EFFECT_NAMES, FAULT_NAMES, FILE, MECHANISM_NAMES, refuse_overwriting
+from sim.cli.options import (
+    EFFECT_NAMES,
+    FAULT_NAMES,
+    FILE,
+    MECHANISM_NAMES,
+    output_option,
+    refuse_overwriting,
+)
 from sim.core.errors import BadRequest, Refusal
 from sim.core.log import Log
 from sim.core.vocabulary import KINDS
@@ -27,13 +34,7 @@ PERIOD = 0.02  # [s] loop period of a robot program by default
 
 @click.command()
 @click.argument("mechanism", shell_complete=MECHANISM_NAMES)
-@click.option(
-    "-o",
-    "--output",
-    type=FILE,
-    required=True,
-    help="Log to write; the ending says the format: .wpilog, .csv …",
-)
+@output_option
 @click.option("--ramp", default=0.5, show_default=True, help="Quasistatic ramp [V/s].")
 @click.option("--step", default=3.5, show_default=True, help="Dynamic step [V].")
 @click.option("--timeout", default=10.0, show_default=True, help="End of a test [s].")

@@ -20,9 +20,9 @@ from sim.estimation.run_records import (
 )
 from sim.fit import Fit, fit
 from sim.reconcile.damage import DamageDecision
-from sim.reconcile.thresholds import LEAST_FLOOR, MOST_WANDERING
+from sim.reconcile.thresholds import LEAST_FLOOR, MOST_WANDERING, NOISE_ALONE
 
-UNIFORM = math.sqrt(3.0)  # root mean square of what is uniform between 0 and 1, inverted
+FRAME_AGE = 1.0 / math.sqrt(3.0)  # [periods] RMS age of a frame that is up to one period old
 ORDER = ("log", "validation", "held_out")  # in which they were recorded
 
 
@@ -129,8 +129,21 @@ class Recordings:
             problem,
             noise=noise,
             max_process_noise=(MOST_WANDERING * top) ** 2,
-            lag_sd=problem.period / UNIFORM if self.fitted and self.fitted.lag_differs else 0.0,
+            lag_sd=FRAME_AGE * problem.period if self._has_frames(problem.velocity_floor) else 0.0,
         )
+
+    def _has_frames(self, floor: float) -> bool:
+        """Whether lags that differ from run to run explain the log, as where devices send frames.
+
+        They must leave noise alone, or they may only imitate a missing effect, such as backlash.
+
+        Args:
+            floor: [m/s or rad/s] noise floor of the velocity.
+        """
+        found = self.fitted
+        if found is None or not found.lag_differs:
+            return False
+        return found.simulated_velocity_rmse * self.unit.si <= NOISE_ALONE * floor
 
 
 def _is_same_run(one: Run, other: Run) -> bool:

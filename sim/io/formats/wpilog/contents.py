@@ -27,7 +27,7 @@ from sim.io.formats.wpilog.records import (
     open_log,
     pad,
     read_headers,
-    view_numbers,
+    view_as_numbers,
 )
 
 Wanted: TypeAlias = Callable[[Start], bool]
@@ -94,7 +94,7 @@ class _Series:
         """Add samples of a window with these headers."""
         _, _, size, _, payload = head
         if self.type in SIZES:
-            values = view_numbers(buffer, KINDS[self.type])[payload].tobytes()
+            values = view_as_numbers(buffer, KINDS[self.type])[payload].tobytes()
         else:
             spans = zip(payload.tolist(), (payload + size).tolist(), strict=True)
             values = b"".join([window[begin:end] for begin, end in spans])

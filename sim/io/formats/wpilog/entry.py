@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from sim.core.log import Array
 from sim.io.entries.entry import Entry, Numbers
-from sim.io.formats.wpilog.records import view_numbers
+from sim.io.formats.wpilog.records import view_as_numbers
 
 KINDS: dict[str, type[np.generic]] = {
     "double": np.float64,
@@ -39,7 +39,7 @@ class FileEntry(Entry):
         buffer = np.frombuffer(self.payloads, dtype=np.uint8)
         if self.type == "boolean":
             return np.not_equal(buffer[self.begin], 0)
-        return view_numbers(buffer, KINDS[self.type])[self.begin]
+        return view_as_numbers(buffer, KINDS[self.type])[self.begin]
 
     def numbers(self) -> Array:
         """The values (n,) of an entry with a type in ``KINDS``, in double precision."""
