@@ -90,7 +90,8 @@ def simulate(
             track, state = _move(active, time, voltage, begin=begin, wires=wires)
         loops, seen = time[::parts], _delay_limits(track.truncate(end), voltage, time, model)
         run = _record_run(mechanism, test, time, seen, loops=loops, rng=rng, electrical=electrical)
-        runs.append(replace(run, time=start + loops))
+        clock = np.round(start + loops, 6)  # a roboRIO counts microseconds
+        runs.append(replace(run, time=clock))
         cool_down(state, model, PAUSE)
         start, last = start + float(time[-1]) + PAUSE, float(track.position[end - 1])
     log = Log(tuple(runs), units=mechanism.units, mechanism=mechanism.name, type=mechanism.type)
