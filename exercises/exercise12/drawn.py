@@ -109,9 +109,10 @@ def draw_determined(rng: np.random.Generator, among: Sequence[Recipe]) -> Varian
 
 
 def is_determined(variant: Variant) -> bool:
-    """Whether trying the right effects finds them, and each is missed, the first most."""
+    """Whether an answer found by trying is right, and each effect is missed, the first most."""
     search, truth = variant.make_search(), variant.mechanism.model
-    found = search.fit(variant.hidden)
+    tried = search.fit(variant.hidden)
+    found = search.fit_gains(tried.structure.model(tried.values).parts)  # as it is graded
     floor = max(1.0, search.measure_gap(search.evaluate_model(truth), "held_out"))
     if search.measure_gap(found, "held_out") > SNUG * FLOOR * floor:
         return False

@@ -23,6 +23,7 @@ from sim.reconcile.local_minimum import (
     RatedStart,
     minimize,
     minimize_fully,
+    minimize_repeatedly,
     rate_starts,
 )
 from sim.reconcile.onset_scan import refine_onset, scan_onsets
@@ -181,7 +182,7 @@ def _refine_motor_friction(problem: PredictionErrorProblem, point: Estimate) -> 
     )
     descended = [levenberg_marquardt(problem, one, steps=FURTHER) for one in moved]
     best = min(descended, key=lambda one: one.cost)
-    return min(point, minimize(problem, best), key=lambda one: one.cost)
+    return min(point, minimize_repeatedly(problem, best), key=lambda one: one.cost)
 
 
 def descend_candidate(problem: PredictionErrorProblem, start: Estimate) -> Estimate:

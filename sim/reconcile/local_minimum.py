@@ -56,12 +56,12 @@ def minimize_fully(problem: PredictionErrorProblem, point: Estimate) -> Estimate
 
     Large process noise hides any residual, so a search tends to stop there with wrong gains.
     """
-    found = [_minimize_repeatedly(problem, point)]
+    found = [minimize_repeatedly(problem, point)]
     calm = CALM * problem.noise.velocity**2
     if found[0].process_noise > AGITATED * calm:
         calmer = problem.evaluate(point.structure, found[0].values, found[0].nuisance, calm)
         calmer = levenberg_marquardt(problem, calmer, steps=STEPS)
-        found.append(_minimize_repeatedly(problem, calmer))
+        found.append(minimize_repeatedly(problem, calmer))
     best = min(found, key=lambda one: one.cost)
     return _tighten_backlash(problem, best) if point.structure.has_backlash else best
 
@@ -78,7 +78,7 @@ def _tighten_backlash(problem: PredictionErrorProblem, point: Estimate) -> Estim
     return point
 
 
-def _minimize_repeatedly(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
+def minimize_repeatedly(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
     """The estimate, minimized again while that improves it by more than ``WORTHWHILE``."""
     for _ in range(MOST_REPEATS):
         before = point.cost
