@@ -10,7 +10,7 @@ Python's own ``http.server`` is enough for one person's browser, and adds nothin
 import json
 import secrets
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, replace
+from dataclasses import asdict
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
@@ -238,8 +238,7 @@ class PageRequest(BaseHTTPRequestHandler):
         """The search that a request names; it begins if there is none yet."""
         others = {role: self._log(query[role]) for role in ROLES if query.get(role)}
         effort = 5.0 if query.get("longer") else 1.0
-        reading = replace(Reading.from_query(query), left_out=())  # it excludes damage itself
-        return one.reconcile(reading, others, effort)
+        return one.reconcile(Reading.from_query(query), others, effort)
 
     def _choose_model(self, one: OpenLog, query: Mapping[str, str]) -> ModelVariant | None:
         """The model with the effects that a request names; None for the fit, which has none."""

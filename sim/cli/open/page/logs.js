@@ -179,10 +179,9 @@ function takeFit(log, fit) {
 
 /** Fit again without these parts: {test, start, end}, in the log's time. */
 export function leaveOut(log, parts) {
-  Object.assign(log, { leftOut: parts, effects: [], fit: null, fitRefused: null, asked: {} });
+  Object.assign(log, { leftOut: parts, effects: [], search: null, fit: null, fitRefused: null, asked: {} });
   setBusy(log, true);
-  changed(log, "faults");
-  changed(log, "fit");
+  for (const what of ["faults", "fit", "story"]) changed(log, what);
   guarded(log.name, () => askFit(log, log.asked)).then(() => setBusy(log, false));
 }
 
@@ -213,7 +212,7 @@ export async function reconcile(log, settings, effects) {
   changed(log, "story");
   try {
     while (!search.story) {
-      Object.assign(search, await askLog(log.id, "reconcile", { ...log.query, ...settings }));
+      Object.assign(search, await askLog(log.id, "reconcile", modelQuery(log)));
       if (log.asked !== asked) return;
       changed(log, "story");
       if (!search.story) await new Promise((done) => setTimeout(done, POLL));
@@ -230,7 +229,7 @@ export async function reconcile(log, settings, effects) {
 /** Let a search end with what it has. */
 export function stop(log) {
   log.search.stopped = true;
-  stopSearch(log.id, { ...log.query, ...log.search.settings });
+  stopSearch(log.id, modelQuery(log));
   changed(log, "story");
 }
 

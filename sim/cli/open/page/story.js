@@ -64,7 +64,7 @@ function modelChoice({ effects }, { effects: chosen, plain: without, fit }, choo
   const say = ({ value, ...gain }) => `${rounded(value, gain.error)} ± ${errorText(gain)}`;
   const row = (tag, words) => { const made = text("tr", ""); made.append(...words.map((one) => text(tag, one))); return made; };
   table.append(
-    row("th", ["", "without", chosen.length ? `with ${chosen.map(plain).join(", ")}` : "with the ticked effects", ""]),
+    row("th", ["gain", "without", chosen.length ? `with ${chosen.map(plain).join(", ")}` : "with the ticked effects", "unit"]),
     ...without.gains.map((gain, k) => row("td", [nameOf(gain.name), say(gain), chosen.length ? say(fit.gains[k]) : "–", gain.unit])),
   );
   boxes.append(table);
