@@ -53,8 +53,8 @@ from sim.physics.motors import MOTORS, compute_theoretical_kv
 from sim.plot import (
     Picture,
     Table,
+    plot_choices,
     plot_gauge,
-    plot_relative_change,
     show_interactive,
 )
 from sim.plot.animation import Choice, Gain, Knob, Motion, Panel, Scene, animate_mechanism
@@ -317,7 +317,8 @@ def built(mass: float, ratio: float, motors: int, wheel: float) -> dict[str, flo
 def other_parts(mass: float, ratio: float, motors: int, wheel: float) -> Picture:
     """The gains of another robot, divided by those of ours."""
     now = built(mass, ratio, motors, wheel)
-    return plot_relative_change({name: now[name] / gains[name] for name in gains})
+    change = {name: now[name] / gains[name] for name in gains}
+    return plot_choices(change, truth=1.0, name="now ÷ before", line="the same", within=1.0)
 
 
 show_interactive(

@@ -19,7 +19,6 @@ from sim.plot.interactive import show_interactive
 from sim.plot.logs import plot_time_series
 from sim.plot.picture import Picture
 from sim.plot.r2_vs_gain_error import plot_r2_vs_gain_error
-from sim.plot.relative_change import plot_relative_change
 from sim.plot.table import Table
 from sim.plot.timesteps import plot_timesteps
 from sim.plot.tracking_error import measure_tracking_error, plot_tracking_error
@@ -42,7 +41,6 @@ __all__ = [
     "plot_hold_window",
     "plot_misses",
     "plot_r2_vs_gain_error",
-    "plot_relative_change",
     "plot_time_series",
     "plot_timesteps",
     "plot_tracking_error",

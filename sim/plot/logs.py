@@ -28,7 +28,7 @@ from sim.plot.picture import (
     add_legend,
     make_panels,
 )
-from sim.plot.table import Cell, Table
+from sim.plot.table import Table
 
 KINDS = ("quasistatic", "dynamic")
 APART = 0.15  # [share of a panel] distance of markers
@@ -93,9 +93,15 @@ def plot_time_series(
         lower[1].set_xlim(-0.02 * dynamic_seconds, dynamic_seconds)
     draw_fault_marks(log, damage, drawn=drawn)
     add_legend(figure, lower, extra=make_legend_entries(damage))
-    table = _tests_table(runs, per)
-    alt = _time_words(table, per, names if beside is not None else names[:1])
-    return Picture(figure, alt + describe_faults(log, damage, drawn=drawn), table)
+    alt = (
+        "Four panels show the log over time: voltage above and velocity below, the quasistatic "
+        "tests on the left and the dynamic tests on the right. A solid line with circles is a "
+        "forward test. A dashed line with squares is a reverse test."
+    )
+    if beside is not None:
+        alt += f" A thin dotted black line shows {names[1]} beside the {names[0]}."
+    alt += describe_faults(log, damage, drawn=drawn)
+    return Picture(figure, alt, _tests_table(runs, per))
 
 
 def _first_runs(log: Log) -> dict[int, Run]:
@@ -161,32 +167,3 @@ def _tests_table(runs: Mapping[int, Run], per: Unit) -> Table:
     )
     header = ("test", "samples", "lasts [s]", "first [V]", "last [V]", f"fastest [{per.symbol}/s]")
     return Table(header, rows, caption="The log in numbers")
-
-
-def _two_decimals(value: Cell) -> str:
-    return f"{round(float(value), 2) + 0.0:.2f}".replace("-", "−")  # never −0.00
-
-
-def _time_words(table: Table, per: Unit, names: Sequence[str]) -> str:
-    text = "Four panels show the log over time. The upper two show voltage, the lower two "
-    text += "velocity. The quasistatic tests are on the left, the dynamic tests on the right. A "
-    text += (
-        "solid line with circles is a forward test. A dashed line with squares is a reverse test."
-    )
-    for test, _, lasts, first, last, fastest in table.rows:
-        goes = (
-            f"stays at {_two_decimals(first)} V for"
-            if first == last
-            else (f"goes from {_two_decimals(first)} to {_two_decimals(last)} V in")
-        )
-        text += f" In {test} the voltage {goes} {lasts:.1f} s, "
-        text += f"and the velocity reaches {_two_decimals(fastest)} {per.symbol}/s."
-    for kind in KINDS:
-        there = [way for way in DIRECTIONS if any(row[0] == f"{kind}-{way}" for row in table.rows)]
-        if len(there) < len(DIRECTIONS):
-            lacking = "".join(way for way in DIRECTIONS if not there or way not in there[0])
-            which = f"{kind}-{lacking}" if there else f"{kind} test"
-            text += f" There is no {which}."
-    if len(names) > 1:
-        text += f" A thin dotted black line shows {names[1]} beside the {names[0]}."
-    return text

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
 from pathlib import Path
-from typing import Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 from warnings import catch_warnings, filterwarnings
 
 from matplotlib import rc_context
@@ -43,8 +43,8 @@ class Picture:
 
     Args:
         figure: the drawing.
-        alt: a description in a few sentences with numbers.
-        table: its numbers; None if ``alt`` holds them all.
+        alt: a description in a few sentences; with numbers, if there is no table.
+        table: its numbers.
     """
 
     figure: Figure
@@ -155,6 +155,30 @@ def make_panels(
         axes.spines[["top", "right"]].set_visible(False)
         axes.tick_params(colors=INK, labelsize=9)
     return figure, [list(row) for row in grid]
+
+
+def make_rows(
+    names: Sequence[str], *, label: str, line: float | None = None
+) -> tuple[Figure, Axes]:
+    """A figure with a row for each name, over one scale with a dashed line at a value."""
+    figure, ((axes,),) = make_panels(1, 1, height=0.9 + 0.36 * len(names))
+    if line is not None:
+        axes.axvline(line, color=REFERENCE, linestyle="--", linewidth=1.2)
+    axes.set_xlabel(label, color=INK)
+    axes.set_yticks(range(len(names)), names)
+    axes.set_ylim(len(names) - 0.4, -0.8)
+    return figure, axes
+
+
+def write_number(axes: Axes, text: str, at: tuple[float, float], *, right: bool = False) -> None:
+    """Write a number above a point, or to the right of it, legible over lines."""
+    place: dict[str, Any] = (
+        {"xytext": (4, 0), "va": "center"} if right else {"xytext": (0, 7), "ha": "center"}
+    )
+    box = {"facecolor": PAPER, "edgecolor": "none", "pad": 0.8}
+    axes.annotate(
+        text, at, textcoords="offset points", fontsize=8, color=INK, zorder=6, bbox=box, **place
+    )
 
 
 def add_legend(

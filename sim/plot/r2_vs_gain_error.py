@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-import numpy as np
 from matplotlib.axes import Axes
 
 from sim.core.errors import BadRequest
@@ -63,7 +62,13 @@ def plot_r2_vs_gain_error(
         add_legend(figure, [right])
     right.set_xlabel("off by [%]", color=INK)
     right.set_title("errors of the gains (known only in simulation)", fontsize=10, color=INK)
-    return Picture(figure, _words(scores, good, score, off), _table(scores, good, score, off))
+    shown = (
+        "The errors of their gains are hidden."
+        if off is None
+        else "Marks show how far the gains are off."
+    )
+    alt = f"A badge for each log says whether its {score} is above {good:g}. {shown}"
+    return Picture(figure, alt, _table(scores, good, score, off))
 
 
 def _badges(axes: Axes, scores: Mapping[str, float], *, good: float, score: str) -> None:
@@ -139,26 +144,3 @@ def format_percent(share: float) -> str:
     """A ratio as a signed percentage without decimals: 0.1 gives ``+10 %``."""
     whole = round(PERCENT * share)
     return f"{whole:+d} %".replace("-", "−") if whole else "0 %"
-
-
-def _words(
-    scores: Mapping[str, float],
-    good: float,
-    score: str,
-    off: Mapping[str, Mapping[str, float]] | None,
-) -> str:
-    passing = [name for name, value in scores.items() if value > good]
-    text = (
-        f"Each of the {len(scores)} logs has a badge. {len(passing)} have a {score} above {good:g}"
-    )
-    failing = [name for name in scores if name not in passing]
-    text += f". These do not: {', '.join(failing)}." if failing else "."
-    if off is None:
-        return f"{text} The errors of their gains are hidden."
-    text += " Next to the badges are the errors of the gains."
-    for gain, found in off.items():
-        sizes = np.abs([found[name] for name in scores])
-        worst = max(found, key=lambda name: abs(found[name]))
-        text += f" {gain} is off by more than {PERCENT * float(np.median(sizes)):.0f} % in half of "
-        text += f"the logs. The largest error is {format_percent(found[worst])}, in {worst}."
-    return text

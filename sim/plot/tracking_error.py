@@ -91,12 +91,7 @@ def plot_tracking_error(
     alt = (
         f"A target velocity over time, between {to_text(float(np.min(target)))} and "
         f"{to_text(float(np.max(target)))} {unit}, and curves that follow it. "
-        "Below are their errors. "
-        + " ".join(
-            f"“{name}” is off by {to_text(one.typical)} {unit} typically and by "
-            f"{to_text(one.largest)} {unit} at most."
-            for name, one in found.items()
-        )
+        "Below are their errors."
     )
     rows = tuple((name, one.typical, one.largest) for name, one in found.items())
     header = ("curve", f"typical error [{unit}]", f"largest error [{unit}]")
