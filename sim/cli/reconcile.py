@@ -7,13 +7,20 @@ from pathlib import Path
 
 import click
 
-from sim.cli.fit.paste import make_paste_text, paste_options
-from sim.cli.log_reader import LogReader, reading_options
+from sim.cli.fit.paste import make_paste_text
+from sim.cli.log_reader import LogReader
 from sim.cli.open.page_data import replace_gains
 from sim.cli.open.reconcile_job import search_effects
 from sim.cli.open.saved_page import save_page
 from sim.cli.open.session import OpenLog
-from sim.cli.options import FILE, as_json, combine_options, refuse_overwriting
+from sim.cli.options import (
+    FILE,
+    as_json,
+    combine_options,
+    paste_options,
+    reading_options,
+    refuse_overwriting,
+)
 from sim.core.log import Log
 from sim.fit import Fit, fit
 from sim.physics.engine import engine_can_compile

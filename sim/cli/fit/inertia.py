@@ -1,16 +1,13 @@
 """``sysid fit --straight``: the moment of inertia, from turning on the spot and going straight."""
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import partial, wraps
+from functools import partial
 from pathlib import Path
-from typing import Any
 
 import click
 
 from sim.cli.fit.parts import fit_parts
 from sim.cli.log_reader import LogReader
-from sim.cli.options import FILE, combine_options
 from sim.core.errors import BadRequest
 from sim.core.log import Log
 from sim.fit import Fit
@@ -36,40 +33,7 @@ class Turning:
     lever: float | None
 
 
-def turning_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """The options for a robot that turns on the spot; the command gets them as ``turning``."""
-    options = combine_options(
-        click.option(
-            "--straight",
-            type=FILE,
-            help="If FILES show a robot turning on the spot: a log of this robot driving straight. "
-            "The command then prints the moment of inertia.",
-        ),
-        click.option("--mass", type=float, help="Mass of the robot [kg], for --straight."),
-        click.option(
-            "--lever",
-            type=float,
-            help="Distance from the middle of the robot to the line along which a wheel pushes "
-            "[m], for --straight: trackwidth/√2 for a square swerve drive, trackwidth/2 for a "
-            "tank drive.  [default: computed from the speeds]",
-        ),
-    )
-
-    @wraps(command)
-    def with_turning(
-        *args: object,
-        straight: Path | None,
-        mass: float | None,
-        lever: float | None,
-        **others: object,
-    ) -> object:
-        turning = _read_turning(straight, mass=mass, lever=lever)
-        return command(*args, turning=turning, **others)
-
-    return options(with_turning)
-
-
-def _read_turning(
+def read_turning(
     straight: Path | None, *, mass: float | None, lever: float | None
 ) -> Turning | None:
     """The three options as one object; None without --straight.

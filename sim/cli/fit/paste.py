@@ -2,29 +2,10 @@
 
 import click
 
-from sim.cli.options import combine_options
+from sim.cli.options import LANGUAGES
 from sim.fit import Fit
 from sim.report.controller_snippet import write_controller_code
 from sim.report.robot_code_snippet import write_robot_code
-
-LANGUAGES = ("java", "python")  # WPILib's feedforward, in the robot program
-SEASONS = ("2026", "2027")
-CONTROLLERS = ("phoenix6", "revlib", "yagsl")  # gains in a vendor's units, in Java
-
-paste_options = combine_options(
-    click.option(
-        "--paste",
-        type=click.Choice((*LANGUAGES, *CONTROLLERS)),
-        help="Print only code: WPILib's feedforward, or the settings of a motor controller.",
-    ),
-    click.option(
-        "--season",
-        type=click.Choice(SEASONS),
-        default="2026",
-        show_default=True,
-        help="WPILib season, for --paste.",
-    ),
-)
 
 
 def make_paste_text(found: Fit, target: str, *, season: int) -> str:

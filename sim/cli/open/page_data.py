@@ -11,9 +11,10 @@ from typing import Any
 import numpy as np
 
 from sim.cli.entries import describe_entry
-from sim.cli.fit.paste import SEASONS, write_snippet
+from sim.cli.fit.paste import write_snippet
 from sim.cli.fit.plausibility import compare_directions_alone
 from sim.cli.open.session import OpenLog, Reading, Session
+from sim.cli.options import SEASONS
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, Refusal
 from sim.core.leave_out import LeftOutPart, leave_out

@@ -10,11 +10,11 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import urlencode
 
-from sim.cli.fit.paste import CONTROLLERS, LANGUAGES, SEASONS
 from sim.cli.open import page_data
 from sim.cli.open.reconcile_job import describe_story
 from sim.cli.open.session import OpenLog, Reading
 from sim.cli.open.view import PageView
+from sim.cli.options import CONTROLLERS, LANGUAGES, SEASONS
 from sim.core.errors import Refusal
 from sim.reconcile.model_variant import ModelVariant
 from sim.reconcile.story import Story
