@@ -18,7 +18,7 @@ from test_plot_motor import PICTURES as MOTOR
 import sim
 from sim.bench.simulate import simulate
 from sim.core.errors import BadRequest
-from sim.inspect.fault import LogInterval
+from sim.inspect.fault import Damage, LogInterval
 from sim.plot import (
     Line,
     Picture,
@@ -53,7 +53,8 @@ PICTURES = {
         DRIVE, lines={"a": Line(0.2, 2.5), "b": Line(0.1, 2.4)}
     ),
     "time series with damage": lambda: plot_time_series(
-        DRIVE, damages=[LogInterval(0, DRIVE.runs[0].test, 2.0, 2.5)]
+        DRIVE,
+        damages=[Damage("overrun", LogInterval(0, DRIVE.runs[0].test, 2.0, 2.5), 0.9, "", "")],
     ),
     "timesteps": lambda: plot_timesteps(DRIVE),
     "acceleration against velocity": lambda: plot_acceleration_velocity(DRIVE),

@@ -9,14 +9,8 @@ from matplotlib.axes import Axes
 from sim.core.errors import BadRequest
 from sim.core.log import DIRECTIONS, Array, Log, Run
 from sim.core.units import Unit, find_unit
+from sim.inspect.fault import Damage
 from sim.plot.decimate import decimate_curve
-from sim.plot.fault_marks import (
-    Damaged,
-    assign_fault_marks,
-    describe_faults,
-    draw_fault_marks,
-    make_legend_entries,
-)
 from sim.plot.picture import (
     COLORS,
     INK,
@@ -33,6 +27,7 @@ from sim.plot.table import Table
 KINDS = ("quasistatic", "dynamic")
 APART = 0.15  # [share of a panel] distance of markers
 MOST = 1000  # samples of a curve drawn at most: a panel has fewer pixels
+BACKGROUND = "#F9EEF5"  # of a damaged part; curves drawn over it stay legible
 HIDDEN = "_"  # matplotlib leaves labels that begin with this out of the legend
 
 
@@ -56,7 +51,7 @@ def plot_time_series(
     beside: Log | None = None,
     names: tuple[str, str] = ("log", "what happened"),
     dynamic_seconds: float | None = None,
-    damages: Iterable[Damaged] = (),
+    damages: Iterable[Damage] = (),
 ) -> Picture:
     """Voltage and velocity of the four tests over time, in the log's own unit.
 
@@ -68,15 +63,13 @@ def plot_time_series(
             simulation with the same voltage.
         names: names of the log and of ``beside``.
         dynamic_seconds: length of the dynamic tests to show [s]; None shows all.
-        damages: damaged parts, drawn hatched with a letter for each fault; those of runs that are
-            not drawn are only described.
+        damages: damaged parts, drawn hatched; those of runs that are not drawn are only described.
 
     Raises:
-        BadRequest: the log has none of the four tests, or a damage is not of this log.
+        BadRequest: the log has none of the four tests.
     """
     per = find_unit(log.units)
     runs = _first_runs(log)
-    damage = assign_fault_marks(log, damages)
     figure, (upper, lower) = make_panels(2, 2, height=4.4, shared=True)
     labels = tuple(f"{names[0]}, {way}" for way in DIRECTIONS)
     drawn: dict[int, list[tuple[Axes, Array]]] = {}
@@ -91,8 +84,8 @@ def plot_time_series(
     lower[0].set_ylabel(f"velocity [{per.symbol}/s]", color=INK)
     if dynamic_seconds is not None:
         lower[1].set_xlim(-0.02 * dynamic_seconds, dynamic_seconds)
-    draw_fault_marks(log, damage, drawn=drawn)
-    add_legend(figure, lower, extra=make_legend_entries(damage))
+    sentences = [_mark_damage(log, one, drawn) for one in damages]
+    add_legend(figure, lower)
     alt = (
         "Four panels show the log over time: voltage above and velocity below, the quasistatic "
         "tests on the left and the dynamic tests on the right. A solid line with circles is a "
@@ -100,8 +93,25 @@ def plot_time_series(
     )
     if beside is not None:
         alt += f" A thin dotted black line shows {names[1]} beside the {names[0]}."
-    alt += describe_faults(log, damage, drawn=drawn)
-    return Picture(figure, alt, _tests_table(runs, per))
+    return Picture(figure, " ".join([alt, *sentences]), _tests_table(runs, per))
+
+
+def _mark_damage(
+    log: Log, damage: Damage, drawn: Mapping[int, Sequence[tuple[Axes, Array]]]
+) -> str:
+    """Hatch a damaged part in the color of its curve; a sentence about where it is."""
+    where = damage.where
+    if where.run is None or where.run not in drawn:
+        return f"The picture does not show {damage.fault} in {where.test or 'the whole log'}."
+    run = log.runs[where.run]
+    start, end = where.start - run.time[0], where.end - run.time[0]
+    color = _PENS[DIRECTIONS.index(run.direction)].color
+    for axes, _ in drawn[where.run]:
+        axes.axvspan(
+            start, end, facecolor=BACKGROUND, edgecolor=color, hatch="///", zorder=1,
+            label=damage.fault,
+        )  # fmt: skip
+    return f"Hatching marks {damage.fault} in {where.test}, from {start:.2f} to {end:.2f} s."
 
 
 def _first_runs(log: Log) -> dict[int, Run]:

@@ -11,7 +11,6 @@ from typing import Any, Literal, TypeAlias
 from warnings import catch_warnings, filterwarnings
 
 from matplotlib import rc_context
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -181,27 +180,23 @@ def write_number(axes: Axes, text: str, at: tuple[float, float], *, right: bool 
     )
 
 
-def add_legend(
-    figure: Figure, axes: Sequence[Axes], *, columns: int = 3, extra: Sequence[Artist] = ()
-) -> None:
+def add_legend(figure: Figure, axes: Sequence[Axes], *, columns: int = 3) -> None:
     """Add one legend below all panels, with each name once.
 
     Args:
         figure: the figure of the panels.
         axes: the panels whose labels it lists.
         columns: largest number of names in a row.
-        extra: further labeled entries.
     """
-    entries: dict[str, Artist] = {}
+    entries: dict[str, Any] = {}
     for panel in axes:
         handles, names = panel.get_legend_handles_labels()
         entries |= dict(zip(names, handles, strict=True))
     figure.legend(
-        handles=[*entries.values(), *extra],
+        handles=[*entries.values()],
         fontsize=9,
         labelcolor=INK,
         loc="outside lower center",
         ncols=columns,
         frameon=False,
-        handleheight=1.2 if extra else None,
     )

@@ -11,6 +11,9 @@ const SHORTEST = 3; // [s] least duration of a play: shorter scenes are shown in
 const LONGEST = 12; // [s] largest duration of a play
 const HIGH = { one: 170, many: 120 }; // [px] height of a single panel or one with areas, and of one of several
 const EDGE = { left: 46, right: 14, top: 6, bottom: 22 };
+const MARGIN = 0.08; // [1] margin of an axis, relative to the range of its values
+const FLOORS = ["drivetrain", "swerve"]; // kinds that drive on a floor
+const LONG = 0.9, BEHIND = 0.16; // [m] a robot with bumpers; [1] most of the floor drawn behind its start
 const MOVES = 0.02; // [m/s] slower counts as standing
 const TERMS = [["kS·sgn(v)", 0], ["kV·v", 1], ["kA·a", 2]]; // a term and its color
 
@@ -89,6 +92,7 @@ class Animation {
     this.pictures = 0;
     this.tries = 0;
     figure.querySelector(".motion-still").hidden = true;
+    this.fitAxes();
     this.build();
     this.compute();
     new ResizeObserver(() => this.fit()).observe(figure);
@@ -172,11 +176,33 @@ class Animation {
     this.fit(true);
   }
 
-  /** Simulate the selected scene with the current values of the knobs. */
+  /** Fit the axes that are not given to all scenes as first shown, with zero and a margin. */
+  fitAxes() {
+    const { stage, panels, scenes } = this.data;
+    const motions = Object.values(scenes).flatMap((scene) => this.simulate(scene).motions);
+    const fit = (axis, signal, scale = 1) => {
+      let [low, high] = [0, 0];
+      for (const value of motions.flatMap((motion) => motion[signal] ?? [])) {
+        low = Math.min(low, scale * value);
+        high = Math.max(high, scale * value);
+      }
+      axis.low ??= low - (low < 0 ? MARGIN * (high - low || 1) : 0);
+      axis.high ??= high + MARGIN * (high - low || 1);
+    };
+    for (const panel of panels) fit(panel, panel.signal, panel.scale);
+    const behind = stage.low === null && FLOORS.includes(stage.kind); // a position is that of the front bumper
+    fit(stage, "position");
+    if (behind) stage.low -= Math.min(LONG, BEHIND * (stage.high - stage.low));
+  }
+
+  /** A scene with its motions, simulated with the current values of the knobs. */
+  simulate(scene) {
+    return { ...scene, motions: addErrors(scene.motions.map((motion) => moveMotion(motion, scene, this.knobs))) };
+  }
+
+  /** Simulate the selected scene. */
   compute() {
-    const scene = this.data.scenes[this.picked.join("|")];
-    const motions = scene.motions.map((motion) => moveMotion(motion, scene, this.knobs));
-    this.scene = { ...scene, motions: addErrors(motions) };
+    const scene = this.scene = this.simulate(this.data.scenes[this.picked.join("|")]);
     this.duration = scene.time.at(-1) - scene.time[0];
     this.rate = this.duration / Math.min(Math.max(this.duration, SHORTEST), LONGEST);
     this.cursor.max = this.duration;
@@ -239,7 +265,7 @@ class Animation {
     if (!width || (width === this.width && !changed)) return;
     this.width = width;
     const { stage } = this.data;
-    const upright = !["drivetrain", "swerve"].includes(stage.kind);
+    const upright = !FLOORS.includes(stage.kind);
     const crowd = this.scene.motions.filter(({ ghost }) => !ghost).length;
     const beside = upright && width >= 600 && crowd <= 2;
     this.both.classList.toggle("stacked", !beside);
