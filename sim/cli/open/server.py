@@ -19,7 +19,7 @@ from urllib.parse import parse_qs, urlsplit
 
 from sim.cli.open import page_data
 from sim.cli.open.reconcile_job import ReconcileJob
-from sim.cli.open.saved_page import ENGINE, PAGE, render_saved_page
+from sim.cli.open.saved_page import PAGE, SHARED, render_saved_page
 from sim.cli.open.session import OpenLog, Reading, Session
 from sim.core.errors import BadRequest, Refusal
 from sim.io.format import LARGEST_FILE
@@ -282,7 +282,7 @@ class PageRequest(BaseHTTPRequestHandler):
 
     def _send_file(self, name: str) -> None:
         """Send a file of the page; only names of files in its folder are accepted."""
-        files = {path.name: path for path in [*PAGE.iterdir(), ENGINE] if path.suffix in KINDS}
+        files = {path.name: path for path in [*PAGE.iterdir(), *SHARED] if path.suffix in KINDS}
         if name in files:
             self._send(files[name].read_bytes(), KINDS[files[name].suffix])
         else:

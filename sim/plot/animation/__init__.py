@@ -8,6 +8,7 @@ so that a slider has an effect at once.
 
 animation.js   clock, controls and plots
 stages.js      drawings of the mechanisms
+ticks.js       round numbers on an axis
 animation.css  styles, for light and dark pages
 """
 
@@ -120,9 +121,10 @@ def _write_palette() -> str:
 
 @cache
 def read_script() -> str:
-    """The script of every animation: three files as one JavaScript module."""
+    """The script of every animation: its files as one JavaScript module."""
     files = (
         Path(engine.__file__).with_name("simulate.js"),
+        FOLDER / "ticks.js",
         FOLDER / "stages.js",
         FOLDER / "animation.js",
     )

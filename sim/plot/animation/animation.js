@@ -6,6 +6,7 @@
 
 import { makeModel, simulateRun } from "./simulate.js";
 import { STAGES, draw } from "./stages.js";
+import { roundTicks, short } from "./ticks.js";
 
 const SHORTEST = 3; // [s] least duration of a play: shorter scenes are shown in slow motion
 const LONGEST = 12; // [s] largest duration of a play
@@ -337,19 +338,14 @@ class Animation {
   }
 
   drawAxes(svg, panel, { toX, toY, left, right, bottom }) {
-    const span = panel.high - panel.low;
-    const step = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200].find((one) => span / one <= 5) ?? span;
-    for (let k = Math.ceil(panel.low / step - 1e-9); k * step <= panel.high + 1e-9; k++) {
-      const y = toY(k * step);
-      draw(svg, "line", { x1: left, x2: right, y1: y, y2: y, stroke: "currentColor", opacity: k ? 0.18 : 0.6 });
-      draw(svg, "text", { x: left - 6, y: y + 4, "text-anchor": "end" }, `${+(k * step).toFixed(2)}`.replace("-", "−"));
+    for (const value of roundTicks(panel.low, panel.high, 4)) {
+      const y = toY(value);
+      draw(svg, "line", { x1: left, x2: right, y1: y, y2: y, stroke: "currentColor", opacity: value ? 0.18 : 0.6 });
+      draw(svg, "text", { x: left - 6, y: y + 4, "text-anchor": "end" }, short(value));
     }
-    const count = right - left > 340 ? 8 : 4;
-    const every = [0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10].find((one) => this.duration / one <= count) ?? 20;
-    for (let k = 0; k * every <= this.duration + 1e-9; k++) {
-      const x = toX(this.scene.time[0] + k * every);
-      const unit = k ? "" : " s";
-      draw(svg, "text", { x, y: bottom + 17, "text-anchor": k ? "middle" : "start" }, `${+(k * every).toFixed(2)}${unit}`);
+    for (const [k, time] of roundTicks(0, this.duration, right - left > 340 ? 6 : 3).entries()) {
+      const x = toX(this.scene.time[0] + time);
+      draw(svg, "text", { x, y: bottom + 17, "text-anchor": k ? "middle" : "start" }, `${short(time)}${k ? "" : " s"}`);
     }
   }
 
@@ -365,28 +361,20 @@ class Animation {
     for (const term of takes) term.push(term.at(-1)); // hold the last value to the end
     const [above, below] = [takes[0].map(() => 0), takes[0].map(() => 0)];
     for (const [name, color] of TERMS) {
-      let best = null;
       for (const [edge, part] of [[above, Math.max], [below, Math.min]]) {
         const next = edge.map((value, k) => value + part(takes[color][k], 0));
         const there = edge.map((value, k) => `${toX(time[k]).toFixed(1)},${toY(value).toFixed(1)}`);
         const back = next.map((value, k) => `${toX(time[k]).toFixed(1)},${toY(value).toFixed(1)}`).reverse();
         draw(svg, "polygon", { points: [...there, ...back].join(" "), fill: this.data.colors[color], opacity: 0.55 });
-        next.forEach((value, k) => {
-          const tall = Math.abs(toY(value) - toY(edge[k]));
-          const inside = k > next.length * 0.06 && k < next.length * 0.9;
-          if (inside && tall > 16 && !(best?.tall >= tall)) best = { tall, x: toX(time[k]), y: (toY(value) + toY(edge[k])) / 2 };
-        });
         next.forEach((value, k) => { edge[k] = value; });
       }
-      if (best) draw(svg, "text", { x: best.x, y: best.y + 4 }, name);
       const item = create(now, "li");
       const swatch = draw(item, "svg", { width: 14, height: 14, "aria-hidden": true });
       draw(swatch, "rect", { width: 14, height: 14, fill: this.data.colors[color], opacity: 0.55 });
       create(item, "span", { textContent: name });
       takes[color].shown = create(item, "b");
     }
-    const item = create(now, "li", { textContent: "black line: applied" });
-    item.firstChild.textContent = "line: applied";
+    create(now, "li", { textContent: "line: applied" });
     this.takes = takes;
   }
 

@@ -1,7 +1,8 @@
 // The two views of the chart, fit and signals: the panels of each, and the curves in them. What is
 // said of a curve here decides how it is drawn, fitted to its panel, marked and read at the cursor.
 
-import { rangeOf, short } from "./drawing.js";
+import { rangeOf } from "./drawing.js";
+import { short } from "./ticks.js";
 
 const LATE = 1.5; // [median time steps] in a longer one, a sample is missing
 const LEAST_STEPS = 2.5, MOST_STEPS = 10; // [median time steps] range of the upper end of their axis

@@ -31,11 +31,6 @@ export function rangeOf(arrays) {
   return low <= high ? [low, high] : [-1, 1];
 }
 
-/** The text of a tick, without rounding errors, with a minus sign (−). */
-export function short(value) {
-  return String(Number(value.toPrecision(6))).replace("-", "−");
-}
-
 const MARGIN = 0.07, NEAR_ZERO = 1; // [ranges] room above and below; distance within which zero is shown too
 
 /** A range with a margin, and with zero if that is near. */

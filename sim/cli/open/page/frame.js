@@ -1,7 +1,7 @@
 // Parts of every view of the chart: runs, faults, grids, times, overview, marked spans, cursor.
 
-import { draw, drawLine, fillBox, short } from "./drawing.js";
-import { roundTicks } from "./timeline.js";
+import { draw, drawLine, fillBox } from "./drawing.js";
+import { roundTicks, short } from "./ticks.js";
 
 const WHOLE = 0.6; // [share of the visible part of a run] a longer fault is marked above the run alone
 const APART = 22; // [px] least distance of two lines of a grid
