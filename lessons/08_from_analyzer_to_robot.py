@@ -60,7 +60,6 @@ from sim.plot import (
 )
 from sim.plot.animation import Motion, Panel, Scene, animate_mechanism
 from sim.reconcile import reconcile
-from sim.report.controller_snippet import write_controller_code
 from sim.report.robot_code_snippet import ORDER, write_robot_code
 from sim.teaching.answers import read_answer
 from sim.teaching.profile_loop import (
@@ -100,7 +99,7 @@ print(f"The mechanism: {shooter.summary}. Its gains are per rotation.")
 # not in the model cause larger errors. So trust only two or three digits.)
 
 # %%
-print(write_robot_code(found, language="java", season=2026, name="shooter"))
+print(write_robot_code(found, target="java", season=2026, name="shooter"))
 
 # %% [markdown]
 # **Predict:**
@@ -109,12 +108,12 @@ print(write_robot_code(found, language="java", season=2026, name="shooter"))
 ask_question("lesson8.season")
 
 # %%
-for language in ("java", "python"):
+for target in ("java", "python"):
     old, new = (
-        write_robot_code(found, language=language, season=season, name="shooter").splitlines()
+        write_robot_code(found, target=target, season=season, name="shooter").splitlines()
         for season in (2026, 2027)
     )
-    print(f"{language}: these lines are different in the two seasons:")
+    print(f"{target}: these lines are different in the two seasons:")
     print("\n".join(f"  2026  {line.strip()}" for line in old if line not in new))
     print("\n".join(f"  2027  {line.strip()}" for line in new if line not in old))
 
@@ -250,7 +249,7 @@ Table(("arguments", "voltage at zero speed [V]", "height after one second [cm]")
 # ```
 
 # %%
-print(write_controller_code(found, target="phoenix6", name="shooter"))
+print(write_robot_code(found, target="phoenix6", name="shooter"))
 foc = replace(shooter, motor=find_motor("krakenX60FOC")).gains
 share = {gain: 100 * (foc[gain] / shooter.gains[gain] - 1) for gain in ("kV", "kA")}
 print("FOC is a mode of CTRE's motors. With FOC, the gains of the same wheel change:", end=" ")

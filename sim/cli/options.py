@@ -18,9 +18,8 @@ from sim.support.completion import complete_members
 Option: TypeAlias = Callable[[Callable[..., Any]], Callable[..., Any]]
 
 READING = ("units", "motor", "pick", "velocity_scale", "ignore_velocity")  # options of LogReader
-LANGUAGES = ("java", "python")  # WPILib's feedforward, in the robot program
+TARGETS = ("java", "python", "phoenix6", "revlib", "yagsl")  # of robot code
 SEASONS = ("2026", "2027")
-CONTROLLERS = ("phoenix6", "revlib", "yagsl")  # gains in a vendor's units, in Java
 FILE = click.Path(path_type=Path)
 SIM = Path(__file__).resolve().parents[1]
 MECHANISM_NAMES = complete_members(SIM / "bench" / "mechanisms")
@@ -103,7 +102,7 @@ def reading_options(command: Callable[..., Any]) -> Callable[..., Any]:
 paste_options = combine_options(
     click.option(
         "--paste",
-        type=click.Choice((*LANGUAGES, *CONTROLLERS)),
+        type=click.Choice(TARGETS),
         help="Print only code: WPILib's feedforward, or the settings of a motor controller.",
     ),
     click.option(

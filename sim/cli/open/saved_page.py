@@ -14,11 +14,11 @@ from sim.cli.open import page_data
 from sim.cli.open.reconcile_job import describe_story
 from sim.cli.open.session import OpenLog, Reading
 from sim.cli.open.view import PageView
-from sim.cli.options import CONTROLLERS, LANGUAGES, SEASONS
 from sim.core.errors import Refusal
 from sim.reconcile.model_variant import ModelVariant
 from sim.reconcile.story import Story
 from sim.report.page_file import choose_page_path, write_page_file
+from sim.report.robot_code_snippet import SEASONS, TARGETS
 
 PAGE = Path(__file__).with_name("page")
 SIM = Path(__file__).parents[2]
@@ -110,7 +110,7 @@ def _collect_model(
     address = f"logs/{one.number}/"
     what = "?".join(filter(None, ("fit", urlencode(of_model))))
     answers = {address + what: _answer(one, page_data.describe_fit, one, reading, chosen)}
-    for language, season in product((*LANGUAGES, *CONTROLLERS), SEASONS):
+    for language, season in product(TARGETS, map(str, SEASONS)):
         query = of_model | {"language": language, "season": season}
         answers[f"{address}code?{urlencode(query)}"] = _answer(
             one, page_data.write_code, one, reading, query, chosen
