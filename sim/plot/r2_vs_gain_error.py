@@ -15,6 +15,7 @@ from sim.plot.picture import (
     Picture,
     add_legend,
     make_panels,
+    write_number,
 )
 from sim.plot.table import Table
 
@@ -62,12 +63,8 @@ def plot_r2_vs_gain_error(
         add_legend(figure, [right])
     right.set_xlabel("off by [%]", color=INK)
     right.set_title("errors of the gains (known only in simulation)", fontsize=10, color=INK)
-    shown = (
-        "The errors of their gains are hidden."
-        if off is None
-        else "Marks show how far the gains are off."
-    )
-    alt = f"A badge for each log says whether its {score} is above {good:g}. {shown}"
+    errors = "hidden" if off is None else "shown as marks"
+    alt = f"A badge says whether the {score} of each log is above {good:g}. Errors are {errors}."
     return Picture(figure, alt, _table(scores, good, score, off))
 
 
@@ -79,17 +76,7 @@ def _badges(axes: Axes, scores: Mapping[str, float], *, good: float, score: str)
         axes.barh(
             place, shown, height=0.78, color=color, hatch=hatch, edgecolor=PAPER, linewidth=0.0
         )
-        axes.annotate(
-            f"{sign} {value:.2f}",
-            (0.0, place),
-            xytext=(5, 0),
-            textcoords="offset points",
-            va="center",
-            fontsize=9,
-            fontweight="bold",
-            color=INK,
-            bbox={"facecolor": PAPER, "edgecolor": "none", "pad": 1.0},
-        )
+        write_number(axes, f"{sign} {value:.2f}", (0.0, place), right=True)
     axes.axvline(good, color=REFERENCE, linestyle="--", linewidth=1.2)
     axes.set_xlim(0.0, 1.0)
     axes.set_yticks(range(len(scores)), list(scores))

@@ -10,7 +10,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from sim.core.errors import BadRequest
@@ -27,7 +26,7 @@ MOST = 160  # ordinary steps drawn in a panel
 MOST_GAPS = 200  # gaps drawn in a panel
 # [share of a panel's height] height of the mark of a gap that is longer than the panel
 EDGE = 0.955
-TITLE, ROW, FOOT = 0.3, 1.6, 0.85  # [in] above the panels, for each row of them, and below
+HEIGHT, ROW = 1.15, 1.6  # [in] height around the panels, and of each row of them
 MILLI = 1e3
 
 
@@ -70,8 +69,7 @@ def plot_timesteps(log: Log) -> Picture:
     longest = max(float(steps.length.max()) for steps in all_steps)
     top = median * min(max(NEAR_MEDIAN, 1.15 * longest / median), HIGHEST)
     ways = [way for way in DIRECTIONS if any(one.run.direction == way for one in all_steps)]
-    figure, grid = make_panels(len(kinds), len(ways), height=_height(len(kinds)), shared=True)
-    _place_panels(figure, rows=len(kinds))
+    figure, grid = make_panels(len(kinds), len(ways), height=HEIGHT + ROW * len(kinds), shared=True)
     for kind, row in zip(kinds, grid, strict=True):
         for way, axes in zip(ways, row, strict=True):
             these = [one for one in all_steps if one.run.test == f"{kind}-{way}"]
@@ -87,25 +85,6 @@ def plot_timesteps(log: Log) -> Picture:
         "the median. Diamonds mark longer steps, triangles those too long for the panel."
     )
     return Picture(figure, alt, _table(all_steps))
-
-
-def _height(rows: int) -> float:
-    """The height of the figure [in], for rows of panels with title, labels and legend."""
-    return TITLE + ROW * rows + FOOT
-
-
-def _place_panels(figure: Figure, *, rows: int) -> None:
-    """Set the positions of the panels: matplotlib's own layout takes half a second for twelve."""
-    height = _height(rows)
-    figure.set_layout_engine(None)
-    figure.subplots_adjust(
-        left=0.085,
-        right=0.99,
-        top=1.0 - TITLE / height,
-        bottom=FOOT / height,
-        hspace=0.38,
-        wspace=0.06,
-    )
 
 
 def _steps(run: Run, *, median: float) -> _Steps:

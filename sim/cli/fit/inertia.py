@@ -53,18 +53,17 @@ def read_turning(
     return Turning(straight, mass, lever)
 
 
-def find_inertia(
-    found: Fit, log: Log, turning: Turning | None, *, method: str
-) -> MomentOfInertia | None:
-    """The moment of inertia, from a turning fit and a straight log; None without ``turning``.
+def add_inertia(
+    found: Fit, notes: tuple[str, ...], log: Log, turning: Turning | None, *, method: str
+) -> tuple[Fit, tuple[str, ...], MomentOfInertia | None]:
+    """A fit with the doubts about its moment of inertia, its notes, and that moment or None.
 
     Raises:
         Refusal: the log of going straight cannot be read or fitted, or no inertia follows from the
             two.
     """
     if turning is None:
-        return None
-
+        return found, notes, None
     if any(doubt.code == "rate-as-voltage" for doubt in log.doubts):
         raise BadRequest(
             "the log of turning has a rate where its voltage should be",
@@ -75,22 +74,9 @@ def find_inertia(
     find = partial(find_gains, type="simple", method=method)
     straight = fit_parts(parts, find).found
     wheels = any(doubt.code == "turning-drivetrain" for doubt in log.doubts)
-    return compute_moment_of_inertia(
+    turned = compute_moment_of_inertia(
         found, straight, mass=turning.mass, lever=turning.lever, by_wheels=wheels
     )
-
-
-def add_inertia(
-    found: Fit, notes: tuple[str, ...], log: Log, turning: Turning | None, *, method: str
-) -> tuple[Fit, tuple[str, ...], MomentOfInertia | None]:
-    """A fit with the doubts about its moment of inertia, its notes, and that moment or None.
-
-    Raises:
-        Refusal: as ``find_inertia``.
-    """
-    turned = find_inertia(found, log, turning, method=method)
-    if turned is None:
-        return found, notes, None
     doubted = replace(found, doubts=(*turned.doubts, *found.doubts))
     return doubted, (describe_inertia(turned), *notes), turned
 

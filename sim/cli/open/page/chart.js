@@ -98,15 +98,9 @@ export class Chart {
     this.requestMoving();
   }
 
-  /** Mark faults: {run, start, end, name}. */
-  setFaults(faults) {
-    this.faults = faults;
-    this.redraw();
-  }
-
-  /** Draw runs of another log over those of the same test: {color, run, time, velocity}. */
-  setOthers(others) {
-    this.others = others;
+  /** Mark faults, {run, start, end, name}, or lay runs of other logs over: {color, run, time, velocity}. */
+  mark(what) {
+    Object.assign(this, what);
     this.redraw();
   }
 

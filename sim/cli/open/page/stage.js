@@ -104,7 +104,7 @@ export function showOthers() {
       laid.push({ color: OTHERS[k % OTHERS.length], run, time: theirs.time, velocity: theirs.velocity.map((value) => value * factor) });
     }
   }
-  chart.setOthers(laid);
+  chart.mark({ others: laid });
   document.querySelector(".legend .other").hidden = !others.length;
 }
 

@@ -15,7 +15,7 @@ export function showFaults() {
     for (const one of [place, at("fault-lines")]) one.replaceChildren(make("li", "busy", "Looking for faults…"));
     return;
   }
-  chart.setFaults(listMarks(log));
+  chart.mark({ faults: listMarks(log) });
   const growing = log.revision > 0; // then a missing test is not a fault
   const faults = log.faults.faults.filter(({ fault }) => !(growing && fault === "missing-test"));
   const rows = faults.slice(0, MOST_SHOWN).map((one) => faultCard(log, one));
