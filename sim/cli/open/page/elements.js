@@ -17,7 +17,7 @@ export function button(kind, words, onclick, more = {}) {
 
 /** A sentence as nodes: code is marked, and a number stays with its unit. */
 export function prose(words) {
-  const here = words.replaceAll("± ", "±\u00a0").replaceAll(" %", "\u00a0%").replace(/(\d) (V|rad)\b/g, "$1\u00a0$2");
+  const here = words.replaceAll("± ", "±\u00a0").replaceAll(" %", "\u00a0%").replace(/(\d) (V|rad|m?s)\b/g, "$1\u00a0$2");
   return here.split("`").map((part, k) => (k % 2 ? make("code", "", part) : part));
 }
 
@@ -40,6 +40,7 @@ export function drawing(box, path, words = "") {
 }
 
 export function figure(value) {
+  if (value === 0) return "0";
   const size = Math.abs(value);
   const digits = size >= 100 ? 0 : size >= 10 ? 2 : size >= 1 ? 3 : size >= 0.001 ? 4 : 5;
   return value.toFixed(digits).replace("-", "−");

@@ -49,7 +49,7 @@ function modelChoice({ effects }, { effects: chosen, plain: without, fit }, choo
     const onchange = ({ target }) => choose(effects.filter((one) => (one === name ? target.checked : chosen.includes(one))));
     return make("label", "", make("input", { type: "checkbox", checked: chosen.includes(name), onchange }), plain(name));
   });
-  const say = ({ value, ...gain }) => `${rounded(value, gain.error)} ± ${errorText(gain)}`;
+  const say = ({ value, ...gain }) => `${rounded(value, gain.error)} ±\u00a0${errorText(gain)}`;
   const row = (tag, words) => make("tr", "", words.map((one) => make(tag, "", one)));
   const table = make("table", "gains-table",
     row("th", ["gain", "without", chosen.length ? `with ${chosen.map(plain).join(", ")}` : "with the ticked effects", "unit"]),

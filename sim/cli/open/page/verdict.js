@@ -49,7 +49,7 @@ function faultCard(log, one) {
   return make("li", "fault",
     make("h3", "", one.fault.replaceAll("-", " "), make("span", "badge", surenessOf(one))),
     one.test && make("p", "where", where),
-    make("p", "", one.evidence), make("p", "advice", prose(one.advice)),
+    make("p", "", prose(one.evidence)), make("p", "advice", prose(one.advice)),
     one.test && one.run !== null && [
       button("button small", "Show", () => showFault(one)), " ",
       button("button small leave", "Leave out", () => leaveOut(log, [...log.leftOut, part]), { disabled }),
