@@ -17,6 +17,7 @@ from matplotlib.figure import Figure
 from sim.core.errors import BadRequest
 from sim.plot.table import Table
 from sim.support.atomic_file import atomic_path
+from sim.support.os_errors import refuse_os_errors
 
 Dash: TypeAlias = str | tuple[float, tuple[float, ...]]  # a line style, as matplotlib takes it
 
@@ -100,21 +101,16 @@ class Picture:
                 advice=f"End its name in one of: {', '.join(SUFFIXES)}.",
             )
         extra: dict[str, object] = {} if kind == ".png" else {_DATE[kind]: None}
-        try:
-            with (
-                atomic_path(target) as part,
-                rc_context({"svg.hashsalt": "picture"}),
-                part.open("wb") as stream,
-            ):
-                self.figure.savefig(
-                    stream, format=kind[1:], dpi=200, metadata={"Title": self.alt, **extra}
-                )
-        except OSError as error:
-            raise BadRequest(
-                f"cannot be written ({error.strerror or error})",
-                where=str(target),
-                advice="Choose a folder that exists and that you may write to.",
-            ) from None
+        advice = "Choose a folder that exists and that you may write to."
+        with (
+            refuse_os_errors("cannot be written", target, advice=advice),
+            atomic_path(target) as part,
+            rc_context({"svg.hashsalt": "picture"}),
+            part.open("wb") as stream,
+        ):
+            self.figure.savefig(
+                stream, format=kind[1:], dpi=200, metadata={"Title": self.alt, **extra}
+            )
 
     def __str__(self) -> str:
         """The description and the table, for a terminal."""

@@ -4,7 +4,7 @@
 // copy of this script starts every such figure that was not started yet, so that it works in an
 // output of JupyterLab and in a page without a server.
 
-import { makeModel, simulateRun } from "./simulate.js";
+import { makeModel, rms, simulateRun } from "./simulate.js";
 import { STAGES, draw } from "./stages.js";
 import { roundTicks, short } from "./ticks.js";
 
@@ -69,10 +69,6 @@ function addErrors(motions) {
     error: asked && motion !== asked ? motion.position.map((x, k) => x - asked.position[k]) : null,
   }));
 }
-
-/** Root of the mean square of the difference of two curves. */
-const typicalError = (one, other) =>
-  Math.sqrt(one.reduce((sum, value, k) => sum + (value - other[k]) ** 2, 0) / one.length);
 
 const rounded = (value, digits = 2) => value.toFixed(digits).replace(/^-(?=0\.?0*$)/, "").replace("-", "−");
 
@@ -244,7 +240,7 @@ class Animation {
   rank() {
     const { motion, unit, seconds } = this.data.score;
     const { motions, target } = this.scene;
-    const error = typicalError(motions.find((one) => one.name === motion).velocity, target);
+    const error = rms(motions.find((one) => one.name === motion).velocity, target);
     const spent = this.began === undefined ? 0 : (performance.now() - this.began) / 1000;
     const counts = this.tries > 0 && !(seconds && spent > seconds);
     if (counts && !(this.best?.error <= error)) this.best = { error, knobs: { ...this.knobs } };

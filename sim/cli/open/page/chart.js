@@ -46,21 +46,19 @@ export class Chart {
     this.timeline = new Timeline(runs);
     this.wholeRange = widen(rangeOf(runs.map((run) => run.velocity)));
     this.spans = new Map();
-    this.derived = null;
-    this.prepareSignals();
+    this.signals = null;
     this.showAll();
   }
 
   /** Show the signals of the log alone, or the measured signals with the simulated ones. */
   showSignals(on) {
     this.showsSignals = on;
-    this.prepareSignals();
     this.resize();
   }
 
   /** Time steps and slopes, computed when they are needed. */
-  prepareSignals() {
-    if (this.showsSignals && this.timeline) this.derived ??= deriveSignals(this.runs);
+  get derived() {
+    return (this.signals ??= deriveSignals(this.runs));
   }
 
   /** The panels and curves of the view. */
