@@ -53,16 +53,16 @@ from sim.bench.duty_cycle import Battery, simulate_duty_cycle
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import simulate
 from sim.fit import fit
-from sim.plot import Table, plot_time_series
+from sim.plot import plot_time_series, tabulate_fits, tabulate_gains
 from sim.plot.animation import Choice, Motion, Panel, Scene, animate_mechanism
+from sim.teaching.logs import change_log
 
 drivetrain = MECHANISMS["drivetrain"]
 truth = drivetrain.gains
 print(drivetrain.summary)
-Table(
-    ("gain", "true value", "unit"),
-    (("kS", truth["kS"], "V"), ("kV", truth["kV"], "V·s/m"), ("kA", truth["kA"], "V·s²/m")),
-    caption="These are the true gains of our drivetrain. On a real robot nobody knows them.",
+tabulate_gains(
+    {"our drivetrain": truth},
+    caption="The true gains. On a real robot nobody knows them.",
 )
 
 # %% [markdown]
@@ -112,19 +112,10 @@ plot_time_series(right, dynamic_seconds=1.0)
 
 
 # %%
-def row(name: str, log: sim.Log) -> tuple[str | float, ...]:
-    """One row of a table: what SysId's recipe finds in a log, and its two R²."""
-    found = fit(log, method="sysid")
-    gains = (found.gains["kS"], found.gains["kV"], found.gains["kA"])
-    return (name, *gains, found.acceleration_r2, found.simulated_velocity_r2)
-
-
-HEADER = ("log", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "acceleration R²", "simulated velocity R²")
-
 no_positions = replace(
     right, runs=tuple(replace(run, position=np.zeros(len(run))) for run in right.runs)
 )
-Table(HEADER, (row("correct", right), row("without positions", no_positions)))
+tabulate_fits({"correct": right, "without positions": no_positions}, truth)
 
 # %% [markdown]
 # The gains do not change. The two **R²** ("R squared") are SysId's scores: 1 is perfect. Lesson 7
@@ -159,19 +150,13 @@ Table(HEADER, (row("correct", right), row("without positions", no_positions)))
 # `Config` holds the ramp rate (volts per second), the step voltage (volts) and the timeout
 # (seconds). In Java, `null` means "use the library's default". In Python, leave the argument out:
 # there `None` is an error.
-
-# %%
-defaults = sim.Routine()
-Table(
-    ("setting", "default", "this lesson's log", "unit"),
-    (
-        ("ramp rate", defaults.ramp, routine.ramp, "V/s"),
-        ("step", defaults.step, routine.step, "V"),
-        ("timeout", defaults.timeout, routine.timeout, "s"),
-    ),
-)
-
-# %% [markdown]
+#
+# | setting | default | this lesson's log |
+# |---|---|---|
+# | ramp rate | 1 V/s | 0.5 V/s |
+# | step | 7 V | 3.5 V |
+# | timeout | 10 s | 10 s |
+#
 # **Myth check.** "A step between 3 and 7 V is fine." *It depends on your robot.* A maintainer of
 # WPILib calls the default of 7 V "almost always too much". The next cell computes the voltage above
 # which the wheels slip, V_slip = `kS + kA·μ·g` (lesson 3), for two drivetrains with the same
@@ -580,22 +565,6 @@ display(ask_question("lesson4.gain"), ask_question("lesson4.factor"), ask_questi
 # %%
 CIRCUMFERENCE = math.pi * 0.1016  # [m] of a 4 inch wheel
 TIRED = Battery(rest=12.2, resistance=0.035)
-
-
-def rescaled(log: sim.Log, factor: float) -> sim.Log:
-    """The same runs, but the encoder's numbers multiplied: a wrong unit, or a wrong sign."""
-    runs = (
-        replace(r, position=factor * r.position, velocity=factor * r.velocity) for r in log.runs
-    )
-    return replace(log, runs=tuple(runs))
-
-
-def as_asked(log: sim.Log) -> sim.Log:
-    """The same runs, but the log holds the commanded voltage."""
-    runs = (replace(run, voltage=12.0 * run.voltage / run.bus_voltage) for run in log.runs)
-    return replace(log, runs=tuple(runs))
-
-
 rng = np.random.default_rng(40)
 sagging = simulate_duty_cycle(drivetrain, routine, battery=TIRED, rng=rng)
 # Half the motors need twice the volts for the same force, and friction is a force.
@@ -605,11 +574,11 @@ halved = simulate(half, routine, rng=rng)
 # program -> (what its log says, what really happened)
 programs = {
     "correct": (right, right),
-    "share of the battery": (as_asked(sagging), sagging),
+    "share of the battery": (change_log(sagging, commanded=True), sagging),
     "…but logs applied volts": (sagging, sagging),
-    "turns called meters": (rescaled(right, 1 / CIRCUMFERENCE), right),
-    "radians taken for turns": (rescaled(right, 2 * math.pi), right),
-    "encoder inverted": (rescaled(right, -1.0), right),
+    "turns called meters": (change_log(right, factor=1 / CIRCUMFERENCE), right),
+    "radians taken for turns": (change_log(right, factor=2 * math.pi), right),
+    "encoder inverted": (change_log(right, factor=-1.0), right),
     "one motor of each pair": (halved, halved),
 }
 
@@ -645,23 +614,10 @@ animate_mechanism(
 )
 
 # %% [markdown]
-# The next table shows the gains and both R² for all seven programs:
+# The next table shows the gains, each divided by the true gain, and both R² for all seven programs:
 
 # %%
-Table(HEADER, tuple(row(name, log) for name, (log, _) in programs.items()))
-
-# %%
-asked, arrived = (fit(programs[name][0], method="sysid") for name in list(programs)[1:3])
-off = {gain: 100 * (asked.gains[gain] / truth[gain] - 1) for gain in truth}
-turns = fit(programs["turns called meters"][0], method="sysid").gains["kV"] / truth["kV"]
-worst = min(fit(log, method="sysid").simulated_velocity_r2 for log, _ in programs.values())
-print("   Errors with the commanded volts:", end=" ")
-print(f"kS {off['kS']:+.0f} %, kV {off['kV']:+.0f} %, kA {off['kA']:+.0f} %.")
-print(
-    f"   kV is {1 / turns:.2f} times too small, because the wheel's circumference is "
-    f"1/{1 / CIRCUMFERENCE:.2f} m."
-)
-print(f"   The lowest simulated velocity R² of all seven programs is {worst:.3f}.")
+tabulate_fits({name: log for name, (log, _) in programs.items()}, truth)
 
 # %% [markdown]
 # ### Explain what you saw

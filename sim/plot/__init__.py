@@ -12,6 +12,7 @@ Nothing here needs a screen, and no function keeps state between calls.
 from sim.plot.acceleration import plot_acceleration_velocity
 from sim.plot.charts import plot_choices, plot_curves, plot_misses
 from sim.plot.gain_errors import plot_gain_errors
+from sim.plot.gain_tables import tabulate_fits, tabulate_gains
 from sim.plot.gap_bars import plot_gap_bars
 from sim.plot.gauge import plot_gauge
 from sim.plot.hold_voltage import plot_hold_angles, plot_hold_window
@@ -49,4 +50,6 @@ __all__ = [
     "plot_voltage_residual",
     "plot_voltage_velocity",
     "show_interactive",
+    "tabulate_fits",
+    "tabulate_gains",
 ]
