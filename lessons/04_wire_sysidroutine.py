@@ -242,6 +242,19 @@ for mass in (60.0, 30.0):
 # 3. **Every motor.** If one motor gets no voltage, the other motors have to turn it, too. Then the
 #    gains are wrong.
 #
+# <details><summary>If your code uses voltage compensation</summary>
+#
+# A SPARK with `voltageCompensation(12)` in its configuration takes a duty cycle as a share of 12 V,
+# not of the battery: `set(0.3)` is then 3.6 V, as long as the battery has more. (The setting is for
+# all modes: `SparkBaseConfig` of
+# [robotpy-rev 2026.0.4](https://pypi.org/project/robotpy-rev/2026.0.4/).) A TalonFX has no such
+# setting; its voltage requests do it. ([CTRE docs: Voltage, at one
+# commit](https://github.com/CrossTheRoadElec/Phoenix6-Documentation/blob/079a28341bc1ed380f3a4bc6e9fcec300517eabb/source/docs/api-reference/device-specific/talonfx/talonfx-control-intro.rst))
+#
+# **Do it:** search your code for `voltageCompensation` and for `set(`. Did somebody write
+# `set(volts / 12)`? Write `setVoltage(volts)`: it means volts with and without the setting.
+# </details>
+#
 # <details><summary>For mentors: setVoltage or VoltageOut?</summary>
 #
 # > **Lesson says:** "Use `setVoltage()` directly — not `setControl(new VoltageOut(...))` — so the

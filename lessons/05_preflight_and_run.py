@@ -676,6 +676,11 @@ tabulate_gains({"the log": gains.gains})
 # ([CTRE docs: Plumbing & Running SysId](https://github.com/CrossTheRoadElec/Phoenix6-Documentation/blob/079a28341bc1ed380f3a4bc6e9fcec300517eabb/source/docs/api-reference/wpilib-integration/sysid-integration/plumbing-and-running-sysid.rst),
 # [Extracting Signal Logs](https://v6.docs.ctr-electronics.com/en/stable/docs/tuner/tools/log-extractor.html))
 #
+# If you log as in lesson 4, a signal that comes more slowly than your loop is written down twice,
+# or late. Ask for it once per loop: `m_motor.getVelocity().setUpdateFrequency(50)`, and the same
+# for `getPosition()` and `getMotorVoltage()`. **Do it,** then let `sysid inspect` look for *stale
+# samples*.
+#
 # Phoenix 6 (release 26.3) sets two current limits by itself. The stator limit is 120 A: stator
 # current is the current in the motor. The supply limit is 70 A: supply current is what the
 # controller draws from the battery. While a limit acts, a log of the commanded volts is wrong.
@@ -705,7 +710,10 @@ tabulate_gains({"the log": gains.gains})
 # - The units are rotations and rotations per **minute** (unless you set conversion factors in the
 #   SPARK).
 # - A NEO's own encoder filters the velocity so much that the logged velocity is about 0.1 s late
-#   (lesson 6).
+#   (lesson 6). Shorten the filter *before* the tests, in `config.encoder`: `uvwMeasurementPeriod`
+# (32 ms; from 8 ms) and `uvwAverageDepth` (8 samples; 1, 2, 4 or 8). ([`EncoderConfig` of
+# robotpy-rev 2026.0.4](https://pypi.org/project/robotpy-rev/2026.0.4/)) **Do it** with 8 ms and a
+# depth   of 2, and run one step with each setting. Which kA does `sysid fit` find?
 # </details>
 #
 # <details><summary>If your team uses AdvantageKit</summary>

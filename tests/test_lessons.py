@@ -20,8 +20,10 @@ from jupyter_client.kernelspec import KernelSpecManager
 import grader
 import sim
 from grader.edition import SLIDES, VIEW, convert_notebook, execute_notebook
+from grader.robotcode.library import revlib
 from sim.bench.simulate import simulate
 from sim.fit import fit
+from sim.physics.motors import MOTORS
 from sim.plot import Picture, plot_r2_vs_gain_error
 from sim.teaching.answers import read_answer
 from sim.teaching.r2_cases import GOOD, make_cases
@@ -187,9 +189,9 @@ def test_every_question_is_on_a_slide(text, run):
 
 @each_lesson
 def test_every_picture_has_words_and_draws_only_on_white(text, run):
-    pictures = [picture for html in _htmls(run(text)) for picture in Page(html).pictures]
-    assert pictures
-    for picture in pictures:
+    pages = [Page(html) for html in _htmls(run(text))]
+    assert any(page.pictures or page.animations for page in pages)
+    for picture in (picture for page in pages for picture in page.pictures):
         assert len(picture["alt"]) > 40
         assert picture["src"].startswith("data:image/svg+xml;base64,")
         assert "background:white" in picture["style"]
@@ -421,6 +423,38 @@ def test_an_elevator_in_wpilibs_simulation_falls_at_its_own_gravity_whatever_kg_
 
     assert lift.getVelocity() / 0.001 == pytest.approx(-9.8, rel=0.02)
     assert gains["kG"] / gains["kA"] < 0.5 * 9.8
+
+
+def test_gains_in_amperes_are_those_in_volts_over_the_resistance_and_no_kv():
+    wheel = sim.MECHANISMS["shooter"]
+    gains, resistance = wheel.gains, 12.0 / wheel.motor.stall_current
+    routine = sim.Routine(step=2.0, timeout=3.0, kinds=("dynamic",))
+    log = simulate(wheel, routine, rng=np.random.default_rng(1), electrical=True)
+
+    for run in log.runs:
+        volts, speed = np.abs(run.voltage), np.abs(run.velocity)
+        speeds_up = (volts - gains["kS"] - gains["kV"] * speed) / gains["kA"]
+        amperes = (gains["kS"] + gains["kA"] * speeds_up) / resistance
+        noise = gains["kV"] * wheel.sensor.velocity_noise / resistance
+        assert np.std(np.abs(run.current) - amperes) == pytest.approx(noise, rel=0.2)
+        steady = np.abs(run.current[-20:]).mean()  # at full speed, and no kV·v in it
+        assert steady == pytest.approx(gains["kS"] / resistance, rel=0.01)
+        assert round(steady, 1) == 3.7
+
+
+def test_the_default_of_motion_magic_expo_is_a_kraken_without_gears():
+    assert MOTORS["krakenX60"].back_emf * 2 * math.pi == pytest.approx(0.12, rel=0.01)
+
+
+def test_a_spark_with_voltage_compensation_takes_a_duty_cycle_as_a_share_of_12_volts():
+    motor = revlib.CANSparkBase(1, revlib.MotorType.kBrushless)
+    asked = {}
+    for nominal in (0.0, 12.0):
+        motor.enableVoltageCompensation(nominal)
+        motor.set(0.3)
+        asked[nominal] = (motor._command.kind, motor._command.value)
+
+    assert asked == {0.0: ("duty", 0.3), 12.0: ("voltage", pytest.approx(3.6))}
 
 
 def test_lesson_6_does_not_name_the_damage_of_a_log_before_one_decided():

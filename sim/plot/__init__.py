@@ -23,7 +23,6 @@ from sim.plot.r2_vs_gain_error import plot_r2_vs_gain_error
 from sim.plot.relative_change import plot_relative_change
 from sim.plot.table import Table
 from sim.plot.timesteps import plot_timesteps
-from sim.plot.tracking_error import measure_tracking_error, plot_tracking_error
 from sim.plot.voltage_residual import make_residual_views, plot_voltage_residual
 from sim.plot.voltage_velocity import Line, plot_voltage_velocity
 
@@ -32,7 +31,6 @@ __all__ = [
     "Picture",
     "Table",
     "make_residual_views",
-    "measure_tracking_error",
     "plot_acceleration_velocity",
     "plot_choices",
     "plot_curves",
@@ -46,7 +44,6 @@ __all__ = [
     "plot_relative_change",
     "plot_time_series",
     "plot_timesteps",
-    "plot_tracking_error",
     "plot_voltage_residual",
     "plot_voltage_velocity",
     "show_interactive",

@@ -38,7 +38,12 @@ def tabulate_gains(
 
 
 def tabulate_fits(logs: Mapping[str, Log], truth: Mapping[str, float]) -> Table:
-    """What SysId's recipe finds in each log: the gains over the true ones, and its two R²."""
+    """What SysId's recipe finds in each log: the gains over the true ones, and its two R².
+
+    Args:
+        logs: name -> log.
+        truth: the true gains.
+    """
     rows: list[tuple[Cell, ...]] = []
     for name, log in logs.items():
         found = fit(log, method="sysid")
