@@ -479,6 +479,19 @@ print(f"2π is {2 * math.pi:.4f}.")
 # %% [markdown]
 # ### Four commands, bound and guarded
 #
+# <details><summary>If your team uses YAMS: the routine is there</summary>
+#
+# A motor controller of YAMS makes the routine: `sysId(maxVoltage, stepVoltage, testDuration)`. It
+# sets the voltage, and logs voltage, position and velocity, in meters if you gave it the
+# mechanism's circumference. But the names mislead: it calls `Config(stepVoltage, maxVoltage,
+# testDuration)`. So `maxVoltage` is the *step*, and `stepVoltage` is the *ramp rate* in V/s.
+# ([SmartMotorController.java, at one
+# commit](https://github.com/Yet-Another-Software-Suite/YAMS/blob/01c4651f449e777dc133ae1cb079390ad352dfc0/yams/java/yams/motorcontrollers/SmartMotorController.java))
+#
+# **Do it:** find this call in your code. Which step does it ask for? You still bind the four
+# commands.
+# </details>
+#
 # The routine makes four commands: `quasistatic(kForward)`, `quasistatic(kReverse)`,
 # `dynamic(kForward)`, `dynamic(kReverse)`. Make them public, and bind **each to its own button**
 # (to *bind* means: this button starts this command). For each binding you need:
