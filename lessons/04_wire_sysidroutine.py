@@ -54,7 +54,7 @@ from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import simulate
 from sim.fit import fit
 from sim.plot import plot_time_series, tabulate_fits, tabulate_gains
-from sim.plot.animation import Choice, Motion, Panel, Scene, animate_mechanism
+from sim.plot.animation.of_logs import animate_logs
 from sim.teaching.logs import change_log
 
 drivetrain = MECHANISMS["drivetrain"]
@@ -614,25 +614,11 @@ programs = {
 
 # %%
 BUTTONS = {f"{button}: {test}": test for button, test in zip("ABXY", routine.tests, strict=True)}
-
-
-def hold_button(program: str, test: str) -> Scene:
-    """What one test of a program does, and what the log callback writes down."""
-    logged, happened = (log.list_runs_of_test(test)[0] for log in programs[program])
-    robot = Motion("robot", happened.velocity, happened.position, happened.voltage)
-    log = Motion("log", logged.velocity, logged.position, logged.voltage, ghost=True)
-    return Scene(happened.time - happened.time[0], (robot, log))
-
-
-animate_mechanism(
+animate_logs(
     "drivetrain",
-    {
-        (program, button): hold_button(program, test)
-        for program in programs
-        for button, test in BUTTONS.items()
-    },
-    choices=(Choice("program", tuple(programs)), Choice("button", tuple(BUTTONS))),
-    panels=(Panel("voltage", "voltage [V]"), Panel("velocity", "velocity [m/s]")),
+    programs,
+    tests=BUTTONS,
+    label="program",
     span=(-11.0, 21.0),
     alt="A robot drives while a button is held. A dashed outline shows where its log says that it "
     "is. With the correct program both are at the same place. With an inverted encoder the log "

@@ -13,7 +13,7 @@
 # %% [markdown]
 # # Lesson 6: Read the data
 #
-# *About 40 minutes. You need lessons 1 and 3. Today you decide whether you can trust a log.*
+# *About 45 minutes. You need lessons 1 and 3. Today you decide whether you can trust a log.*
 #
 # **At the end you can**
 #
@@ -64,6 +64,7 @@ from sim.plot import (
     show_interactive,
     tabulate_fits,
 )
+from sim.plot.animation.of_logs import animate_logs
 from sim.teaching.logs import select_rows
 from sim.teaching.r2_cases import GOOD, make_cases
 
@@ -264,6 +265,22 @@ show_interactive(
     look,
     log=widgets.Dropdown(options=list(gallery), description="log"),
     plot=widgets.Dropdown(options=list(PLOTS), description="plot"),
+)
+
+# %% [markdown]
+# A log is only what the sensor says. Below, the robot really drives as in the clean log, and the
+# outline is where the log says that it is. Which fault moves the outline away for good?
+
+# %%
+LIARS = ("encoder slip", "stuck sensor", "unit error")
+animate_logs(
+    "drivetrain",
+    {name: (gallery[name], sound) for name in LIARS},
+    tests={"ramp": RAMP, "step": STEP},
+    label="fault",
+    alt="A robot drives, and an outline shows where its log says that it is. While the encoder "
+    "slips, the outline falls behind, and stays behind. A stuck sensor stops the outline for a "
+    "moment. With a wrong unit, its speed is wrong all the time.",
 )
 
 # %% [markdown]

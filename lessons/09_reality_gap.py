@@ -73,7 +73,8 @@ from sim.plot import (
     plot_voltage_residual,
     show_interactive,
 )
-from sim.plot.animation import Choice, Gain, Knob, Motion, Panel, Scene, Score, animate_mechanism
+from sim.plot.animation import Choice, Motion, Panel, Scene, animate_mechanism
+from sim.plot.animation.of_logs import animate_model
 from sim.plot.effect_search import EffectSearch
 from sim.plot.story import make_findings_table, plot_remaining_gap
 from sim.reconcile import reconcile
@@ -131,34 +132,13 @@ base = search.model  # kS, kV and kA, and no effect
 ask_question("lesson9.ka")
 
 # %%
-FIRST = {"ramp": ("quasistatic-forward", 3.0), "step": ("dynamic-forward", 1.0)}  # and how long [s]
-
-
-def beside_its_model(test: str, seconds: float) -> Scene:
-    """The first seconds of a test, and a model that gets the same voltage."""
-    run = log.list_runs_of_test(test)[0]
-    time = run.time - run.time[0]
-    shown = time <= seconds
-    gains = {name: Gain(name) for name in truth}
-    model = Motion("model", gains=gains, voltage=run.voltage[shown], ghost=True)
-    real = Motion("robot", velocity=run.velocity[shown])
-    return Scene(time[shown], (real, model), target=run.velocity[shown])
-
-
 velocity_alone = EffectSearch(forget_position(log), validation=forget_position(validation)).model
 for name, gains in (("velocity alone", velocity_alone.gains), ("our fit", base.gains)):
     print(f"{name}: kA = {gains['kA']:.3f} V·s²/m. The true kA is {truth['kA']:.3f} V·s²/m.")
-knobs = [
-    Knob(name, f"{name} [{unit}]", low=0.0, high=high, step=0.005, value=round(base.gains[name], 3))
-    for name, unit, high in (("kS", "V", 0.6), ("kV", "V·s/m", 4.0), ("kA", "V·s²/m", 0.8))
-]
-animate_mechanism(
-    "drivetrain",
-    {(name,): beside_its_model(*which) for name, which in FIRST.items()},
-    choices=(Choice("test", tuple(FIRST), value="step"),),
-    panels=(Panel("velocity", "velocity [m/s]", low=0.0, high=1.4),),
-    knobs=knobs,
-    score=Score("model"),
+animate_model(
+    log,
+    base.gains,
+    tests={"step": ("dynamic-forward", 1.0), "ramp": ("quasistatic-forward", 3.0)},
     alt="The solid robot is the log. The dashed robot is the model with the same voltage. After "
     "the step the model is ahead at first, and behind later. Its velocity curve has a different "
     "shape.",

@@ -43,9 +43,7 @@ def _log(name):
 DRIVE, SHOOTER = _log("drivetrain"), _log("shooter")
 PICTURES = {
     "time series": lambda: plot_time_series(DRIVE),
-    "time series beside another": lambda: plot_time_series(
-        DRIVE, beside=DRIVE, dynamic_seconds=1.0
-    ),
+    "the first second of steps": lambda: plot_time_series(DRIVE, dynamic_seconds=1.0),
     "time series in rotations": lambda: plot_time_series(SHOOTER),
     "one test only": lambda: plot_time_series(replace(DRIVE, runs=DRIVE.runs[:1])),
     "voltage against velocity": lambda: plot_voltage_velocity(DRIVE),

@@ -22,7 +22,6 @@ from sim.plot.picture import (
     INK,
     LINES,
     MARKERS,
-    REFERENCE,
     Dash,
     Picture,
     add_legend,
@@ -33,7 +32,6 @@ from sim.plot.table import Cell, Table
 KINDS = ("quasistatic", "dynamic")
 APART = 0.15  # [share of a panel] distance of markers
 MOST = 1000  # samples of a curve drawn at most: a panel has fewer pixels
-HIDDEN = "_"  # matplotlib leaves labels that begin with this out of the legend
 
 
 @dataclass(frozen=True)
@@ -47,14 +45,11 @@ class _Pen:
 
 
 _PENS = tuple(_Pen(COLORS[i], LINES[i], MARKERS[i], 1.4) for i in range(len(DIRECTIONS)))
-_THIN = _Pen(REFERENCE, ":", "", 1.2)
 
 
 def plot_time_series(
     log: Log,
     *,
-    beside: Log | None = None,
-    names: tuple[str, str] = ("log", "what happened"),
     dynamic_seconds: float | None = None,
     damages: Iterable[Damaged] = (),
 ) -> Picture:
@@ -64,9 +59,6 @@ def plot_time_series(
 
     Args:
         log: a log with at least one of the four tests.
-        beside: a second log of the same tests, drawn as a thin black line: the true motion, or a
-            simulation with the same voltage.
-        names: names of the log and of ``beside``.
         dynamic_seconds: length of the dynamic tests to show [s]; None shows all.
         damages: damaged parts, drawn hatched with a letter for each fault; those of runs that are
             not drawn are only described.
@@ -78,13 +70,10 @@ def plot_time_series(
     runs = _first_runs(log)
     damage = assign_fault_marks(log, damages)
     figure, (upper, lower) = make_panels(2, 2, height=4.4, shared=True)
-    labels = tuple(f"{names[0]}, {way}" for way in DIRECTIONS)
+    labels = tuple(f"log, {way}" for way in DIRECTIONS)
     drawn: dict[int, list[tuple[Axes, Array]]] = {}
     for kind, *pair in zip(KINDS, upper, lower, strict=True):
         drawn |= _draw(runs, kind, pair, per=per, pens=_PENS, labels=labels)
-        if beside is not None:
-            others = _first_runs(beside)
-            _draw(others, kind, pair, per=per, pens=(_THIN, _THIN), labels=(names[1], HIDDEN))
         pair[0].set_title(f"{kind} tests", fontsize=10, color=INK)
         pair[1].set_xlabel("time since the test began [s]", color=INK)
     upper[0].set_ylabel("voltage [V]", color=INK)
@@ -94,7 +83,7 @@ def plot_time_series(
     draw_fault_marks(log, damage, drawn=drawn)
     add_legend(figure, lower, extra=make_legend_entries(damage))
     table = _tests_table(runs, per)
-    alt = _time_words(table, per, names if beside is not None else names[:1])
+    alt = _time_words(table, per)
     return Picture(figure, alt + describe_faults(log, damage, drawn=drawn), table)
 
 
@@ -167,7 +156,7 @@ def _two_decimals(value: Cell) -> str:
     return f"{round(float(value), 2) + 0.0:.2f}".replace("-", "−")  # never −0.00
 
 
-def _time_words(table: Table, per: Unit, names: Sequence[str]) -> str:
+def _time_words(table: Table, per: Unit) -> str:
     text = "Four panels show the log over time. The upper two show voltage, the lower two "
     text += "velocity. The quasistatic tests are on the left, the dynamic tests on the right. A "
     text += (
@@ -187,6 +176,4 @@ def _time_words(table: Table, per: Unit, names: Sequence[str]) -> str:
             lacking = "".join(way for way in DIRECTIONS if not there or way not in there[0])
             which = f"{kind}-{lacking}" if there else f"{kind} test"
             text += f" There is no {which}."
-    if len(names) > 1:
-        text += f" A thin dotted black line shows {names[1]} beside the {names[0]}."
     return text
