@@ -43,9 +43,7 @@ def _log(name):
 DRIVE, SHOOTER = _log("drivetrain"), _log("shooter")
 PICTURES = {
     "time series": lambda: plot_time_series(DRIVE),
-    "time series beside another": lambda: plot_time_series(
-        DRIVE, beside=DRIVE, dynamic_seconds=1.0
-    ),
+    "the first second of steps": lambda: plot_time_series(DRIVE, dynamic_seconds=1.0),
     "time series in rotations": lambda: plot_time_series(SHOOTER),
     "one test only": lambda: plot_time_series(replace(DRIVE, runs=DRIVE.runs[:1])),
     "voltage against velocity": lambda: plot_voltage_velocity(DRIVE),
@@ -206,3 +204,13 @@ def test_a_name_that_the_font_lacks_stays_text_without_a_warning():
     assert ">王小明</text>" in Picture(figure, "a name").svg
     axes.set_title("ann")
     assert "<text" not in Picture(figure, "a name").svg
+
+
+def test_the_axes_of_a_picture_that_is_drawn_again_stand_still():
+    drawn, again = (plot_choices({"a": value}, truth=2.0, name="kA") for value in (1.0, 1e6))
+    assert drawn.svg
+    again.place_as(drawn)
+    assert again.svg
+
+    first, second = (picture.figure.axes[0].get_position().bounds for picture in (drawn, again))
+    assert first == pytest.approx(second)

@@ -16,7 +16,6 @@ from sim.plot.picture import (
     INK,
     LINES,
     MARKERS,
-    REFERENCE,
     Dash,
     Picture,
     add_legend,
@@ -28,7 +27,6 @@ KINDS = ("quasistatic", "dynamic")
 APART = 0.15  # [share of a panel] distance of markers
 MOST = 1000  # samples of a curve drawn at most: a panel has fewer pixels
 BACKGROUND = "#F9EEF5"  # of a damaged part; curves drawn over it stay legible
-HIDDEN = "_"  # matplotlib leaves labels that begin with this out of the legend
 
 
 @dataclass(frozen=True)
@@ -42,14 +40,11 @@ class _Pen:
 
 
 _PENS = tuple(_Pen(COLORS[i], LINES[i], MARKERS[i], 1.4) for i in range(len(DIRECTIONS)))
-_THIN = _Pen(REFERENCE, ":", "", 1.2)
 
 
 def plot_time_series(
     log: Log,
     *,
-    beside: Log | None = None,
-    names: tuple[str, str] = ("log", "what happened"),
     dynamic_seconds: float | None = None,
     damages: Iterable[Damage] = (),
 ) -> Picture:
@@ -59,9 +54,6 @@ def plot_time_series(
 
     Args:
         log: a log with at least one of the four tests.
-        beside: a second log of the same tests, drawn as a thin black line: the true motion, or a
-            simulation with the same voltage.
-        names: names of the log and of ``beside``.
         dynamic_seconds: length of the dynamic tests to show [s]; None shows all.
         damages: damaged parts, drawn hatched; those of runs that are not drawn are only described.
 
@@ -71,13 +63,10 @@ def plot_time_series(
     per = find_unit(log.units)
     runs = _first_runs(log)
     figure, (upper, lower) = make_panels(2, 2, height=4.4, shared=True)
-    labels = tuple(f"{names[0]}, {way}" for way in DIRECTIONS)
+    labels = tuple(f"log, {way}" for way in DIRECTIONS)
     drawn: dict[int, list[tuple[Axes, Array]]] = {}
     for kind, *pair in zip(KINDS, upper, lower, strict=True):
         drawn |= _draw(runs, kind, pair, per=per, pens=_PENS, labels=labels)
-        if beside is not None:
-            others = _first_runs(beside)
-            _draw(others, kind, pair, per=per, pens=(_THIN, _THIN), labels=(names[1], HIDDEN))
         pair[0].set_title(f"{kind} tests", fontsize=10, color=INK)
         pair[1].set_xlabel("time since the test began [s]", color=INK)
     upper[0].set_ylabel("voltage [V]", color=INK)
@@ -91,8 +80,6 @@ def plot_time_series(
         "tests on the left and the dynamic tests on the right. A solid line with circles is a "
         "forward test. A dashed line with squares is a reverse test."
     )
-    if beside is not None:
-        alt += f" A thin dotted black line shows {names[1]} beside the {names[0]}."
     return Picture(figure, " ".join([alt, *sentences]), _tests_table(runs, per))
 
 

@@ -70,6 +70,18 @@ class Picture:
             self.figure.savefig(buffer, format="svg", metadata={"Date": None, "Title": self.alt})
         return buffer.getvalue()
 
+    def place_as(self, drawn: "Picture") -> None:
+        """Put the axes where those of another picture were drawn; that takes less time, too.
+
+        Args:
+            drawn: a picture whose SVG or HTML was made; one with other axes changes nothing.
+        """
+        mine, theirs = self.figure.axes, drawn.figure.axes
+        if len(mine) == len(theirs):
+            self.figure.set_layout_engine("none")
+            for axes, like in zip(mine, theirs, strict=True):
+                axes.set_position(like.get_position())
+
     @property
     def html(self) -> str:
         """Picture, description and table as self-contained HTML."""
