@@ -19,7 +19,7 @@ from sim.core.advice import Action
 from sim.core.doubt import Doubt
 from sim.core.errors import UnreadableFile
 from sim.core.log import Log
-from sim.io.entries import assemble_log, assemble_motor_logs
+from sim.io.entries import assemble_logs
 from sim.io.entries.entry import ValuesEntry
 from sim.io.format import ReadOptions
 
@@ -64,8 +64,8 @@ def entries(path: Path) -> list[ValuesEntry]:
     return _make_entries(_load(path).frames, default_units=True)
 
 
-def read(path: Path, options: ReadOptions) -> Log:
-    """Read the test of a file; the file name names the test.
+def read(path: Path, options: ReadOptions) -> dict[str, Log]:
+    """Read the test of a file, for each motor if asked; the file name names the test.
 
     Args:
         path: the file.
@@ -73,27 +73,11 @@ def read(path: Path, options: ReadOptions) -> Log:
 
     Raises:
         Refusal: the file holds no periodic frame, or its name names no test; or as
-            ``assemble_log``.
+            ``assemble_logs``.
     """
     found = _load(path)
     made = _make_entries(found.frames, default_units=options.units is None)
-    log, _ = assemble_log(made, options=options, where=str(path))
-    return log.add_doubts(*_doubts(found, options, path))
-
-
-def read_motors(path: Path, options: ReadOptions) -> dict[str, Log]:
-    """Read the test of a file as a log for each motor.
-
-    Args:
-        path: the file.
-        options: the user's choices: units, motor, and the names of entries.
-
-    Raises:
-        Refusal: as ``read``.
-    """
-    found = _load(path)
-    made = _make_entries(found.frames, default_units=options.units is None)
-    logs, _ = assemble_motor_logs(made, options=options, where=str(path))
+    logs, _ = assemble_logs(made, options=options, where=str(path))
     return {name: log.add_doubts(*_doubts(found, options, path)) for name, log in logs.items()}
 
 

@@ -14,11 +14,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.core.errors import BadRequest, BadSample, UnreadableFile
+from sim.core.errors import BadSample, UnreadableFile
 from sim.core.log import Array, Log, Run
 from sim.core.units import find_unit
 from sim.core.vocabulary import TYPES
-from sim.io.entries import assemble_log, assemble_motor_logs
+from sim.io.entries import assemble_logs
 from sim.io.entries.entry import Entry, find_missing_motion
 from sim.io.format import (
     HEAD,
@@ -58,8 +58,8 @@ def _is_export_file(path: Path) -> bool:
         return is_export(read_header(stream.read(HEAD)))
 
 
-def read(path: Path, options: ReadOptions) -> Log:
-    """Read a CSV log.
+def read(path: Path, options: ReadOptions) -> dict[str, Log]:
+    """Read a CSV log; only a log viewer's export can have several motors.
 
     Args:
         path: the file.
@@ -72,8 +72,7 @@ def read(path: Path, options: ReadOptions) -> Log:
         BadRequest: a signal is unknown, or a mechanism was picked that the file does not have.
     """
     if _is_export_file(path):
-        log, _ = assemble_log(read_entries(path), options=options, where=str(path))
-        return log
+        return assemble_logs(read_entries(path), options=options, where=str(path))[0]
     refuse_pick(options.pick, where=str(path))
     table = open_table(path, entries=options.entries)
     tests, codes = table.group_by_test()
@@ -96,7 +95,7 @@ def read(path: Path, options: ReadOptions) -> Log:
         run, warnings = make_run(tests[codes[rows[0]]], mine, si=si, where=where)
         runs.append(run)
         doubts.extend(warnings)
-    return Log(
+    log = Log(
         tuple(runs),
         units=options.units_or_default,
         type=options.type or "",
@@ -104,17 +103,7 @@ def read(path: Path, options: ReadOptions) -> Log:
         doubts=tuple(doubts),
         computed=find_missing_motion(present) or "",
     )
-
-
-def read_motors(path: Path, options: ReadOptions) -> dict[str, Log]:
-    """Read a CSV log as a log for each motor; only a log viewer's export can have several.
-
-    Raises:
-        Refusal: as ``read``.
-    """
-    if not _is_export_file(path):
-        return {"": read(path, options)}
-    return assemble_motor_logs(read_entries(path), options=options, where=str(path))[0]
+    return {"": log}
 
 
 def _take_stated(table: CsvTable, options: ReadOptions) -> ReadOptions:
@@ -140,16 +129,7 @@ def write(log: Log, path: Path) -> None:
     Args:
         log: the log to write; positions are written in its ``units``.
         path: the file.
-
-    Raises:
-        BadRequest: the log has no runs, or a run without samples.
     """
-    if not log.runs or not all(len(run) for run in log.runs):
-        raise BadRequest(
-            "a run of the log has no samples" if log.runs else "the log has no runs",
-            advice="Write a log in which every run has samples: each sample is a row of the CSV "
-            "file.",
-        )
     numbered = len({run.test for run in log.runs}) < len(log.runs)
     extra = [name for name in EXTRA if any(getattr(run, name) is not None for run in log.runs)]
     with path.open("w", encoding="utf-8", newline="") as stream:

@@ -10,7 +10,6 @@ from pathlib import Path
 
 import numpy as np
 
-from sim.core.errors import BadRequest
 from sim.core.log import Array, Log, Run
 from sim.core.units import UNITS
 from sim.io.entries.entry import NEEDED, OPTIONAL, Numbers
@@ -43,15 +42,7 @@ def write(log: Log, path: Path) -> None:
     Args:
         log: the log to write; positions are written in its ``units``.
         path: the file; one that ends in .wpilogxz is compressed.
-
-    Raises:
-        BadRequest: the log has no runs, or a run without samples.
     """
-    if not log.runs or not all(len(run) for run in log.runs):
-        raise BadRequest(
-            "a run of the log has no samples" if log.runs else "the log has no runs",
-            advice="Write a log whose runs all have samples.",
-        )
     times = _order_runs([_to_microseconds(run.time) for run in log.runs])
     ends = [_end(time, after) for time, after in zip(times, [*times[1:], None], strict=True)]
     names = [*NEEDED, *(one for one in OPTIONAL if _has_signal(log, one))]
