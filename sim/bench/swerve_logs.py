@@ -20,6 +20,7 @@ from sim.core.errors import BadRequest
 from sim.core.log import Array, Log
 from sim.core.units import find_unit
 from sim.io.formats.wpilog.signals import SignalGroup, write_signals
+from sim.io.formats.wpilog.writing import make_motor_groups
 
 MODULES = ("front-left", "front-right", "back-left", "back-right")
 RATE, VOLTS = "Rotational_Rate", "Phoenix6/TalonFX-{}/MotorVoltage"
@@ -81,21 +82,7 @@ def write_modules(logs: Mapping[str, Log], path: Path) -> None:
     Raises:
         BadRequest: the file cannot be written.
     """
-    first = next(iter(logs.values()))
-    groups, units = [], {}
-    for k, run in enumerate(first.runs):
-        signals = {}
-        for module, log in logs.items():
-            one = log.runs[k]
-            for name, values, unit in (
-                ("voltage", one.voltage, "Volt"),
-                ("position", one.position, "Meter"),
-                ("velocity", one.velocity, "Meter per Second"),
-            ):
-                entry = f"{name}-{module}-{first.mechanism}"
-                signals[entry], units[entry] = values, unit
-        texts = {f"sysid-test-state-{first.mechanism}": _tests(run.time, run.test)}
-        groups.append(SignalGroup(run.time, signals, texts))
+    groups, units = make_motor_groups(logs)
     write_signals(groups, path, units=units)
 
 

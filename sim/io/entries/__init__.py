@@ -16,9 +16,9 @@ from sim.core.errors import BadRequest, MissingSignal, Refusal
 from sim.core.log import Log
 from sim.core.units import UNITS
 from sim.io.entries.discovery import find_devices, find_driven_interval
-from sim.io.entries.entry import Entry, find_missing_motion
+from sim.io.entries.entry import Entry, MotorEntries, find_missing_motion
 from sim.io.entries.mirrored import turn_mirrored_motors
-from sim.io.entries.motors import EXPORT, MotorEntries, find_motors, make_no_motor_error
+from sim.io.entries.motors import EXPORT, find_motors, make_no_motor_error
 from sim.io.entries.names import (
     find_test_name,
     find_type_in_name,

@@ -21,8 +21,7 @@ from sim.io.entries.clock import (
     logs_only_changes,
     select_covered_times,
 )
-from sim.io.entries.entry import NEEDED, OPTIONAL, Numbers
-from sim.io.entries.motors import MotorEntries
+from sim.io.entries.entry import NEEDED, OPTIONAL, MotorEntries, Numbers
 from sim.io.entries.state import RunInterval
 from sim.io.entries.units import EntryScale, choose_scale, is_from_network_tables
 from sim.io.format import ReadOptions, make_run

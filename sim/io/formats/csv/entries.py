@@ -14,14 +14,10 @@ import numpy as np
 from sim.core.errors import BadSample, UnreadableFile
 from sim.io.entries.entry import STRING, Entry, ValuesEntry
 from sim.io.entries.names import split_unit, split_words
+from sim.io.entries.units import SECONDS
 from sim.io.formats.csv.table import is_number, split_rows
 
 TIMES = frozenset({"t", "time", "timestamp"})
-UNITS = {  # unit of a time -> in µs
-    **dict.fromkeys(("s", "sec", "second", "seconds"), 1e6),
-    **dict.fromkeys(("ms", "msec", "millisecond", "milliseconds"), 1e3),
-    **dict.fromkeys(("us", "µs", "usec", "microsecond", "microseconds"), 1.0),
-}
 SLOWEST = 0.5  # [s] between two rows; where it seems to be more, the times are not in seconds
 LISTED = ({"name", "value"}, {"key", "value"})  # the other columns of a list
 EMPTY = ("", "null")  # cells without a value
@@ -40,7 +36,7 @@ def _find_time(names: Sequence[str]) -> int | None:
     """The index of the first column that holds times; None if none does."""
     for index, name in enumerate(names):
         words = _split_time(name)
-        if TIMES & words and words <= TIMES | UNITS.keys():
+        if TIMES & words and words <= TIMES | SECONDS.keys():
             return index
     return None
 
@@ -131,11 +127,11 @@ def _read_times(
 
 def _find_unit(name: str, times: Sequence[float]) -> float:
     """The unit of the times [µs]: by the name of their column, else by how far rows are apart."""
-    named = next((UNITS[word] for word in _split_time(name) if word in UNITS), None)
+    named = next((1e6 * SECONDS[word] for word in _split_time(name) if word in SECONDS), None)
     steps = np.abs(np.diff(times))
     steps = steps[steps > 0.0]
     if named is not None or not steps.size:
-        return named or UNITS["s"]
+        return named or 1e6
     step = float(np.median(steps))
     return next(unit for unit in (1e6, 1e3, 1.0) if step * unit < SLOWEST * 1e6 or unit == 1.0)
 

@@ -14,7 +14,8 @@ from sim.core.advice import Action
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, BadSample, MissingSignal, UnreadableFile
 from sim.core.log import LARGEST, Array
-from sim.core.vocabulary import DIRECTIONS, KINDS, TESTS
+from sim.core.vocabulary import DIRECTIONS, KINDS
+from sim.io.entries.names import find_test_name
 
 NEEDED = ("test", "time_s", "voltage", "position", "velocity")
 EXTRA = ("current", "bus_voltage")  # optional; empty in runs without them
@@ -24,15 +25,6 @@ KNOWN = (*SIGNALS, *STATED)
 WORDS = ("run", "test", *STATED)  # columns of texts; the others hold numbers
 
 _ENTRY = {"state": "test", "time": "time_s"}  # name of a signal -> its column, if they differ
-
-# Other names of the kinds and directions of tests, as in tools before 2024.
-_SAME = {
-    "slow": "quasistatic",
-    "fast": "dynamic",
-    "forwards": "forward",
-    "backward": "reverse",
-    "backwards": "reverse",
-}
 
 
 @dataclass(frozen=True)
@@ -67,9 +59,8 @@ class CsvTable:
         code_of: dict[str, int] = {}
         for row, cell in enumerate(self.cells["test"]):
             if cell not in code_of:
-                words = re.split(r"[\s_-]+", cell.strip().lower())
-                test = "-".join(_SAME.get(word, word) for word in words)
-                if test not in TESTS:
+                test = find_test_name(cell, fillers=())
+                if not test:
                     raise UnreadableFile(
                         f"test is {cell[:40]!r}, which is no test's name",
                         where=self.describe_row(row),
