@@ -16,7 +16,7 @@ from sim.bench.routine import Routine
 from sim.bench.sensor_model import read_sensor
 from sim.bench.simulate import simulate
 from sim.bench.swerve import WHEELS, SwerveDrive
-from sim.core.errors import BadRequest
+from sim.core.errors import refuse_unknown
 from sim.core.log import Array, Log
 from sim.core.units import find_unit
 from sim.io.formats.wpilog.signals import SignalGroup, write_signals
@@ -53,10 +53,8 @@ def record_modules(
         BadRequest: ``radii`` has an unknown module.
     """
     worn = dict(radii or {})
-    if unknown := sorted(worn.keys() - set(MODULES)):
-        raise BadRequest(
-            f"there is no module {unknown[0]!r}", advice=f"Choose one of: {', '.join(MODULES)}."
-        )
+    for module in worn:
+        refuse_unknown("module", module, MODULES)
     exact = Sensor(1e-9, 0.0, WHEELS.noise_speed, WHEELS.jitter)
     log = simulate(replace(drive.translation, sensor=exact), routine, rng=rng)
     logs = {}

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sim.core.doubt import Doubt
-from sim.core.errors import BadRequest, BadSample
+from sim.core.errors import BadRequest, BadSample, refuse_unknown
 from sim.core.units import find_unit
 from sim.core.vocabulary import DIRECTIONS, FOUR_TESTS, KINDS, TESTS, TYPES
 
@@ -219,10 +219,8 @@ class Log:
     def __post_init__(self) -> None:
         object.__setattr__(self, "runs", tuple(self.runs))
         object.__setattr__(self, "units", find_unit(self.units).name)
-        if self.type and self.type not in TYPES:
-            raise BadRequest(
-                f"unknown type {self.type!r}", advice=f"Choose one of: {', '.join(TYPES)}."
-            )
+        if self.type:
+            refuse_unknown("type", self.type, TYPES)
 
     @cached_property
     def top_speed(self) -> float:

@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from sim.core.errors import BadRequest
+from sim.core.errors import refuse_unknown
 
 GRAVITY = 9.81  # [m/s²]
 TURN = 2.0 * math.pi  # [rad]
@@ -67,7 +67,6 @@ def find_unit(name: str) -> Unit:
         >>> find_unit("Degrees").symbol
         'deg'
     """
-    found = UNITS.get(name.strip().lower())
-    if found is None:
-        raise BadRequest(f"unknown units {name!r}", advice=f"Choose one of: {', '.join(UNITS)}.")
-    return found
+    name = name.strip().lower()
+    refuse_unknown("units", name, UNITS)
+    return UNITS[name]

@@ -16,7 +16,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from sim.core.errors import BadRequest
+from sim.core.errors import BadRequest, refuse_unknown
 from sim.core.units import BATTERY
 from sim.feedback.regulator import PRESETS, Feedback, Preset
 
@@ -222,8 +222,7 @@ def _choose_duration(plant: Plant, wait: float, preset: Preset) -> float:
 
 
 def _check(plant: Plant, *, loop: str, numbers: tuple[float, ...]) -> None:
-    if loop not in SIZES:
-        raise BadRequest(f"unknown loop {loop!r}", advice=f"Choose one of: {', '.join(SIZES)}.")
+    refuse_unknown("loop", loop, SIZES)
     if not all(map(math.isfinite, (*numbers, *plant.gains.values()))):
         raise BadRequest(
             "a gain or a target of this loop is not a number", advice="Give finite numbers."

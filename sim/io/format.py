@@ -19,7 +19,7 @@ from typing import Protocol
 import numpy as np
 
 from sim.core.doubt import Doubt
-from sim.core.errors import BadRequest, BadSample, MissingSignal
+from sim.core.errors import BadRequest, BadSample, MissingSignal, refuse_unknown
 from sim.core.log import LARGEST, Array, Log, Run
 from sim.core.units import find_unit
 from sim.core.vocabulary import TYPES
@@ -56,9 +56,8 @@ class ReadOptions:
     each_motor: bool = False
 
     def __post_init__(self) -> None:
-        if self.type is not None and self.type not in TYPES:
-            advice = f"Choose one of: {', '.join(TYPES)}."
-            raise BadRequest(f"unknown type {self.type!r}", advice=advice)
+        if self.type is not None:
+            refuse_unknown("type", self.type, TYPES)
         if self.units is not None:
             object.__setattr__(self, "units", find_unit(self.units).name)
 

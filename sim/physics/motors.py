@@ -12,7 +12,7 @@ https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/wpimath/src/main/java/ed
 import math
 from dataclasses import dataclass
 
-from sim.core.errors import BadRequest
+from sim.core.errors import refuse_unknown
 from sim.core.units import BATTERY
 
 
@@ -82,8 +82,7 @@ def find_motor(name: str) -> Motor:
         >>> find_motor("neo").stall_torque  # [N·m]
         2.6
     """
-    if name not in MOTORS:
-        raise BadRequest(f"unknown motor {name!r}", advice=f"Choose one of: {', '.join(MOTORS)}.")
+    refuse_unknown("motor", name, MOTORS)
     return MOTORS[name]
 
 

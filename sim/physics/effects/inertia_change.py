@@ -153,10 +153,6 @@ EFFECT = Effect(
         "velocity-filter": (
             "Look at the position. A filter does not change it, another inertia does."
         ),
-        "heating": (
-            "Repeat the first test at the end. A motor gets warm slowly, a load changes at one "
-            "moment."
-        ),
     },
     example=ordinary_parameters,
     start_values=find_start_values,

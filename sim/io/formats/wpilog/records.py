@@ -99,7 +99,7 @@ def read_headers(buffer: Bytes, start: Numbers) -> Numbers:
     size_at, time_at, payload = (
         start + np.array(table)[bits] for table in (SIZE_AT, TIME_AT, PAYLOAD_AT)
     )
-    numbers = view_as_numbers(buffer, np.uint64)
+    numbers = view_as_numbers(buffer, np.dtype("<u8"))
     fields = [
         (numbers[at] & MASK[end - at]).view(np.int64)
         for at, end in ((start + 1, size_at), (size_at, time_at), (time_at, payload))
@@ -112,9 +112,8 @@ def pad(window: bytes) -> Bytes:
     return np.frombuffer(window + bytes(PAD), dtype=np.uint8)
 
 
-def view_as_numbers(buffer: Bytes, kind: type[Number]) -> NDArray[Number]:
-    """The buffer as little-endian numbers that begin at every byte: element i, at offset i."""
-    dtype = np.dtype(kind).newbyteorder("<")
+def view_as_numbers(buffer: Bytes, dtype: np.dtype[Number]) -> NDArray[Number]:
+    """The buffer as numbers that begin at every byte: element i, at offset i."""
     return np.ndarray((buffer.size - dtype.itemsize + 1,), dtype, buffer, strides=(1,))
 
 
