@@ -30,7 +30,7 @@ __all__ = ["move_gains_only", "read_sensor", "simulate"]
 
 PAUSE = 1.0  # [s] between two tests, in which the mechanism comes to rest
 FASTEST, SLOWEST = 0.0005, 0.5  # [s] limits of the loop period
-FEWEST = 10  # [samples] of a test
+MIN_SAMPLES = 10  # [samples] of a test
 STEPS_PER_LOOP = 8  # recorded steps of a loop, for a sensor that measures between loops
 MARGIN = 0.04  # [share of the travel] distance to a stop at which a test ends
 
@@ -222,7 +222,7 @@ def _loop_times(
     """[s] times of the loops with a voltage, from the second on, with jitter."""
     timeout, jitter = routine.find_longest_duration(test), mechanism.sensor.jitter
     count = math.floor(timeout / period + 1e-9) - LOOPS_BEFORE_DRIVE + 1
-    if count < FEWEST:
+    if count < MIN_SAMPLES:
         raise BadRequest(
             f"a timeout of {timeout:g} s has {max(count, 0)} loops of {period:g} s",
             advice="Ask for a longer timeout or a shorter period.",
@@ -249,7 +249,7 @@ def _end(track: Track, mechanism: Mechanism, *, test: str) -> int:
     if mechanism.travel is not None:
         beyond = _beyond(track, mechanism, test=test)
         end = int(np.argmax(beyond)) if beyond.any() else end
-    if end < FEWEST:
+    if end < MIN_SAMPLES:
         raise BadRequest(
             f"{test} lasts {end} loops",
             advice="Ask for a longer timeout, a shorter period or a smaller step.",

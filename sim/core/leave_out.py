@@ -12,7 +12,7 @@ from sim.core.errors import BadRequest
 from sim.core.log import Log, Run
 from sim.core.vocabulary import TESTS
 
-FEWEST = 5  # [samples] shorter pieces of a run are left out, too
+MIN_SAMPLES = 5  # [samples] shorter pieces of a run are left out, too
 SPELLING = re.compile(r"(?P<test>[\w-]+?)(:(?P<start>[\d.]+)-(?P<end>[\d.]+))?")
 
 
@@ -100,4 +100,4 @@ def _split(run: Run, part: LeftOutPart) -> list[Run]:
     if not gone.size:
         return [run]
     pieces = (slice(0, gone[0]), slice(gone[-1] + 1, len(run)))
-    return [one for one in (run.select(piece) for piece in pieces) if len(one) >= FEWEST]
+    return [one for one in (run.select(piece) for piece in pieces) if len(one) >= MIN_SAMPLES]

@@ -18,6 +18,7 @@ from sim.core.units import find_unit
 from sim.core.vocabulary import DIRECTIONS, FOUR_TESTS, KINDS, TESTS, TYPES
 
 __all__ = [  # with the fixed names, which code that works on logs needs
+    "AT_REST",
     "DIRECTIONS",
     "FOUR_TESTS",
     "KINDS",
@@ -35,6 +36,7 @@ Array: TypeAlias = NDArray[np.float64]
 
 LARGEST = 1e9  # [any SI unit] larger than any reading of a robot; its square still fits a double
 MOVING = 0.1  # [share of a run's top speed] faster samples are in motion, however noisy
+AT_REST = 0.03  # [share of the top speed] slower samples are at rest
 STANDSTILL = 0.02  # [share of the top speed] slower, static friction decides the speed
 CONSTANT_KINDS = frozenset({"dynamic", "coast", "multistep"})  # tests with a constant command
 LONE_STEP = 2.0  # [1] ratio to the changes before and after, from which on a change is a step
@@ -252,6 +254,17 @@ class Log:
     def add_doubts(self, *doubts: Doubt) -> "Log":
         """A copy with more doubts."""
         return replace(self, doubts=self.doubts + doubts)
+
+
+def integrate_velocity(time: Array, velocity: Array) -> Array:
+    """The distance from the first sample by the trapezoidal rule, (n,) [m or rad].
+
+    Args:
+        time: (n,) [s].
+        velocity: (n,) [m/s or rad/s].
+    """
+    steps = 0.5 * np.diff(time) * (velocity[1:] + velocity[:-1])
+    return np.concatenate((np.zeros(min(time.size, 1)), np.cumsum(steps)))
 
 
 def _frozen(values: ArrayLike) -> Array:

@@ -8,6 +8,7 @@ from sim.core.errors import refuse_unknown
 
 GRAVITY = 9.81  # [m/s²]
 TURN = 2.0 * math.pi  # [rad]
+ROBUST = 1.4826  # standard deviations in a median absolute deviation
 BATTERY = 12.0  # [V] nominal: a motor's data sheet is for it, and a controller gives no more
 
 

@@ -20,10 +20,10 @@ import numpy as np
 
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, BadSample, MissingSignal, refuse_unknown
-from sim.core.log import LARGEST, Array, Log, Run
+from sim.core.log import LARGEST, Array, Log, Run, integrate_velocity
 from sim.core.units import find_unit
 from sim.core.vocabulary import TYPES
-from sim.io.motion import MADE_FROM, compute_position_slope, integrate_velocity
+from sim.io.motion import MADE_FROM, compute_position_slope
 
 HEAD = 4096  # [bytes] length of the beginning of a file that `recognizes` gets
 LARGEST_FILE = 2**30  # [bytes] hours of logging

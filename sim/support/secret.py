@@ -19,7 +19,7 @@ from sim.core.errors import BadRequest
 from sim.support.os_errors import refuse_os_errors
 
 VARIABLE = "SYSID_SECRET"  # environment variable with the secret itself
-FEWEST = 16  # [characters] a shorter secret could be guessed
+MIN_LENGTH = 16  # [characters] a shorter secret could be guessed
 TABLE = re.compile(rb"[\r\n,;\t]")  # a roster or a log has one of these, a secret does not
 SIZE = 32  # [bytes] of a new secret
 
@@ -94,9 +94,9 @@ def find_secret(path: Path | None, *, make: bool) -> Secret | None:
         )
     value = kept or around
     if value:
-        if len(value) < FEWEST:
+        if len(value) < MIN_LENGTH:
             raise BadRequest(
-                f"the secret has fewer than {FEWEST} characters",
+                f"the secret has fewer than {MIN_LENGTH} characters",
                 where=str(path) if kept else VARIABLE,
                 advice="Use a longer one: a short secret can be guessed.",
             )

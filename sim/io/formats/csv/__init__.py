@@ -32,14 +32,14 @@ from sim.io.formats.csv.entries import is_export, read_columns, read_entries
 from sim.io.formats.csv.table import EXTRA, KNOWN, NEEDED, STATED, CsvTable, open_table, read_header
 
 SUFFIXES = (".csv",)
-ENOUGH = 3  # [columns] of ours in the header that identify the format
+MIN_COLUMNS = 3  # [columns] of ours in the header that identify the format
 
 
 def recognizes(head: bytes) -> bool:
     """Whether the first line has enough of our columns, or is that of a log viewer's export."""
     text = head.decode("utf-8-sig", errors="replace")
     names = read_header(text)
-    return is_export(names) or len(set(names) & set(KNOWN)) >= ENOUGH
+    return is_export(names) or len(set(names) & set(KNOWN)) >= MIN_COLUMNS
 
 
 def entries(path: Path) -> list[Entry]:
