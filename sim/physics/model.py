@@ -92,7 +92,7 @@ class Model:
             raise BadRequest(f"{twice[0]} is there twice", advice="Add each effect once.")
         if not are_compatible(map(find_effect, names)):
             raise BadRequest(
-                f"{' and '.join(names)} in one model",
+                f"{' and '.join(names)} cannot be in one model",
                 advice="Choose slipping wheels or a joint (backlash, compliance), not both.",
             )
 

@@ -82,7 +82,7 @@ def plot_timesteps(log: Log) -> Picture:
     for axes in grid[-1]:
         axes.set_xlabel("time since the test began [s]", color=INK)
     add_legend(figure, [axes for row in grid for axes in row], columns=5)
-    return Picture(figure, _words(all_steps, median=median, top=top), _table(all_steps))
+    return Picture(figure, _describe_steps(all_steps, median=median, top=top), _table(all_steps))
 
 
 def _height(rows: int) -> float:
@@ -162,7 +162,7 @@ def _set_title_and_ticks(axes: Axes, test: str, these: Sequence[_Steps]) -> None
     axes.yaxis.set_major_locator(MaxNLocator(3, steps=[1, 2, 5, 10]))
 
 
-def _words(all_steps: Sequence[_Steps], *, median: float, top: float) -> str:
+def _describe_steps(all_steps: Sequence[_Steps], *, median: float, top: float) -> str:
     total = sum(one.length.size for one in all_steps)
     gaps = sum(int(one.gaps.sum()) for one in all_steps)
     text = "One panel for each test shows the time from each sample to the next. A "

@@ -146,9 +146,9 @@ def detect_form(tables: Mapping[str, Array], header: FileHeader, *, where: str) 
     width = next(iter(widths.values()))
     if width not in _FORMS:
         raise UnreadableFile(
-            f"its rows have {width} numbers",
+            f"no tool wrote rows of {width} numbers",
             where=where,
-            advice=f"The tools wrote rows of {', '.join(map(str, _FORMS))}: give their file.",
+            advice=f"Give a tool's own file: its rows have {', '.join(map(str, _FORMS))} numbers.",
         )
     form = _FORMS[width]
     if (
