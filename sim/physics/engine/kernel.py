@@ -203,20 +203,8 @@ def try_kernel_file(kept: Path) -> None:
     if found is None:
         sys.exit(1)
     none, some = np.zeros((0, 2)), np.zeros(ROOM)
-    runs = dict.fromkeys(
-        (
-            "time",
-            "commanded",
-            "slides",
-            "low",
-            "high",
-            "frictions",
-            "run_lags",
-            "memory_groups",
-            "start_times",
-        ),
-        none[:, 0],
-    )
+    of_runs = ("low", "high", "frictions", "run_lags", "memory_groups", "start_times")
+    runs = dict.fromkeys(("time", "commanded", "slides", *of_runs), none[:, 0])
     model = dict.fromkeys(("c", "w", "on", "p", "memory", "tables", "steps"), some)
     Kernel(*found).move(
         edges=np.zeros(1), bodies=np.zeros((0, 5)), **runs, **model, base_only=True,

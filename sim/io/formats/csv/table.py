@@ -1,9 +1,7 @@
 """The cells of a CSV file by column, with their line numbers for error messages."""
 
-import csv
-import io
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -16,6 +14,7 @@ from sim.core.errors import BadRequest, BadSample, MissingSignal, UnreadableFile
 from sim.core.log import LARGEST, Array
 from sim.core.vocabulary import DIRECTIONS, KINDS
 from sim.io.entries.names import find_test_name
+from sim.support.csv_rows import check_width, detect_delimiter, split_rows
 
 NEEDED = ("test", "time_s", "voltage", "position", "velocity")
 EXTRA = ("current", "bus_voltage")  # optional; empty in runs without them
@@ -122,17 +121,6 @@ class CsvTable:
         return [cell.strip() or "nan" for cell in cells] if gaps else cells
 
 
-def split_rows(path: Path) -> tuple[str, Iterator[tuple[int, list[str]]]]:
-    """The separator, and the line number and cells of each row that is not blank.
-
-    Raises:
-        UnreadableFile: not UTF-8, or an unmatched quotation mark.
-    """
-    text = _read_text(path)
-    delimiter = _detect_delimiter(text)
-    return delimiter, _rows(text, delimiter=delimiter, where=str(path))
-
-
 def read_header(text: str) -> list[str]:
     """The lower-case names in the first line that is not blank."""
     first = re.split(r"[\r\n]", text.lstrip(), maxsplit=1)[0]
@@ -153,20 +141,11 @@ def open_table(path: Path, *, entries: Mapping[str, str]) -> CsvTable:
         BadRequest: ``entries`` names an unknown signal.
     """
     where = str(path)
-    header: list[str] = []
-    rows: list[tuple[int, list[str]]] = []
-    delimiter, every = split_rows(path)
-    for line, row in every:
-        if not header:
-            header = [cell.strip().lower() for cell in row]
-        elif len(row) == len(header):
-            rows.append((line, row))
-        else:
-            raise UnreadableFile(
-                f"the row has {len(row)} cells where the header has {len(header)}",
-                where=f"{where}, line {line}",
-                advice="Complete the line, or remove it.",
-            )
+    text = read_text(path)
+    (_, first), *rows = list(split_rows(text, where=where)) or [(1, [""])]
+    header = [cell.strip().lower() for cell in first]
+    for line, row in rows:
+        check_width(row, header, where=f"{where}, line {line}")
     place, doubts = _find_columns(header, entries=entries, where=where)
     if not rows:
         raise UnreadableFile(
@@ -175,44 +154,23 @@ def open_table(path: Path, *, entries: Mapping[str, str]) -> CsvTable:
     columns = list(zip(*(row for _, row in rows), strict=True))
     cells = {name: columns[index] for name, index in place.items()}
     lines = [line for line, _ in rows]
-    comma = delimiter != "," and _uses_decimal_comma(cells, where=where)
+    comma = detect_delimiter(text) != "," and _uses_decimal_comma(cells, where=where)
     return CsvTable(where, cells, lines, comma, doubts)
 
 
-def _read_text(path: Path) -> str:
-    """The text of a file, with LF as line endings.
+def read_text(path: Path) -> str:
+    """The text of a file.
 
     Raises:
         UnreadableFile: it is not UTF-8.
     """
     try:
-        text = path.read_bytes().decode("utf-8-sig")
+        return path.read_bytes().decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise UnreadableFile(
             f"byte {error.start} is not UTF-8 text",
             where=str(path),
             advice="Save the file as CSV in UTF-8.",
-        ) from None
-    return text.replace("\r\n", "\n").replace("\r", "\n")
-
-
-def _detect_delimiter(text: str) -> str:
-    """The separator of the cells: the most frequent candidate in the header."""
-    return max(",;\t", key=text.lstrip().partition("\n")[0].count)
-
-
-def _rows(text: str, *, delimiter: str, where: str) -> Iterator[tuple[int, list[str]]]:
-    """The line number and the cells of each row that is not blank."""
-    reader = csv.reader(io.StringIO(text), delimiter=delimiter, strict=True)
-    try:
-        for row in reader:
-            if any(row) and not (len(row) == 1 and row[0].isspace()):
-                yield reader.line_num, row
-    except csv.Error as error:
-        raise UnreadableFile(
-            f"damaged CSV ({error})",
-            where=f"{where}, line {reader.line_num}",
-            advice="Look for a quotation mark without its partner.",
         ) from None
 
 
