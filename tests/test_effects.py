@@ -61,8 +61,8 @@ def test_an_effect_is_written_as_the_contract_asks(name):
     assert found.inspect.endswith(".")
     assert list_look_alikes(name), "name a look-alike, and the test that tells them apart"
     for other, test in found.apart.items():
-        assert name not in EFFECTS[other].apart, f"{other} says what tells the two apart"
         assert other in EFFECTS, f"{name} is told apart from {other!r}, which is no effect"
+        assert name not in EFFECTS[other].apart, f"{other}'s file says it: once is enough"
         assert test.endswith("."), test
     for parameter in found.parameters:
         assert parameter.name.isidentifier()
