@@ -78,13 +78,13 @@ def simulate(
         voltage = np.array([routine.command_voltage(test, t) for t in time.tolist()])
         cut = cut or _is_cut(state)
         state.clock = float(start + time[0] - runs[0].time[0]) if runs else 0.0  # as in the log
-        begin, active = _at_rest(state, _begin(mechanism, test, last)), model
+        begin, active = _at_rest(state, _find_start(mechanism, test, last)), model
         time, voltage = _divide_loops(time, voltage, parts)
         track, state = _move(active, time, voltage, begin=begin, wires=wires)
         if wheels_slip(mechanism, track):
             active, gripped = (model + slips, gripped) if slips else (model, True)
             track, state = _move(active, time, voltage, begin=begin, wires=wires)
-        end = (_end(track.take_every(parts), mechanism, test=test) - 1) * parts + 1
+        end = (_find_end(track.take_every(parts), mechanism, test=test) - 1) * parts + 1
         time, voltage = time[:end], voltage[:end]
         if end < track.position.size and state.memory.any():  # without heating after the end
             track, state = _move(active, time, voltage, begin=begin, wires=wires)
@@ -94,7 +94,7 @@ def simulate(
         cool_down(state, model, PAUSE)
         start, last = start + float(time[-1]) + PAUSE, float(track.position[end - 1])
     log = Log(tuple(runs), units=mechanism.units, mechanism=mechanism.name, type=mechanism.type)
-    return log.add_doubts(*_doubts(mechanism, cut=cut or _is_cut(state), gripped=gripped))
+    return log.add_doubts(*_make_doubts(mechanism, cut=cut or _is_cut(state), gripped=gripped))
 
 
 def _at_rest(state: State, position: float) -> State:
@@ -165,7 +165,7 @@ def _check_period(period: float) -> None:
         )
 
 
-def _doubts(mechanism: Mechanism, *, cut: bool, gripped: bool) -> Iterator[Doubt]:
+def _make_doubts(mechanism: Mechanism, *, cut: bool, gripped: bool) -> Iterator[Doubt]:
     """Warnings about a simulated log: a brownout, and wheel slip that was left out."""
     if gripped:
         yield Doubt(
@@ -231,7 +231,7 @@ def _loop_times(
     return np.asarray((np.arange(count) + LOOPS_BEFORE_DRIVE) * period + late)
 
 
-def _begin(mechanism: Mechanism, test: str, last: float) -> float:
+def _find_start(mechanism: Mechanism, test: str, last: float) -> float:
     """[m or rad] position at which a test begins: a stop, or the end of the last test."""
     if mechanism.stops is None:
         return last
@@ -239,7 +239,7 @@ def _begin(mechanism: Mechanism, test: str, last: float) -> float:
     return low if test.endswith("forward") else high - 0.5 * MARGIN * (high - low)
 
 
-def _end(track: Track, mechanism: Mechanism, *, test: str) -> int:
+def _find_end(track: Track, mechanism: Mechanism, *, test: str) -> int:
     """Number of samples until the end of the test.
 
     Raises:
@@ -247,7 +247,7 @@ def _end(track: Track, mechanism: Mechanism, *, test: str) -> int:
     """
     end = int(track.position.size)
     if mechanism.travel is not None:
-        beyond = _beyond(track, mechanism, test=test)
+        beyond = _mark_beyond(track, mechanism, test=test)
         end = int(np.argmax(beyond)) if beyond.any() else end
     if end < MIN_SAMPLES:
         raise BadRequest(
@@ -257,7 +257,7 @@ def _end(track: Track, mechanism: Mechanism, *, test: str) -> int:
     return end
 
 
-def _beyond(track: Track, mechanism: Mechanism, *, test: str) -> NDArray[np.bool_]:
+def _mark_beyond(track: Track, mechanism: Mechanism, *, test: str) -> NDArray[np.bool_]:
     """(n,) whether it has reached an end of its travel."""
     if mechanism.stops is None:
         travel = math.inf if mechanism.travel is None else mechanism.travel

@@ -104,12 +104,12 @@ def write_rotation(log: Log, path: Path, *, volts_per_rate: float) -> None:
         signals = {VOLTS.format(k + 1): run.voltage for k in range(len(MODULES))}
         signals[RATE] = run.voltage / volts_per_rate
         signals |= {YAW: run.position / degree, YAW_RATE: run.velocity / degree}
-        texts = {"SysIdRotation_State": _tests(run.time, run.test)}
+        texts = {"SysIdRotation_State": _list_states(run.time, run.test)}
         groups.append(SignalGroup(run.time, signals, texts))
     write_signals(groups, path, units={})
 
 
-def _tests(time: Array, test: str) -> list[tuple[float, str]]:
+def _list_states(time: Array, test: str) -> list[tuple[float, str]]:
     """[s] times and test states: the test at its start, ``none`` after its end."""
     return [(float(time[0]), test), (float(time[-1]) + LOOP, "none")]
 

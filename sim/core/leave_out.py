@@ -86,7 +86,9 @@ def leave_out(logs: Mapping[str, Log], parts: Iterable[LeftOutPart]) -> dict[str
                 advice="Take test and times from the output of `sysid inspect`.",
             )
         left = {
-            name: replace(log, runs=tuple(piece for run in log.runs for piece in _split(run, part)))
+            name: replace(
+                log, runs=tuple(piece for run in log.runs for piece in _cut_out(run, part))
+            )
             for name, log in left.items()
         }
     if not all(log.runs for log in left.values()):
@@ -94,7 +96,7 @@ def leave_out(logs: Mapping[str, Log], parts: Iterable[LeftOutPart]) -> dict[str
     return left
 
 
-def _split(run: Run, part: LeftOutPart) -> list[Run]:
+def _cut_out(run: Run, part: LeftOutPart) -> list[Run]:
     """The run without the part: itself, or the pieces before and after it."""
     gone = part.find(run).nonzero()[0]
     if not gone.size:

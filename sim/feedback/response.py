@@ -193,10 +193,14 @@ class _Controller:
         """The voltage [V] that it applies until its next sample."""
         change = 0.0 if self.last is None else measured - self.last
         self.last = measured
-        asked = self._forward(position) + self.kp * (self.target - measured) - self.kd * change
+        asked = (
+            self._compute_feedforward(position)
+            + self.kp * (self.target - measured)
+            - self.kd * change
+        )
         return min(max(asked, -BATTERY), BATTERY)
 
-    def _forward(self, position: float) -> float:
+    def _compute_feedforward(self, position: float) -> float:
         if self.loop == "position":
             return self.plant.compute_gravity_voltage(self.target)
         gains = self.plant.gains

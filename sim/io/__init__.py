@@ -100,10 +100,10 @@ def read_motors(path: str | os.PathLike[str], options: ReadOptions | None = None
 def _read(path: str | os.PathLike[str], options: ReadOptions) -> dict[str, Log]:
     """The name of each motor -> its log, as ``read`` and ``read_motors`` return them."""
     given = os.fspath(path)
-    with _readable(given) as (module, file):
+    with _open_format(given) as (module, file):
         logs = module.read(file, options)
         logs = {name: _name_source(log, file, given) for name, log in logs.items()}
-    return {name: _finish(log, options) for name, log in logs.items()}
+    return {name: _apply_options(log, options) for name, log in logs.items()}
 
 
 def list_entries(path: str | os.PathLike[str]) -> list[Entry]:
@@ -117,7 +117,7 @@ def list_entries(path: str | os.PathLike[str]) -> list[Entry]:
         BadRequest: files of this format have no named entries.
     """
     given = os.fspath(path)
-    with _readable(given) as (module, file):
+    with _open_format(given) as (module, file):
         list_of_file = getattr(module, "entries", None)
         if list_of_file is None:
             raise BadRequest(
@@ -128,7 +128,7 @@ def list_entries(path: str | os.PathLike[str]) -> list[Entry]:
 
 
 @contextmanager
-def _readable(given: str) -> Iterator[tuple[Format, Path]]:
+def _open_format(given: str) -> Iterator[tuple[Format, Path]]:
     """A context with the format and the path to read: the file, or the one it was converted to.
 
     Raises:
@@ -136,14 +136,14 @@ def _readable(given: str) -> Iterator[tuple[Format, Path]]:
     """
     path = Path(given)
     with _name_file_in_refusals(given):
-        head = _head(given)
+        head = _read_head(given)
         if path.suffix.lower() != SUFFIX or head.startswith(b"WPILOG"):
-            yield _reader(path, head), path
+            yield _find_format(path, head), path
             return
         with tempfile.TemporaryDirectory(prefix="sysid-hoot-") as folder:
             made = convert_hoot(path, Path(folder))
             try:
-                yield _reader(made, _head(str(made))), made
+                yield _find_format(made, _read_head(str(made))), made
             except Refusal as refusal:
                 raise refusal.move(refusal.where.replace(str(made), given)) from None
 
@@ -217,7 +217,7 @@ def write(log: Log, path: str | os.PathLike[str]) -> None:
             write_file(log, part)
 
 
-def _finish(log: Log, options: ReadOptions) -> Log:
+def _apply_options(log: Log, options: ReadOptions) -> Log:
     """The log with the type that the user chose, and its velocity replaced if that was asked for.
 
     There is a doubt if the file names another type.
@@ -243,7 +243,7 @@ def _order_formats(path: str) -> Iterator[tuple[str, Format]]:
         yield name, cast("Format", import_member(formats, name))
 
 
-def _reader(path: Path, head: bytes) -> Format:
+def _find_format(path: Path, head: bytes) -> Format:
     """The format of a file that starts with ``head``.
 
     Raises:
@@ -295,7 +295,7 @@ def _find_writer(given: str) -> Callable[[Log, Path], None]:
     )
 
 
-def _head(given: str) -> bytes:
+def _read_head(given: str) -> bytes:
     """The first bytes of a file.
 
     Raises:

@@ -83,12 +83,12 @@ def mend_motion(log: Log) -> Log:
     is replaced by the sum of the velocity, except of an arm.
     """
     try:
-        return _mend(log)
+        return _replace_motion(log)
     except BadSample:  # a slope or a sum that no robot has
         return log
 
 
-def _mend(log: Log) -> Log:
+def _replace_motion(log: Log) -> Log:
     """The log as ``mend_motion`` returns it.
 
     Raises:

@@ -135,7 +135,7 @@ def compute_voltage_residual(log: Log, gains: Mapping[str, float], *, type: str)
         type: ``simple``, ``elevator`` or ``arm``.
     """
     starts = list_run_start_times(log)
-    parts = [_rows(run, number, starts[number]) for number, run in enumerate(log.runs)]
+    parts = [_compute_rows(run, number, starts[number]) for number, run in enumerate(log.runs)]
     top = max((float(np.max(np.abs(p[5]), initial=0.0)) for p in parts), default=0.0)
     table = np.concatenate([p[:, np.abs(p[5]) > AT_REST * top] for p in parts], axis=1)
     run, clock, since, voltage, position, velocity, acceleration = table
@@ -172,7 +172,7 @@ def shares_clock(log: Log) -> bool:
     return all(one.time[-1] < other.time[0] for one, other in pairwise(runs))
 
 
-def _rows(run: Run, number: int, clock: float) -> Array:
+def _compute_rows(run: Run, number: int, clock: float) -> Array:
     """(7, n): run, clock, since, voltage, position, velocity, acceleration."""
     since = run.time - run.time[0]
     if len(run) < MIN_SAMPLES:

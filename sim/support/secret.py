@@ -44,13 +44,13 @@ class Secret:
 
     def derive_seed(self, *which: str | int) -> int:
         """The seed for the names and numbers ``which``."""
-        return int.from_bytes(self._code("seed", json.dumps(which).encode()), "big")
+        return int.from_bytes(self._compute_hmac("seed", json.dumps(which).encode()), "big")
 
     def seal(self, content: bytes) -> str:
         """The seal (HMAC) of a content, which can only be computed with the secret."""
-        return self._code("seal", content).hex()
+        return self._compute_hmac("seal", content).hex()
 
-    def _code(self, purpose: str, content: bytes) -> bytes:
+    def _compute_hmac(self, purpose: str, content: bytes) -> bytes:
         """The HMAC of a content, with a key of its own for each purpose."""
         key = hmac.digest(self.value, f"sysid dataset {purpose}".encode(), hashlib.sha256)
         return hmac.digest(key, content, hashlib.sha256)

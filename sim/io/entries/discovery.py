@@ -149,7 +149,7 @@ def select_driven_devices(
     return [
         device
         for device, level in levels
-        if most > ZERO and level >= DRIVEN * most and _moves(device, tests)
+        if most > ZERO and level >= DRIVEN * most and _follows_position(device, tests)
     ]
 
 
@@ -242,7 +242,7 @@ def _rms_voltage(device: MotorEntries, tests: Sequence[RunInterval]) -> float:
     return float(np.sqrt(np.mean(np.square(every)))) if every.size else 0.0
 
 
-def _moves(device: MotorEntries, tests: Sequence[RunInterval]) -> bool:
+def _follows_position(device: MotorEntries, tests: Sequence[RunInterval]) -> bool:
     """Whether the velocity of a device correlates with the slope of its position during tests.
 
     A position that was logged as the velocity passes, too: a fit uses its slope. Of a device with
@@ -250,7 +250,7 @@ def _moves(device: MotorEntries, tests: Sequence[RunInterval]) -> bool:
     """
     position, velocity = (device.signals.get(name) for name in ("position", "velocity"))
     if position is None or velocity is None:
-        return _changes(next(one for one in (position, velocity) if one is not None), tests)
+        return _has_changes(next(one for one in (position, velocity) if one is not None), tests)
     x, v = position.numbers(), velocity.numbers()
     parts = _samples_between(velocity, tests)
     if any(
@@ -270,7 +270,7 @@ def _moves(device: MotorEntries, tests: Sequence[RunInterval]) -> bool:
     return size > 0.0 and float(slope @ speed) > MOVES * size
 
 
-def _changes(entry: Entry, tests: Sequence[RunInterval]) -> bool:
+def _has_changes(entry: Entry, tests: Sequence[RunInterval]) -> bool:
     """Whether the values of an entry change during tests."""
     values = entry.numbers()
     return any(np.any(np.diff(values[part])) for part in _samples_between(entry, tests))

@@ -172,8 +172,8 @@ def choose_scale(signals: Mapping[str, Entry], *, options: ReadOptions, where: s
     factors, doubts = {}, []
     for signal, text in texts.items():
         wanted = VOLTS if signal == "voltage" else units
-        factors[signal] = _factor(parsed[signal], wanted, ordered=options.units is not None)
-        problem = _problem(text, parsed[signal], wanted, ordered=options.units is not None)
+        factors[signal] = _choose_factor(parsed[signal], wanted, ordered=options.units is not None)
+        problem = _describe_problem(text, parsed[signal], wanted, ordered=options.units is not None)
         if problem:
             code, what = problem
             name = signals[signal].name
@@ -209,14 +209,14 @@ def _rate_doubt(name: str, where: str) -> Doubt:
     )
 
 
-def _factor(stated_unit: StatedUnit | None, units: str, *, ordered: bool) -> float:
+def _choose_factor(stated_unit: StatedUnit | None, units: str, *, ordered: bool) -> float:
     """The factor to ``units``; a unit that the user chose (``ordered``) replaces the file's."""
     if stated_unit is None or stated_unit.units == units:
         return stated_unit.factor if stated_unit else 1.0
     return 1.0 if ordered else stated_unit.factor * (UNITS[stated_unit.units].si / UNITS[units].si)
 
 
-def _problem(
+def _describe_problem(
     text: str, stated_unit: StatedUnit | None, units: str, *, ordered: bool
 ) -> tuple[str, str] | None:
     """Code and text of the doubt about a unit; None if there is none."""

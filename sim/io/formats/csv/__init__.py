@@ -85,7 +85,7 @@ def read(path: Path, options: ReadOptions) -> dict[str, Log]:
     runs: list[Run] = []
     doubts = [*table.doubts, *warn_of_motor_choice(options.motor, where=table.where)]
     doubts += warn_of_missing_signal(find_missing_motion(present), options, where=table.where)
-    for number, rows in enumerate(_split(table, codes, signals["time"])):
+    for number, rows in enumerate(_split_runs(table, codes, signals["time"])):
         mine = {
             name: values[rows]
             for name, values in signals.items()
@@ -139,7 +139,7 @@ def write(log: Log, path: Path) -> None:
         end = f",{log.type or 'simple'},{log.units}\n" if stated else "\n"
         for number, run in enumerate(log.runs):
             prefix = f"{number},{run.test}," if numbered else f"{run.test},"
-            for row in _rows(run, extra=extra, si=find_unit(log.units).si):
+            for row in _format_rows(run, extra=extra, si=find_unit(log.units).si):
                 stream.write(f"{prefix}{row}{end}")
 
 
@@ -148,7 +148,7 @@ def _is_usual(log: Log) -> bool:
     return log.type in {"", "simple"} and log.units == ReadOptions().units_or_default
 
 
-def _rows(run: Run, *, extra: list[str], si: float) -> Iterator[str]:
+def _format_rows(run: Run, *, extra: list[str], si: float) -> Iterator[str]:
     """The numbers of a run as text, row by row."""
     signals: list[Array | None] = [run.time, run.voltage, run.position / si, run.velocity / si]
     signals += [getattr(run, name) for name in extra]
@@ -172,7 +172,9 @@ def _has_signal(table: CsvTable, name: str, values: Array, rows: NDArray[np.intp
     return not empty.all()
 
 
-def _split(table: CsvTable, codes: NDArray[np.intp], time: Array) -> Iterator[NDArray[np.intp]]:
+def _split_runs(
+    table: CsvTable, codes: NDArray[np.intp], time: Array
+) -> Iterator[NDArray[np.intp]]:
     """The row indices of each run, in the order in which the runs begin.
 
     Raises:

@@ -76,7 +76,7 @@ class CsvTable:
         Raises:
             BadSample: a cell is not a finite number; the message names its line.
         """
-        cells = self._plain(name, gaps=gaps)
+        cells = self._normalize_cells(name, gaps=gaps)
         try:
             values = np.array([float(cell) for cell in cells])
         except ValueError:
@@ -113,7 +113,7 @@ class CsvTable:
             )
         return words[0] or None if words else None
 
-    def _plain(self, name: str, *, gaps: bool) -> Sequence[str]:
+    def _normalize_cells(self, name: str, *, gaps: bool) -> Sequence[str]:
         """The cells of a column with decimal points; with ``gaps``, ``nan`` for empty cells."""
         cells: Sequence[str] = self.cells[name]
         if self.decimal_comma:

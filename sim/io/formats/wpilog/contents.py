@@ -232,7 +232,7 @@ class RecordReader:
         start, _, size, _, payload = head.tolist()
         found = parse_control_record(window[payload : payload + size])
         if found is None:
-            self._stop(start, "a control record that makes no sense")
+            self._stop_at(start, "a control record that makes no sense")
             return
         which, number, texts = found
         if which == START:
@@ -262,7 +262,7 @@ class RecordReader:
         if misfits:
             start, problem = min(misfits)
             self._add_samples(head[:, head[0] < start], window, buffer)
-            self._stop(start, problem)
+            self._stop_at(start, problem)
             return
         for series, part in groups:
             number, first = int(part[1, 0]), self.end + int(part[0, 0])
@@ -272,7 +272,7 @@ class RecordReader:
             elif series and series.is_wanted:
                 series.add(part, window, buffer)
 
-    def _stop(self, start: int, problem: str) -> None:
+    def _stop_at(self, start: int, problem: str) -> None:
         """Stop reading at a record of the window, because of a problem."""
         self.end += start
         self.problem = problem

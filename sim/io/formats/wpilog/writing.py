@@ -68,7 +68,7 @@ def make_motor_groups(logs: Mapping[str, Log]) -> tuple[list[SignalGroup], dict[
                     signals[entry] = values / si.get(name, 1.0)
                     units[entry] = metadata.get(name, "Volt")
         states = [(one, first.runs[number].test) for one in (time / SECOND).tolist()]
-        states.append((_end(time, after) / SECOND, IDLE[0]))
+        states.append((_find_run_end(time, after) / SECOND, IDLE[0]))
         groups.append(SignalGroup(time / SECOND, signals, {f"{WORD}-{mechanism}": states}))
     return groups, units
 
@@ -93,7 +93,7 @@ def _order_runs(times: Sequence[Numbers]) -> list[Numbers]:
     return placed
 
 
-def _end(time: Numbers, after: Numbers | None) -> int:
+def _find_run_end(time: Numbers, after: Numbers | None) -> int:
     """End of a run [µs]: a typical loop after its last sample, or the start of the next run."""
     loop = int(np.median(np.diff(time))) if time.size > 1 else LOOP
     end = int(time[-1]) + max(loop, 1)
