@@ -207,8 +207,9 @@ def _memory_lines(effects: Mapping[str, Effect], at: Mapping[str, slice]) -> Ite
     yield "        return"
     for place, (name, effect) in enumerate(effects.items()):
         if "update_memory" in effect.hooks:
+            answer = _make_call(effect, "update_memory", at[name], place)
             yield f"    if on[{place}] != 0.0:"
-            yield f"        memory[{place}] = {_make_call(effect, 'update_memory', at[name], place)}"
+            yield f"        memory[{place}] = {answer}"
 
 
 def _entry_lines(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[str]:
