@@ -24,7 +24,7 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from sim.core.advice import Action
-from sim.core.errors import BadRequest
+from sim.core.errors import BadRequest, refuse_unknown
 from sim.core.units import TURN, find_unit
 from sim.feedback import PRESETS, Preset
 from sim.fit import Fit
@@ -174,10 +174,8 @@ def write_robot_code(
             missing radius, a mechanism that the target has no gains for, or gains that are
             physically impossible.
     """
-    for what, given, known in (("target", target, TARGETS), ("season", season, SEASONS)):
-        if given not in known:
-            advice = f"Choose one of: {', '.join(map(str, known))}."
-            raise BadRequest(f"unknown {what} {given!r}", advice=advice)
+    refuse_unknown("target", target, TARGETS)
+    refuse_unknown("season", season, SEASONS)
     _refuse_impossible_gains(found)
     chosen = TARGETS[target]
     if found.type not in chosen.units:
