@@ -75,7 +75,7 @@ from sim.bench.mechanism import Mechanism
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import move_gains_only, simulate
 from sim.fit import fit
-from sim.plot import Table, measure_tracking_error, plot_misses, plot_time_series
+from sim.plot import Table, plot_misses, plot_time_series
 from sim.plot.animation import (
     Animation,
     Choice,
@@ -235,17 +235,21 @@ animate_mechanism(
 
 
 # %%
+def typical_error(driven: Mechanism, gains: dict[str, float]) -> float:
+    """The root mean square of the errors of the velocity [m/s]."""
+    return float(np.sqrt(np.mean((drive(driven, gains) - TARGET) ** 2)))
+
+
 def row(who: str, gains: dict[str, float]) -> tuple[str | float, ...]:
     """Gains, and how well they drive the robot."""
-    off = measure_tracking_error(TARGET, drive(robot, gains))
-    return (who, gains["kS"], gains["kV"], gains["kA"], off.typical)
+    return (who, gains["kS"], gains["kV"], gains["kA"], typical_error(robot, gains))
 
 
 def best_of_two_knobs() -> dict[str, float]:
     """Try every pair of kS and kV."""
     pairs = [(ks, kv) for ks in np.arange(0.0, 1.01, 0.02) for kv in np.arange(1.0, 4.01, 0.02)]
     found = [{"kS": float(ks), "kV": float(kv), "kA": 0.0} for ks, kv in pairs]
-    return min(found, key=lambda gains: measure_tracking_error(TARGET, drive(robot, gains)).typical)
+    return min(found, key=lambda gains: typical_error(robot, gains))
 
 
 two_knobs = best_of_two_knobs()
@@ -469,8 +473,8 @@ animate_mechanism(
 # %%
 BRACE = 4.0  # [kg]
 heavy, again = with_brace(BRACE)
-before = measure_tracking_error(TARGET, drive(robot, guessed)).typical
-after = measure_tracking_error(TARGET, drive(heavy, guessed)).typical
+before = typical_error(robot, guessed)
+after = typical_error(heavy, guessed)
 
 print(f"Typical error of {YOU}: {before:.3f} m/s before the brace, {after:.3f} m/s with it.")
 Table(

@@ -53,11 +53,13 @@ from sim.physics.motors import MOTORS, compute_theoretical_kv
 from sim.plot import (
     Picture,
     Table,
+    plot_choices,
     plot_gauge,
-    plot_relative_change,
     show_interactive,
+    tabulate_gains,
 )
 from sim.plot.animation import Choice, Gain, Knob, Motion, Panel, Scene, animate_mechanism
+from sim.teaching.logs import change_log
 
 drivetrain = MECHANISMS["drivetrain"]
 gains = drivetrain.gains
@@ -122,14 +124,9 @@ ask_question("lesson1.seven")
 
 # %%
 left = 7.0 - sum(bill(2.0, 0.0).values())
-print(
-    f"7 V − {gains['kS']:.2f} V (friction) − {gains['kV'] * 2:.2f} V (speed) = {left:.2f} V "
-    "are left."
-)
-print(
-    f"These volts accelerate the robot by {left / gains['kA']:.1f} m/s every second, so it gets "
-    "faster than 2 m/s."
-)
+price = f"{gains['kS']:.2f} V (friction) − {gains['kV'] * 2:.2f} V (speed)"
+print(f"7 V − {price}: {left:.2f} V are left.")
+print(f"They make the robot faster by {left / gains['kA']:.1f} m/s every second.")
 print(f"If the speed were steady, kV would have to be {(7.0 - gains['kS']) / 2:.2f} V·s/m.")
 
 # %% [markdown]
@@ -156,8 +153,6 @@ print(f"If the speed were steady, kV would have to be {(7.0 - gains['kS']) / 2:.
 display(ask_question("lesson1.step"), ask_question("lesson1.ramp"))
 
 # %%
-FINE = 0.002  # [s] between two points of the picture
-TERMS = ("kS·sgn(v)", "kV·v", "kA·a")
 DRIVES = {"slow ramp": 6.0, "sudden step": 0.6, "there and back": 3.0}  # and how long [s]
 
 
@@ -170,20 +165,9 @@ def voltage(which: str, time: np.ndarray) -> np.ndarray:
     return np.select([time < 1.0, time < 1.5, time < 2.5], [5.0, 0.0, -3.0], 0.0)
 
 
-def spent(which: str, mass: float, friction: float) -> tuple[np.ndarray, dict, np.ndarray]:
-    """Time, the three terms, and the applied voltage of a drive."""
-    price = replace(drivetrain, load=mass, friction=friction).gains
-    time = FINE * np.arange(round(DRIVES[which] / FINE) + 2)  # to the end, and one point more
-    applied = voltage(which, time)
-    _, moved = move_gains_only(price, time=time, voltage=applied)
-    v, a = (moved[:-1] + moved[1:]) / 2, np.diff(moved) / FINE  # from each point to the next
-    shares = (price["kS"] * np.sign(v), price["kV"] * v, price["kA"] * a)
-    return time[:-1], dict(zip(TERMS, shares, strict=True)), applied[:-1]
-
-
 def budget(which: str) -> Scene:
     """A drive of a robot whose mass and friction the sliders set: kA grows with the mass."""
-    step = FINE if which == "sudden step" else 0.01  # [s] a jump must not look like a slope
+    step = 0.002 if which == "sudden step" else 0.01  # [s] a jump must not look like a slope
     time = np.arange(0.0, DRIVES[which] + step / 2, step)
     price = {"kS": Gain("kS"), "kV": gains["kV"], "kA": Gain("mass", gains["kA"] / drivetrain.load)}
     return Scene(time, (Motion("robot", gains=price, voltage=voltage(which, time)),))
@@ -207,9 +191,7 @@ animate_mechanism(
 )
 
 # %%
-time, terms, _ = spent("slow ramp", 60.0, 0.15)
-halfway = float(terms["kA·a"][round(3.0 / FINE)])
-print(f"Halfway through the ramp, kA·a takes {halfway:.2f} V.")
+print(f"In the slow ramp, kA·a soon takes {0.5 * gains['kA'] / gains['kV']:.2f} V.")
 
 # %% [markdown]
 # ### Explain
@@ -236,8 +218,8 @@ print(f"Halfway through the ramp, kA·a takes {halfway:.2f} V.")
 # > ([WPILib docs: Introduction to DC Motor
 # > Feedforward](https://github.com/wpilibsuite/frc-docs/blob/250e32128d9a93f27d58bc3cd1d0b3ab5eec43cd/source/docs/software/advanced-controls/introduction/introduction-to-feedforward.rst))
 # >
-# > **Try it:** how many volts does kA·a take halfway through the slow ramp? The cell above printed
-# > it. Lesson 3 shows how kA·a changes a kS that you find with a straight line.
+# > **Try it:** how many volts does kA·a take in the slow ramp? The cell above printed it. Lesson 3
+# > shows how kA·a changes a kS that you find with a straight line.
 # </details>
 
 # %% [markdown]
@@ -303,21 +285,15 @@ for gain, unit in (("kV", "V·s/m"), ("kA", "V·s²/m")):
 # %%
 ask_question("lesson1.gears")
 
+
 # %%
-FRICTION = gains["kS"] / volts_per_newton  # [N] the force of friction, which stays as it is
-
-
-def built(mass: float, ratio: float, motors: int, wheel: float) -> dict[str, float]:
-    """The gains of a drivetrain from its parts; the wheel is a diameter in inches."""
-    radius = wheel * 0.0254 / 2
-    volts = kraken.resistance * radius / (motors * ratio * kraken.torque_constant)
-    return {"kS": volts * FRICTION, "kV": kraken.back_emf * ratio / radius, "kA": volts * mass}
-
-
 def other_parts(mass: float, ratio: float, motors: int, wheel: float) -> Picture:
-    """The gains of another robot, divided by those of ours."""
-    now = built(mass, ratio, motors, wheel)
-    return plot_relative_change({name: now[name] / gains[name] for name in gains})
+    """The gains of another robot, divided by those of ours; the wheel is a diameter in inches."""
+    radius = wheel * 0.0254 / 2
+    per_newton = (radius / (motors * ratio)) / (r / (n * G))  # the force of friction stays
+    turns = (ratio / radius) / (G / r)  # of the motor for a meter
+    change = {"kS": per_newton, "kV": turns, "kA": per_newton * mass / m}
+    return plot_choices(change, truth=1.0, name="now ÷ before", line="the same", within=1.0)
 
 
 show_interactive(
@@ -327,11 +303,6 @@ show_interactive(
     motors=widgets.Dropdown(options=[4, 2, 6], description="motors"),
     wheel=widgets.Dropdown(options=[4.0, 3.0, 6.0], description="wheel [in]"),
 )
-
-# %%
-geared = built(60.0, 8.14, 4, 4.0)
-print(f"kV is now {geared['kV'] / gains['kV']:.2f} times as large as before,", end=" ")
-print(f"and kA is {geared['kA'] / gains['kA']:.2f} times as large.")
 
 # %% [markdown]
 # With the 8.14:1 gears the motor turns faster for each m/s, so each m/s needs **more** volts. But
@@ -422,21 +393,6 @@ quick = sim.Routine(ramp=1.0, step=2.0)
 THEORY = 12 / free_speed
 
 
-def found(log: sim.Log) -> dict[str, float]:
-    """The gains of a log, by SysId's recipe."""
-    return fit(log, method="sysid").gains
-
-
-def seen(log: sim.Log, *, factor: float = 1.0, asked: bool = False) -> sim.Log:
-    """The same runs with a different encoder factor, or with the commanded voltage."""
-    runs = []
-    for run in log.runs:
-        volts = 12 * run.voltage / run.bus_voltage if asked else run.voltage
-        position, velocity = factor * run.position, factor * run.velocity
-        runs.append(replace(run, voltage=volts, position=position, velocity=velocity))
-    return replace(log, runs=tuple(runs))
-
-
 def bench(robot: Mechanism, seed: int) -> sim.Log:
     """The four tests of a robot."""
     return simulate(robot, quick, rng=np.random.default_rng(seed))
@@ -449,30 +405,22 @@ STORIES = {
     "10 kg more": bench(replace(sound, load=sound.load + 10), 2),
     "a part that rubs": bench(replace(sound, friction=0.8), 3),
     "thick grease in the gears": bench(replace(sound, drag=0.30), 4),
-    "code says 8.14, robot has 6.75": seen(bench(sound, 5), factor=6.75 / 8.14),
-    "diameter used as radius": seen(bench(sound, 7), factor=2.0),
-    "set(volts / 12), logs volts": seen(sagging, asked=True),
+    "code says 8.14, robot has 6.75": change_log(bench(sound, 5), factor=6.75 / 8.14),
+    "diameter used as radius": change_log(bench(sound, 7), factor=2.0),
+    "set(volts / 12), logs volts": change_log(sagging, commanded=True),
 }
 VERDICTS = {"bookkeeping": 0.0, "ok": 8.0, "watch": 20.0, "inspect": 40.0}
-
-
-def above(story: str) -> float:
-    """How far the measured kV is above the theoretical one [%]."""
-    return 100 * (found(STORIES[story])["kV"] / THEORY - 1)
-
+SETS = {story: fit(log, method="sysid").gains for story, log in STORIES.items()}
+ABOVE = {story: 100 * (found["kV"] / THEORY - 1) for story, found in SETS.items()}  # [%]
 
 SHORT = {"no fault": "no fault", "thick grease in the gears": "grease"}
 SHORT |= {"diameter used as radius": "wrong wheel"}
-marks = {name: above(story) for story, name in SHORT.items()}
+marks = {name: ABOVE[story] for story, name in SHORT.items()}
 plot_gauge(marks, VERDICTS, label="kV above theory [%]", good="ok")
 
 # %%
-rows = []
-for story, one in STORIES.items():
-    got = found(one)
-    over = f"{above(story):+.0f} %".replace("-", "−")
-    rows.append((story, got["kS"], got["kV"], got["kA"], over))
-Table(("robot", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "kV above theory"), tuple(rows))
+above = [f"{share:+.0f} %".replace("-", "−") for share in ABOVE.values()]
+tabulate_gains(SETS, first="robot", more={"kV above theory": above})
 
 # %% [markdown]
 # ### Explain
@@ -564,11 +512,6 @@ animate_mechanism(
 )
 
 # %%
-wheel_time = np.arange(0.0, 3.0, 0.001)
-_, spun = move_gains_only(MECHANISMS["shooter"].gains, time=wheel_time, voltage=np.full(3000, 4.0))
-for count in (1, 2, 3):
-    share = np.interp(count * tau("shooter"), wheel_time, spun) / spun[-1]
-    print(f"The shooter after {count} τ: {100 * share:.0f} % of its final speed")
 Table(
     ("mechanism", "τ [ms]", "rows of the log during one τ", "3 τ [ms]"),
     tuple((kind, 1000 * tau(kind), tau(kind) / 0.02, 3000 * tau(kind)) for kind in KINDS),
@@ -633,14 +576,10 @@ per_rotation = shooter["kV"] * TURN
 ask_question("lesson1.unit", kV=per_rotation)
 
 # %%
+SPEEDS = {"rot/s": 50.0, "rad/s": 50.0 * TURN, "deg/s": 50.0 * 360.0, "rpm": 50.0 * 60.0}
 rows = [
     (name, f"{speed:.0f}", per_rotation * 50.0 / speed, per_rotation * 50.0)
-    for name, speed in (
-        ("rot/s", 50.0),
-        ("rad/s", 50.0 * TURN),
-        ("deg/s", 50.0 * 360.0),
-        ("rpm", 50.0 * 60.0),
-    )
+    for name, speed in SPEEDS.items()
 ]
 Table(("unit", "the same speed in this unit", "kV [V for one unit]", "kV·v [V]"), tuple(rows))
 

@@ -376,9 +376,10 @@ Table(("runs", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "simulated velocity R²
 
 # %% [markdown]
 # A fit of one direction alone gives good gains. A fit of both directions together gives a wrong kA,
-# because the model has only one kS for both directions. The simulated velocity R² (SysId's score; 1
-# is perfect, lesson 7) stays high. So compare the gains of the forward runs with the gains of the
-# reverse runs.
+# because the model has only one kS for both directions. And its kS is nearly 0: the ramps show only
+# the sum of kS and kA·(ramp/kV), so a kA that is too large makes kS too small (lesson 7, section
+# 8). The simulated velocity R² (SysId's score; 1 is perfect, lesson 7) stays high. So compare the
+# gains of the forward runs with the gains of the reverse runs.
 #
 # Without the reverse runs you would know only the first row of the table. In reverse, your
 # feedforward would give only a third of the voltage that friction needs.

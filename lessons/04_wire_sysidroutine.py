@@ -53,16 +53,16 @@ from sim.bench.duty_cycle import Battery, simulate_duty_cycle
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import simulate
 from sim.fit import fit
-from sim.plot import Table, plot_time_series
-from sim.plot.animation import Choice, Motion, Panel, Scene, animate_mechanism
+from sim.plot import plot_time_series, tabulate_fits, tabulate_gains
+from sim.plot.animation.of_logs import animate_logs
+from sim.teaching.logs import change_log
 
 drivetrain = MECHANISMS["drivetrain"]
 truth = drivetrain.gains
 print(drivetrain.summary)
-Table(
-    ("gain", "true value", "unit"),
-    (("kS", truth["kS"], "V"), ("kV", truth["kV"], "V·s/m"), ("kA", truth["kA"], "V·s²/m")),
-    caption="These are the true gains of our drivetrain. On a real robot nobody knows them.",
+tabulate_gains(
+    {"our drivetrain": truth},
+    caption="The true gains. On a real robot nobody knows them.",
 )
 
 # %% [markdown]
@@ -112,19 +112,10 @@ plot_time_series(right, dynamic_seconds=1.0)
 
 
 # %%
-def row(name: str, log: sim.Log) -> tuple[str | float, ...]:
-    """One row of a table: what SysId's recipe finds in a log, and its two R²."""
-    found = fit(log, method="sysid")
-    gains = (found.gains["kS"], found.gains["kV"], found.gains["kA"])
-    return (name, *gains, found.acceleration_r2, found.simulated_velocity_r2)
-
-
-HEADER = ("log", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "acceleration R²", "simulated velocity R²")
-
 no_positions = replace(
     right, runs=tuple(replace(run, position=np.zeros(len(run))) for run in right.runs)
 )
-Table(HEADER, (row("correct", right), row("without positions", no_positions)))
+tabulate_fits({"correct": right, "without positions": no_positions}, truth)
 
 # %% [markdown]
 # The gains do not change. The two **R²** ("R squared") are SysId's scores: 1 is perfect. Lesson 7
@@ -159,19 +150,13 @@ Table(HEADER, (row("correct", right), row("without positions", no_positions)))
 # `Config` holds the ramp rate (volts per second), the step voltage (volts) and the timeout
 # (seconds). In Java, `null` means "use the library's default". In Python, leave the argument out:
 # there `None` is an error.
-
-# %%
-defaults = sim.Routine()
-Table(
-    ("setting", "default", "this lesson's log", "unit"),
-    (
-        ("ramp rate", defaults.ramp, routine.ramp, "V/s"),
-        ("step", defaults.step, routine.step, "V"),
-        ("timeout", defaults.timeout, routine.timeout, "s"),
-    ),
-)
-
-# %% [markdown]
+#
+# | setting | default | this lesson's log |
+# |---|---|---|
+# | ramp rate | 1 V/s | 0.5 V/s |
+# | step | 7 V | 3.5 V |
+# | timeout | 10 s | 10 s |
+#
 # **Myth check.** "A step between 3 and 7 V is fine." *It depends on your robot.* A maintainer of
 # WPILib calls the default of 7 V "almost always too much". The next cell computes the voltage above
 # which the wheels slip, V_slip = `kS + kA·μ·g` (lesson 3), for two drivetrains with the same
@@ -256,6 +241,19 @@ for mass in (60.0, 30.0):
 #    voltage than you expect. You can test this in section 4.
 # 3. **Every motor.** If one motor gets no voltage, the other motors have to turn it, too. Then the
 #    gains are wrong.
+#
+# <details><summary>If your code uses voltage compensation</summary>
+#
+# A SPARK with `voltageCompensation(12)` in its configuration takes a duty cycle as a share of 12 V,
+# not of the battery: `set(0.3)` is then 3.6 V, as long as the battery has more. (The setting is for
+# all modes: `SparkBaseConfig` of
+# [robotpy-rev 2026.0.4](https://pypi.org/project/robotpy-rev/2026.0.4/).) A TalonFX has no such
+# setting; its voltage requests do it. ([CTRE docs: Voltage, at one
+# commit](https://github.com/CrossTheRoadElec/Phoenix6-Documentation/blob/079a28341bc1ed380f3a4bc6e9fcec300517eabb/source/docs/api-reference/device-specific/talonfx/talonfx-control-intro.rst))
+#
+# **Do it:** search your code for `voltageCompensation` and for `set(`. Did somebody write
+# `set(volts / 12)`? Write `setVoltage(volts)`: it means volts with and without the setting.
+# </details>
 #
 # <details><summary>For mentors: setVoltage or VoltageOut?</summary>
 #
@@ -481,6 +479,19 @@ print(f"2π is {2 * math.pi:.4f}.")
 # %% [markdown]
 # ### Four commands, bound and guarded
 #
+# <details><summary>If your team uses YAMS: the routine is there</summary>
+#
+# A motor controller of YAMS makes the routine: `sysId(maxVoltage, stepVoltage, testDuration)`. It
+# sets the voltage, and logs voltage, position and velocity, in meters if you gave it the
+# mechanism's circumference. But the names mislead: it calls `Config(stepVoltage, maxVoltage,
+# testDuration)`. So `maxVoltage` is the *step*, and `stepVoltage` is the *ramp rate* in V/s.
+# ([SmartMotorController.java, at one
+# commit](https://github.com/Yet-Another-Software-Suite/YAMS/blob/01c4651f449e777dc133ae1cb079390ad352dfc0/yams/java/yams/motorcontrollers/SmartMotorController.java))
+#
+# **Do it:** find this call in your code. Which step does it ask for? You still bind the four
+# commands.
+# </details>
+#
 # The routine makes four commands: `quasistatic(kForward)`, `quasistatic(kReverse)`,
 # `dynamic(kForward)`, `dynamic(kReverse)`. Make them public, and bind **each to its own button**
 # (to *bind* means: this button starts this command). For each binding you need:
@@ -580,22 +591,6 @@ display(ask_question("lesson4.gain"), ask_question("lesson4.factor"), ask_questi
 # %%
 CIRCUMFERENCE = math.pi * 0.1016  # [m] of a 4 inch wheel
 TIRED = Battery(rest=12.2, resistance=0.035)
-
-
-def rescaled(log: sim.Log, factor: float) -> sim.Log:
-    """The same runs, but the encoder's numbers multiplied: a wrong unit, or a wrong sign."""
-    runs = (
-        replace(r, position=factor * r.position, velocity=factor * r.velocity) for r in log.runs
-    )
-    return replace(log, runs=tuple(runs))
-
-
-def as_asked(log: sim.Log) -> sim.Log:
-    """The same runs, but the log holds the commanded voltage."""
-    runs = (replace(run, voltage=12.0 * run.voltage / run.bus_voltage) for run in log.runs)
-    return replace(log, runs=tuple(runs))
-
-
 rng = np.random.default_rng(40)
 sagging = simulate_duty_cycle(drivetrain, routine, battery=TIRED, rng=rng)
 # Half the motors need twice the volts for the same force, and friction is a force.
@@ -605,11 +600,11 @@ halved = simulate(half, routine, rng=rng)
 # program -> (what its log says, what really happened)
 programs = {
     "correct": (right, right),
-    "share of the battery": (as_asked(sagging), sagging),
+    "share of the battery": (change_log(sagging, commanded=True), sagging),
     "…but logs applied volts": (sagging, sagging),
-    "turns called meters": (rescaled(right, 1 / CIRCUMFERENCE), right),
-    "radians taken for turns": (rescaled(right, 2 * math.pi), right),
-    "encoder inverted": (rescaled(right, -1.0), right),
+    "turns called meters": (change_log(right, factor=1 / CIRCUMFERENCE), right),
+    "radians taken for turns": (change_log(right, factor=2 * math.pi), right),
+    "encoder inverted": (change_log(right, factor=-1.0), right),
     "one motor of each pair": (halved, halved),
 }
 
@@ -619,25 +614,11 @@ programs = {
 
 # %%
 BUTTONS = {f"{button}: {test}": test for button, test in zip("ABXY", routine.tests, strict=True)}
-
-
-def hold_button(program: str, test: str) -> Scene:
-    """What one test of a program does, and what the log callback writes down."""
-    logged, happened = (log.list_runs_of_test(test)[0] for log in programs[program])
-    robot = Motion("robot", happened.velocity, happened.position, happened.voltage)
-    log = Motion("log", logged.velocity, logged.position, logged.voltage, ghost=True)
-    return Scene(happened.time - happened.time[0], (robot, log))
-
-
-animate_mechanism(
+animate_logs(
     "drivetrain",
-    {
-        (program, button): hold_button(program, test)
-        for program in programs
-        for button, test in BUTTONS.items()
-    },
-    choices=(Choice("program", tuple(programs)), Choice("button", tuple(BUTTONS))),
-    panels=(Panel("voltage", "voltage [V]"), Panel("velocity", "velocity [m/s]")),
+    programs,
+    tests=BUTTONS,
+    label="program",
     span=(-11.0, 21.0),
     alt="A robot drives while a button is held. A dashed outline shows where its log says that it "
     "is. With the correct program both are at the same place. With an inverted encoder the log "
@@ -645,23 +626,10 @@ animate_mechanism(
 )
 
 # %% [markdown]
-# The next table shows the gains and both R² for all seven programs:
+# The next table shows the gains, each divided by the true gain, and both R² for all seven programs:
 
 # %%
-Table(HEADER, tuple(row(name, log) for name, (log, _) in programs.items()))
-
-# %%
-asked, arrived = (fit(programs[name][0], method="sysid") for name in list(programs)[1:3])
-off = {gain: 100 * (asked.gains[gain] / truth[gain] - 1) for gain in truth}
-turns = fit(programs["turns called meters"][0], method="sysid").gains["kV"] / truth["kV"]
-worst = min(fit(log, method="sysid").simulated_velocity_r2 for log, _ in programs.values())
-print("   Errors with the commanded volts:", end=" ")
-print(f"kS {off['kS']:+.0f} %, kV {off['kV']:+.0f} %, kA {off['kA']:+.0f} %.")
-print(
-    f"   kV is {1 / turns:.2f} times too small, because the wheel's circumference is "
-    f"1/{1 / CIRCUMFERENCE:.2f} m."
-)
-print(f"   The lowest simulated velocity R² of all seven programs is {worst:.3f}.")
+tabulate_fits({name: log for name, (log, _) in programs.items()}, truth)
 
 # %% [markdown]
 # ### Explain what you saw

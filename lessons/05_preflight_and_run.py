@@ -37,12 +37,34 @@
 #
 # ### The four steps
 #
-# | step | what you do | where you learn it |
-# |---|---|---|
-# | 1. wire the routine | add a `SysIdRoutine` to the subsystem, bind four buttons | lesson 4 |
-# | 2. run the tests | make five checks, run four tests, fetch the log | **this lesson** |
-# | 3. inspect and fit | look at the data first, then compute the gains | lessons 6 and 7 |
-# | 4. place the gains | put them into the constants and the feedforward | lesson 8 |
+# Click each step to see what you do, and why.
+#
+# <details><summary>Step 1: wire the routine (lesson 4)</summary>
+#
+# **What:** add a `SysIdRoutine` to the subsystem, and bind its four tests to four buttons. **Why:**
+# the log contains only what your two callbacks set and write. A wrong unit here makes every later
+# number wrong.
+# </details>
+#
+# <details><summary>Step 2: run the tests (this lesson)</summary>
+#
+# **What:** make five checks, run the four tests, fetch the log. **Why:** nothing steers during a
+# test. And the ramps show kS and kV, the steps show kA: without one of the tests, a gain is
+# missing.
+# </details>
+#
+# <details><summary>Step 3: inspect, then fit (lessons 6 and 7)</summary>
+#
+# **What:** look at the data first, cut off what is damaged, then compute the gains. **Why:** a fit
+# always gives numbers, also for a log in which the robot hits a wall.
+# </details>
+#
+# <details><summary>Step 4: place the gains (lesson 8)</summary>
+#
+# **What:** put the gains with their units into the constants, and give them to the feedforward.
+# **Why:** in the wrong place or unit, a right gain gives a wrong voltage, without any error
+# message.
+# </details>
 #
 # The order matters: if nobody looked at the data, you cannot trust the gains.
 #
@@ -58,7 +80,7 @@
 # > page that opens with a click, and we could not see them. So the other three steps are our
 # > interpretation.
 # >
-# > **Try it:** cover the table, and write the four steps down in order. Exercise 6 asks for them.
+# > **Try it:** close all steps, and write the four down in order. Exercise 6 asks for them.
 # </details>
 
 # %%
@@ -76,8 +98,8 @@ from sim.bench.simulate import simulate
 from sim.fit import fit
 from sim.inspect.contaminate import contaminate
 from sim.inspect.detect_faults import inspect
-from sim.physics.battery import CONTROLLERS, Battery
-from sim.plot import Table, plot_time_series
+from sim.physics.battery import Battery
+from sim.plot import Table, plot_time_series, tabulate_gains
 from sim.plot.animation import (
     Choice,
     Gain,
@@ -88,15 +110,14 @@ from sim.plot.animation import (
     TestPlan,
     animate_mechanism,
 )
+from sim.teaching.logs import change_log
 from sim.teaching.runway import GRIP, THUMB, Floor, drive_test
 
 ROBOT = replace(MECHANISMS["drivetrain"], travel=None)  # nobody ends its tests but you
 TRUTH = ROBOT.gains
 print(ROBOT.summary)
-Table(
-    ("gain", "true value", "unit"),
-    (("kS", TRUTH["kS"], "V"), ("kV", TRUTH["kV"], "V·s/m"), ("kA", TRUTH["kA"], "V·s²/m")),
-    caption="We know the true gains of our robot, because it is simulated.",
+tabulate_gains(
+    {"our robot": TRUTH}, caption="We know the true gains, because the robot is simulated."
 )
 
 # %% [markdown]
@@ -123,24 +144,18 @@ FOOT = 0.3048  # [m]
 HALL = Floor(wall=60.0)  # so long that nothing is ever hit
 
 
-def way_to(speed: float, ramp: float) -> tuple[float, float]:
-    """Meters and seconds until the robot reaches a speed."""
-    went = drive_test(ROBOT, sim.Routine(ramp=ramp, timeout=11.0 / ramp), test=RAMP, floor=HALL)
-    there = int(np.argmax(went.velocity >= speed))
-    return float(went.position[there]), float(went.time[there])
-
-
 rows = []
 for ramp in (0.25, 0.5, 1.0, 2.0):
-    way, time = way_to(2.0, ramp)
-    rows.append((ramp, time, way, TRUTH["kV"] * 2.0**2 / (2 * ramp)))
+    went = drive_test(ROBOT, sim.Routine(ramp=ramp, timeout=11.0 / ramp), test=RAMP, floor=HALL)
+    fast, ten = np.argmax(went.velocity >= 2.0), np.argmax(went.position >= 10 * FOOT)
+    rule = TRUTH["kV"] * 2.0**2 / (2 * ramp)
+    rows.append((ramp, went.time[fast], went.position[fast], rule, went.velocity[ten]))
 
 slow = drive_test(ROBOT, sim.Routine(ramp=0.5, timeout=10.0), test=RAMP, floor=HALL)
 gone = slow.final_position
 print(f"With 0.5 V/s for 10 s, the robot drives {gone:.1f} m, or {gone / FOOT:.0f} feet.")
-Table(
-    ("ramp [V/s]", "2 m/s after [s]", "distance until then [m]", "kV·v²/(2·ramp) [m]"), tuple(rows)
-)
+HEADER = ("2 m/s after [s]", "distance until then [m]", "kV·v²/(2·ramp) [m]", "m/s after 10 feet")
+Table(("ramp [V/s]", *HEADER), tuple(rows))
 
 # %% [markdown]
 # "Slow is safe" is wrong here. With a slow ramp the robot drives for a long time and needs more
@@ -148,7 +163,8 @@ Table(
 # 3.)
 #
 # WPILib asks for "at least 10' of space, ideally closer to 20'" (10 feet are 3 m). CTRE recommends
-# 15 m. How fast is the robot after 10 feet?
+# 15 m. The last column shows how fast the robot is after 10 feet: you get only *some* data, and the
+# robot still needs room to brake. With more room it gets faster, and you need speed to measure kV.
 #
 # <details><summary>For mentors: how much room, with sources</summary>
 #
@@ -162,26 +178,8 @@ Table(
 # > [CTRE docs: Plumbing & Running
 # > SysId](https://github.com/CrossTheRoadElec/Phoenix6-Documentation/blob/079a28341bc1ed380f3a4bc6e9fcec300517eabb/source/docs/api-reference/wpilib-integration/sysid-integration/plumbing-and-running-sysid.rst))
 # >
-# > **Try it:** the next cell shows how fast the robot is after 10 feet.
+# > **Try it:** the last column of the table shows how fast the robot is after 10 feet.
 # </details>
-
-# %%
-rows = []
-for ramp in (0.5, 1.0, 2.0):
-    went = drive_test(ROBOT, sim.Routine(ramp=ramp, timeout=11.0 / ramp), test=RAMP, floor=HALL)
-    there = int(np.argmax(went.position >= 10 * FOOT))
-    volts = ramp * went.time[there]
-    share = went.velocity[there] / (12.0 / TRUTH["kV"])
-    rows.append((ramp, float(volts), float(went.velocity[there]), f"{100 * share:.0f} %"))
-Table(
-    ("ramp [V/s]", "voltage reached [V]", "speed reached [m/s]", "of its top speed"),
-    tuple(rows),
-    caption="How fast the robot is after 10 feet",
-)
-
-# %% [markdown]
-# Ten feet give you only *some* data, and the robot still needs room to brake. With more room it
-# gets faster, and you need speed to measure kV.
 #
 # **On blocks**, the wheels are in the air, and the motors turn only the wheels. Suppose that the
 # load on the motors is then a tenth of the robot's mass:
@@ -319,19 +317,15 @@ animate_mechanism(
 #
 # ### Which logs are good?
 #
-# For each row of the next table, the robot ran all four tests, and SysId's method computed the
-# gains. A value of 1 means that the gain is right. The program `sysid inspect` looks for known
-# faults (lesson 6).
+# Without check 4 there is no log at all. For each row of the next table, the robot ran all four
+# tests, and SysId's method computed the gains. A value of 1 means that the gain is right. The
+# program `sysid inspect` looks for known faults (lesson 6).
 
 # %%
 at_tape = replace(ROBOT, travel=7.0)  # you let go at the tape
 sound = simulate(at_tape, routine, rng=np.random.default_rng(5))
 untaped = simulate(ROBOT, routine, rng=np.random.default_rng(5))
 hit = drive_test(ROBOT, routine, test=RAMP, floor=Floor(wall=WALL)).hit_wall
-backward = replace(
-    sound,
-    runs=tuple(replace(r, position=-r.position, velocity=-r.velocity) for r in sound.runs),
-)
 into_wall = contaminate(
     untaped, "hard-stop", severity=3, test=RAMP, at=hit, rng=np.random.default_rng(1)
 )
@@ -339,16 +333,12 @@ logs = {
     "nothing": sound,
     "1 room": into_wall.log,
     "2 battery": simulate(TIRED, routine, rng=np.random.default_rng(5)),
-    "3 encoder": backward,
-    "4 log": None,
+    "3 encoder": change_log(sound, factor=-1.0),
     "5 guard": sound,
 }
 
 rows = []
 for name, log in logs.items():
-    if log is None:
-        rows.append((name, "there is no log", "-", "-", "-"))
-        continue
     found, seen = fit(log, method="sysid"), inspect(log)
     names = {damage.fault for damage in seen.damages} | {doubt.code for doubt in log.doubts}
     ratios = [found.gains[gain] / TRUTH[gain] for gain in ("kS", "kV", "kA")]
@@ -424,8 +414,6 @@ for name, robot in (("charged", ROBOT), ("tired", TIRED)):
         out = "brownout" if lowest < robot.brownout else "no"
         rows.append((f"{name}, {step:g} V", lowest, out, *(each / TRUTH["kA"] for each in ka)))
 
-for name, one in CONTROLLERS.items():
-    print(f"{name} turns the motors off below {one.brownout} V")
 Table(
     (
         "battery, step",
@@ -543,8 +531,6 @@ print(f"With the commanded voltage, it gives {asked:.2f} times the true kA.")
 # └─ AdvantageKit: a .wpilog file of its own (section 6)
 # ```
 #
-# The table shows three robots. Which is like yours?
-#
 # <details><summary>For mentors: the log folder, with sources</summary>
 #
 # > **Lesson says:** "the default path is /home/lvuser/logs/. Retrieve them via the Driver Station
@@ -558,28 +544,10 @@ print(f"With the commanded voltage, it gives {asked:.2f} times the true kA.")
 # > Logs](https://docs.wpilib.org/en/stable/docs/software/telemetry/datalog-download.html), [Data
 # > Logs](https://docs.wpilib.org/en/stable/docs/software/telemetry/datalog.html))
 # >
-# > **Try it:** find the folder for the three robots in the next cell. Then find it for your robot.
+# > **Try it:** find the folder for your robot in the tree above.
 # </details>
 
-
-# %%
-def folder(controller: str, *, stick: bool) -> str:
-    """Where DataLogManager writes."""
-    if stick:
-        return "/u/logs"
-    return "/home/systemcore/logs" if controller == "Systemcore" else "/home/lvuser/logs"
-
-
-Table(
-    ("controller", "USB stick?", "folder"),
-    (
-        ("roboRIO", "no", folder("roboRIO", stick=False)),
-        ("roboRIO", "yes, FAT32", folder("roboRIO", stick=True)),
-        ("Systemcore", "no", folder("Systemcore", stick=False)),
-    ),
-)
-
-# %% [markdown]
+#
 # <details><summary>Four ways to fetch the log, step by step</summary>
 #
 # WPILib's Data Log Tool and AdvantageScope can always fetch the log. (On a competition field, use a
@@ -645,10 +613,7 @@ plot_time_series(mine, dynamic_seconds=1.0)
 
 # %%
 gains = fit(mine, method="sysid").in_log_units()
-Table(
-    ("gain", "value", "unit"),
-    tuple((gain, gains.gains[gain], gains.format_gain_unit(gain)) for gain in ("kS", "kV", "kA")),
-)
+tabulate_gains({"the log": gains.gains})
 
 # %% [markdown]
 # In a terminal, with your own file, type:
@@ -677,6 +642,14 @@ Table(
 #    *Load*.
 # 5. Look at the plots first (lesson 6), then at the gains.
 #    ([WPILib docs: Loading Data](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/loading-data.html))
+#
+# The window shows three numbers that say how good the fit is: *acceleration R²*, *simulated
+# velocity R²* and *simulated velocity RMSE*. ([WPILib docs: Viewing Diagnostics, at one
+# commit](https://github.com/wpilibsuite/frc-docs/blob/29e2f6a9fcb7b1f342f094f7725f7bb4e038b905/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst))
+#
+# **Do it** with your own file, for one motor. Write down kS, kV, kA and these three numbers. Then
+# type `sysid fit FILE.wpilog --method sysid`: it uses the window's recipe, and shows the same
+# numbers. If they differ, compare type, units, motor and *Velocity Threshold*.
 # </details>
 
 # %% [markdown]
@@ -702,6 +675,11 @@ Table(
 # CTRE asks you not to convert with other tools, because they may lose signals.
 # ([CTRE docs: Plumbing & Running SysId](https://github.com/CrossTheRoadElec/Phoenix6-Documentation/blob/079a28341bc1ed380f3a4bc6e9fcec300517eabb/source/docs/api-reference/wpilib-integration/sysid-integration/plumbing-and-running-sysid.rst),
 # [Extracting Signal Logs](https://v6.docs.ctr-electronics.com/en/stable/docs/tuner/tools/log-extractor.html))
+#
+# If you log as in lesson 4, a signal that comes more slowly than your loop is written down twice,
+# or late. Ask for it once per loop: `m_motor.getVelocity().setUpdateFrequency(50)`, and the same
+# for `getPosition()` and `getMotorVoltage()`. **Do it,** then let `sysid inspect` look for *stale
+# samples*.
 #
 # Phoenix 6 (release 26.3) sets two current limits by itself. The stator limit is 120 A: stator
 # current is the current in the motor. The supply limit is 70 A: supply current is what the
@@ -732,7 +710,10 @@ Table(
 # - The units are rotations and rotations per **minute** (unless you set conversion factors in the
 #   SPARK).
 # - A NEO's own encoder filters the velocity so much that the logged velocity is about 0.1 s late
-#   (lesson 6).
+#   (lesson 6). Shorten the filter *before* the tests, in `config.encoder`: `uvwMeasurementPeriod`
+# (32 ms; from 8 ms) and `uvwAverageDepth` (8 samples; 1, 2, 4 or 8). ([`EncoderConfig` of
+# robotpy-rev 2026.0.4](https://pypi.org/project/robotpy-rev/2026.0.4/)) **Do it** with 8 ms and a
+# depth   of 2, and run one step with each setting. Which kA does `sysid fit` find?
 # </details>
 #
 # <details><summary>If your team uses AdvantageKit</summary>
@@ -835,10 +816,7 @@ changes = {
     "5 kg more": replace(ROBOT, load=ROBOT.load + 5.0),
     "wheels worn by 2 mm": replace(ROBOT, radius=ROBOT.radius - 0.002),
 }
-Table(
-    ("change", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]"),
-    tuple((name, *(one.gains[gain] for gain in TRUTH)) for name, one in changes.items()),
-)
+tabulate_gains({name: one.gains for name, one in changes.items()}, first="change")
 
 # %% [markdown]
 # ## 8 System check
@@ -951,7 +929,23 @@ display(ask_question("lesson5.quick"), enable_checkboxes())
 # Hints cost nothing: `grade exercise6 --hint`. If you use an editor, `grade watch exercise6` grades
 # each time you save.
 #
-# **On your own robot:** do the five checks today, with the robot disabled. Fetch any log from it,
-# and open it in AdvantageScope.
+# ### On your own robot: instrument a subsystem
+#
+# 1. Choose a subsystem with a motor: drivetrain, shooter, arm or elevator. Give it a `SysIdRoutine`
+#    with 0.5 V/s, a small step and a timeout of 10 s (lesson 4).
+# 2. Write the two callbacks. Bind the four tests, each with a comment that names the test and what
+#    it measures, and lock them.
+# 3. Make the five checks, and run the four tests (section 6).
+# 4. Fetch the log, and let the program check it:
+#
+# ```
+# sysid inspect my_log.wpilog
+# ```
+#
+# It must find four runs and no fault. Otherwise it says what is wrong: repeat the tests now.
+#
+# No robot today? Do the five checks with any robot that is disabled, and fetch any log from it. Or
+# record a log with the simulated robot program of section 6. Keep your log: you fit it in lesson 7,
+# and place its gains in lesson 8. `grade practice` grades all of this work.
 #
 # **Next:** [Lesson 6, read the data](06_read_the_data.ipynb). Can you trust this log?

@@ -13,7 +13,7 @@
 # %% [markdown]
 # # Lesson 6: Read the data
 #
-# *About 40 minutes. You need lessons 1 and 3. Today you decide whether you can trust a log.*
+# *About 45 minutes. You need lessons 1 and 3. Today you decide whether you can trust a log.*
 #
 # **At the end you can**
 #
@@ -62,7 +62,10 @@ from sim.plot import (
     plot_timesteps,
     plot_voltage_velocity,
     show_interactive,
+    tabulate_fits,
 )
+from sim.plot.animation.of_logs import animate_logs
+from sim.teaching.logs import select_rows
 from sim.teaching.r2_cases import GOOD, make_cases
 
 ROBOT = replace(MECHANISMS["drivetrain"], travel=None)
@@ -265,21 +268,29 @@ show_interactive(
 )
 
 # %% [markdown]
+# A log is only what the sensor says. Below, the robot really drives as in the clean log, and the
+# outline is where the log says that it is. Which fault moves the outline away for good?
+
+# %%
+LIARS = ("encoder slip", "stuck sensor", "unit error")
+animate_logs(
+    "drivetrain",
+    {name: (gallery[name], sound) for name in LIARS},
+    tests={"ramp": RAMP, "step": STEP},
+    label="fault",
+    alt="A robot drives, and an outline shows where its log says that it is. While the encoder "
+    "slips, the outline falls behind, and stays behind. A stuck sensor stops the outline for a "
+    "moment. With a wrong unit, its speed is wrong all the time.",
+)
+
+# %% [markdown]
 # The next table shows what each fault does to the gains. *kS ÷ true* is the gain that SysId finds,
 # divided by the true one: 1 is right. The two **R²** are scores that SysId shows for a fit: 1 is
 # perfect. Section 5 explains them.
 
 
 # %%
-def outcome(log: sim.Log) -> tuple[float, ...]:
-    """Each gain over its true value, and SysId's two R²."""
-    found = fit(log, method="sysid")
-    ratios = [found.gains[gain] / TRUTH[gain] for gain in ("kS", "kV", "kA")]
-    return (*ratios, found.acceleration_r2, found.simulated_velocity_r2)
-
-
-HEADER = ("log", "kS ÷ true", "kV ÷ true", "kA ÷ true", "acceleration R²", "simulated velocity R²")
-Table(HEADER, tuple((name, *outcome(log)) for name, log in gallery.items()))
+tabulate_fits(gallery, TRUTH)
 
 # %% [markdown]
 # ### What to look for
@@ -357,32 +368,26 @@ Table(HEADER, tuple((name, *outcome(log)) for name, log in gallery.items()))
 
 
 # %%
-def with_gaps(log: sim.Log, *, share: float, longest: float, rng: np.random.Generator) -> sim.Log:
-    """The same log, where a share of the loops is late by up to so many seconds."""
-    runs = []
-    for run in log.runs:
-        keep, place = np.ones(len(run), dtype=bool), 1
-        while place < len(run) - 1:
-            lost = int(rng.uniform(0.04, longest) / 0.02) - 1 if rng.random() < share else 0
-            keep[place : place + lost] = False
-            place += lost + 1
-        keep[-1] = True
-        runs.append(run.select(keep))
-    return replace(log, runs=tuple(runs))
+def written(run: sim.Run, share: float, longest: float, rng: np.random.Generator) -> np.ndarray:
+    """Whether each row is written: after a share of the rows, the next loops are late."""
+    late = rng.random(len(run)) < share
+    lost = np.convolve(late, np.ones(round(longest / 0.02)))[: len(run)] > 0
+    return ~lost | (np.arange(len(run)) == 0)
 
 
 rows = []
-for share, longest in ((0.0, 0.05), (0.05, 0.1), (0.2, 0.1), (0.2, 0.3)):
+for share, longest in ((0.0, 0.02), (0.05, 0.04), (0.05, 0.08), (0.05, 0.2)):
     found = []
     for seed in range(10):
         rng = np.random.default_rng(seed)
-        log = with_gaps(simulate(ROBOT, ROUTINE, rng=rng), share=share, longest=longest, rng=rng)
+        whole = simulate(ROBOT, ROUTINE, rng=rng)
+        log = select_rows(whole, lambda run, how=(share, longest, rng): written(run, *how))
         found.append(fit(log, method="sysid").gains)
     kv, ka = (np.array([one[gain] / TRUTH[gain] for one in found]) for gain in ("kV", "kA"))
-    name = f"{100 * share:.0f} % of the loops, up to {1000 * longest:.0f} ms" if share else "none"
-    rows.append((name, float(np.mean(kv)), float(np.mean(ka)), float(ka.min()), float(ka.max())))
+    name = f"{100 * share:.0f} % of the rows, {1000 * longest:.0f} ms are missing"
+    rows.append((name, kv.mean(), ka.mean(), ka.min(), ka.max()))
 
-Table(("gaps", "kV ÷ true", "kA ÷ true, mean of ten", "smallest", "largest"), tuple(rows))
+Table(("after", "kV ÷ true", "kA ÷ true, mean of ten", "smallest", "largest"), tuple(rows))
 
 # %% [markdown]
 # kV hardly changes. kA changes if a gap falls into the few samples in which the velocity rises.
@@ -456,45 +461,33 @@ plot_time_series(messy, dynamic_seconds=0.6)
 # %%
 def kept(log: sim.Log, *, end: float, threshold: float) -> sim.Log:
     """The log without what comes after ``end`` in the ramps, and without their slow samples."""
-    runs = []
-    for run in log.runs:
-        keep = np.ones(len(run), dtype=bool)
-        if run.kind == "quasistatic":
-            keep = (run.time - run.time[0] <= end) & (np.abs(run.velocity) >= threshold)
-        runs.append(run.select(keep))
-    return replace(log, runs=tuple(runs))
-
-
-def ratios(end: float, threshold: float, median: int) -> dict[str, float]:
-    """The gains of a choice, each over its true value."""
-    found = fit(kept(messy, end=end, threshold=threshold), method="sysid", median=median).gains
-    return {gain: found[gain] / TRUTH[gain] for gain in ("kS", "kV", "kA")}
+    return select_rows(
+        log,
+        lambda run: (
+            (run.kind == "dynamic")
+            | ((run.time - run.time[0] <= end) & (np.abs(run.velocity) >= threshold))
+        ),
+    )
 
 
 def trimmed(end: float, threshold: float, median: int) -> Picture:
-    """The same as a picture."""
-    return plot_choices(ratios(end, threshold, median), truth=1.0, name="found gain ÷ true gain")
+    """The gains of a choice, each over its true value."""
+    found = fit(kept(messy, end=end, threshold=threshold), method="sysid", median=median).gains
+    ratios = {gain: value / TRUTH[gain] for gain, value in found.items()}
+    return plot_choices(ratios, truth=1.0, name="found gain ÷ true gain")
 
-
-WHOLE = {"description_width": "initial"}  # a slider's name is not cut off
 
 show_interactive(
     trimmed,
-    threshold=widgets.FloatSlider(
-        min=0, max=1, step=0.05, description="threshold [m/s]", style=WHOLE
-    ),
-    end=widgets.FloatSlider(
-        min=1, max=6, step=0.1, value=6, description="ramp ends [s]", style=WHOLE
-    ),
-    median=widgets.SelectionSlider(
-        options=[1, 3, 5, 9, 15], value=1, description="median of samples", style=WHOLE
-    ),
+    threshold=widgets.FloatSlider(max=1, step=0.05, description="from [m/s]"),
+    end=widgets.FloatSlider(min=1, max=6, step=0.1, value=6, description="until [s]"),
+    median=widgets.SelectionSlider(options=[1, 3, 5, 9, 15], value=1, description="median"),
 )
 
 # %% [markdown]
-# - The threshold drops the noisy standstill, and the samples at the stop. The setting "ramp ends"
-#   cuts off the hard stop with its bounce. The median removes the wild readings. No single setting
-#   repairs all three faults.
+# - The threshold (*from*) drops the noisy standstill, and the samples at the stop. *until* ends the
+#   ramp and cuts off the hard stop with its bounce. The median removes the wild readings. No single
+#   setting repairs all three faults.
 # - **More filtering is not better.** A median of 15 samples flattens the rise, so kA is only half
 #   its true value. A threshold of 1 m/s drops the slow part of the ramp, which shows kS.
 #
@@ -539,38 +532,29 @@ display(ask_question("lesson6.count", wrong=len(wrong)), ask_question("lesson6.r
 # *reveal*.
 
 # %%
-order = np.random.default_rng(6).permutation(len(all_cases))
-LETTERS = {all_cases[index].name: chr(ord("A") + place) for place, index in enumerate(order)}
-SIM, ACC = "simulated velocity R²", "acceleration R²"
-SCORES = {
-    SIM: {case.name: case.fit.simulated_velocity_r2 for case in all_cases},
-    ACC: {case.name: case.fit.acceleration_r2 for case in all_cases},
-}
-OFF = {
-    gain: {case.name: case.compute_gain_error(gain) for case in all_cases}
-    for gain in ("kS", "kV", "kA")
-}
+order = np.random.default_rng(6).permutation([case.name for case in all_cases]).tolist()
+LETTERS = {name: chr(ord("A") + place) for place, name in enumerate(order)}
+SIM = "simulated velocity R²"
 KEYS = {
-    "letter": lambda name: LETTERS[name],
-    SIM: lambda name: -SCORES[SIM][name],
-    ACC: lambda name: -SCORES[ACC][name],
-    "error of kA": lambda name: abs(OFF["kA"][name]),
+    "letter": lambda case: LETTERS[case.name],
+    SIM: lambda case: -case.fit.simulated_velocity_r2,
+    "acceleration R²": lambda case: -case.fit.acceleration_r2,
+    "error of kA": lambda case: abs(case.compute_gain_error("kA")),
 }
-
-
-def label(name: str, *, revealed: bool) -> str:
-    """What a log is called before and after its damage is revealed."""
-    return f"{LETTERS[name]}: {name}" if revealed else f"log {LETTERS[name]}"
 
 
 def grid(sort: str, truth: str) -> Picture:
     """All logs with their scores, and on demand their damage and the errors of their gains."""
     revealed = truth == "reveal"
-    key = KEYS[sort] if revealed or sort in SCORES else KEYS["letter"]  # an error would tell
-    names = {name: label(name, revealed=revealed) for name in sorted(LETTERS, key=key)}
-    scores = {shown: SCORES[SIM][name] for name, shown in names.items()}
+    key = KEYS["letter" if sort == "error of kA" and not revealed else sort]  # an error would tell
+    shown = {
+        f"{LETTERS[case.name]}: {case.name}" if revealed else f"log {LETTERS[case.name]}": case
+        for case in sorted(all_cases, key=key)
+    }
+    scores = {name: case.fit.simulated_velocity_r2 for name, case in shown.items()}
     off = {
-        gain: {shown: found[name] for name, shown in names.items()} for gain, found in OFF.items()
+        gain: {name: case.compute_gain_error(gain) for name, case in shown.items()}
+        for gain in ("kS", "kV", "kA")
     }
     return plot_r2_vs_gain_error(scores, good=GOOD, score=SIM, off=off if revealed else None)
 
@@ -581,49 +565,14 @@ show_interactive(
     sort=widgets.Dropdown(options=list(KEYS), description="sort by"),
 )
 
-# %% [markdown]
-# This table shows the damage in each log, the errors of its gains, and the acceleration R². Decide
-# before you look.
-
-
-# %%
-def percent(share: float) -> str:
-    """A share with its sign, on one line; no minus before a zero."""
-    whole = round(100 * share)
-    return f"{whole:+d}\N{NO-BREAK SPACE}%".replace("-", "−") if whole else "0\N{NO-BREAK SPACE}%"
-
-
-Table(
-    ("log", "what happened", "kS", "kV", "kA", ACC),
-    tuple(
-        (
-            label(case.name, revealed=True),
-            case.story,
-            *(percent(case.compute_gain_error(gain)) for gain in OFF),
-            case.fit.acceleration_r2,
-        )
-        for case in sorted(all_cases, key=lambda case: LETTERS[case.name])
-    ),
-    caption="Errors of the gains. The robot has 60 kg and four Kraken X60. The ramp rises by 1 V/s "
-    "for 7 s. The step is 3.5 V, unless the name of the log gives another voltage.",
-)
-
 # %%
 passing = [case for case in wrong if case.has_good_r2]
-damage = [
-    case for case in wrong if abs(case.compute_gain_error("kV")) < 0.2
-]  # without mere changes of units
-typical = {
-    gain: float(np.median([abs(case.compute_gain_error(gain)) for case in damage])) for gain in OFF
-}
-best = max(wrong, key=lambda case: case.fit.acceleration_r2)
 print(f"{len(passing)} of {len(wrong)} wrong logs have a {SIM} above {GOOD:g}.")
-print(
-    f"In half of the {len(damage)} wrong logs without a changed unit, the errors are larger than",
-    end=" ",
-)
-print(", ".join(f"{gain} {100 * size:.1f} %" for gain, size in typical.items()))
-print(f"The highest {ACC} of a wrong log: {best.fit.acceleration_r2:.2f} ({best.name}).")
+damage = [case for case in wrong if abs(case.compute_gain_error("kV")) < 0.2]
+print(f"In half of the {len(damage)} wrong logs without a changed unit, the errors are larger than")
+for gain in ("kS", "kV", "kA"):
+    half = np.median([abs(case.compute_gain_error(gain)) for case in damage])
+    print(f"  {gain}: {100 * half:.1f} %")
 
 # %% [markdown]
 # ### Explain
@@ -644,8 +593,8 @@ print(f"The highest {ACC} of a wrong log: {best.fit.acceleration_r2:.2f} ({best.
 # - A repaired log can have a **lower** R² than a wrong one. The fit no longer uses the wild
 #   readings of the repaired log. But for the score, SysId compares its simulation with all recorded
 #   samples, and the wild readings are among them.
-# - Each row of the table is only one simulated log. Its errors also depend on luck, for example on
-#   where a gap is. So remember from this table which *kind* of error a fault causes, not the exact
+# - Each of these logs is only one simulation. Its errors also depend on luck, for example on
+#   where a gap is. So remember which *kind* of error a fault causes, not the exact
 #   numbers.
 # </details>
 #
@@ -668,22 +617,16 @@ CHECKS = {
     "acceleration R²": lambda case: case.fit.acceleration_r2 < 0.2,
     "looked": lambda case: bool(inspect(case.log).damages),
 }
-caught = {
-    case.name: {name: check(case) for name, check in CHECKS.items()}
+rows = [
+    (case.name, *("caught" if check(case) else "·" for check in CHECKS.values()))
     for case in all_cases
     if case.name != "10 spikes, median of 5"
-}
-Table(
-    ("log", *CHECKS),
-    tuple(
-        (name, *("caught" if c else "·" for c in found.values())) for name, found in caught.items()
-    ),
-)
+]
+Table(("log", *CHECKS), tuple(rows))
 
 # %%
-escaped = [name for name, found in caught.items() if not any(found.values())]
-by_signs = sum(found["signs"] for found in caught.values())
-print(f"The signs find {by_signs} logs.  No check finds these logs: {'; '.join(escaped)}.")
+escaped = [name for name, *found in rows if "caught" not in found]
+print(f"No check finds these logs: {'; '.join(escaped)}.")
 
 # %% [markdown]
 # The clean log has no fault, so no check reports it. But the other two logs in that last line are

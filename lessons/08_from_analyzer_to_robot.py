@@ -13,7 +13,7 @@
 # %% [markdown]
 # # Lesson 8: From the analyzer to the robot
 #
-# *About 45 minutes. You need lessons 1, 2 and 7. You need no robot today.*
+# *About 40 minutes. You need lessons 1, 2 and 7. You need no robot today.*
 #
 # **At the end you can**
 #
@@ -36,10 +36,8 @@
 
 # %%
 import math
-from collections.abc import Callable
 from dataclasses import replace
 
-import ipywidgets as widgets
 import numpy as np
 from IPython.display import display
 
@@ -49,30 +47,23 @@ from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import simulate
 from sim.core.units import convert_gains
 from sim.fit import fit
+from sim.physics.model import Model
 from sim.physics.motors import find_motor
-from sim.plot import (
-    Picture,
-    Table,
-    measure_tracking_error,
-    plot_curves,
-    plot_tracking_error,
-    show_interactive,
-)
-from sim.plot.animation import Motion, Panel, Scene, animate_mechanism
+from sim.plot import Table, tabulate_gains
+from sim.plot.animation import Choice, Motion, Panel, Scene, Score, animate_mechanism
 from sim.reconcile import reconcile
-from sim.report.controller_snippet import write_controller_code
 from sim.report.robot_code_snippet import ORDER, write_robot_code
 from sim.teaching.answers import read_answer
 from sim.teaching.profile_loop import (
-    ONBOARD,
+    LOOP,
     ElevatorFeedforward,
     FollowedMove,
     LoopInput,
     PIDController,
     TrapezoidProfile,
     check_loop,
-    compute_phoenix_voltage,
     follow_in_closed_loop,
+    simulate_loop,
 )
 
 shooter, elevator, arm = (MECHANISMS[name] for name in ("shooter", "elevator", "arm"))
@@ -100,7 +91,7 @@ print(f"The mechanism: {shooter.summary}. Its gains are per rotation.")
 # not in the model cause larger errors. So trust only two or three digits.)
 
 # %%
-print(write_robot_code(found, language="java", season=2026, name="shooter"))
+print(write_robot_code(found, target="java", season=2026, name="shooter"))
 
 # %% [markdown]
 # **Predict:**
@@ -109,12 +100,12 @@ print(write_robot_code(found, language="java", season=2026, name="shooter"))
 ask_question("lesson8.season")
 
 # %%
-for language in ("java", "python"):
+for target in ("java", "python"):
     old, new = (
-        write_robot_code(found, language=language, season=season, name="shooter").splitlines()
+        write_robot_code(found, target=target, season=season, name="shooter").splitlines()
         for season in (2026, 2027)
     )
-    print(f"{language}: these lines are different in the two seasons:")
+    print(f"{target}: these lines are different in the two seasons:")
     print("\n".join(f"  2026  {line.strip()}" for line in old if line not in new))
     print("\n".join(f"  2027  {line.strip()}" for line in new if line not in old))
 
@@ -165,55 +156,22 @@ lift = elevator.gains
 ask_question("lesson8.slot")
 
 # %% [markdown]
-# The function `moved` simulates a mechanism. Every 20 ms it calls the function `volts` to get a
-# voltage.
-
-
-# %%
-LOOP, STEPS = 0.02, 20  # [s] of the robot program, and into how many pieces the bench cuts it
-Volts = Callable[[int, list[float], list[float]], float]
-
-
-def moved(gains: dict[str, float], volts: Volts, *, loops: int, arm: bool = False) -> np.ndarray:
-    """Positions and velocities (2, loops + 1) of a mechanism, from rest, with these volts."""
-    x, v = [0.0], [0.0]
-    kept = math.exp(-gains["kV"] / gains["kA"] * LOOP / STEPS)
-    for loop in range(loops):
-        asked = min(max(volts(loop, x, v), -12.0), 12.0)
-        place, speed = x[-1], v[-1]
-        for _ in range(STEPS):
-            weight = gains.get("kG", 0.0) * (math.cos(place) if arm else 1.0)
-            free = asked - weight
-            if speed == 0.0 and abs(free) <= gains["kS"]:
-                break  # friction holds it
-            way = math.copysign(1.0, speed or free)
-            final = (free - way * gains["kS"]) / gains["kV"]
-            after = final + (speed - final) * kept
-            after = 0.0 if after * way < 0.0 else after  # friction stops it, and may hold it
-            place += 0.5 * (speed + after) * LOOP / STEPS
-            speed = after
-        x.append(place)
-        v.append(speed)
-    return np.array([x, v])
-
-
-# %% [markdown]
 # At rest, the output of an elevator's feedforward is its second argument.
 
 # %%
 orders = {
-    "kS, kG, kV, kA (right)": ("kS", "kG", "kV", "kA"),
-    "kS, kV, kA, kG (kG last)": ("kS", "kV", "kA", "kG"),
-    "kG, kS, kV, kA (kG first)": ("kG", "kS", "kV", "kA"),
+    "kS, kG, kV, kA (right)": "kG",
+    "kS, kV, kA, kG (kG last)": "kV",
+    "kG, kS, kV, kA (kG first)": "kS",
 }
 rows = []
-for name, order in orders.items():
-    slot = lift[order[ORDER["elevator"].index("kG")]]
-    seconds = moved(lift, lambda *_, slot=slot: slot, loops=50)
-    rows.append((name, slot, 100 * float(seconds[0, -1])))
+for order, second in orders.items():
+    free = lift[second] - lift["kG"]  # friction holds the carriage against kS volts
+    does = "stays" if abs(free) <= lift["kS"] else "rises" if free > 0 else "falls"
+    rows.append((order, lift[second], does))
 print(f"The carriage needs {lift['kG']:.2f} V to hold still.", end=" ")
 print(f"Friction allows {lift['kS']:.2f} V more or less.")
-Table(("arguments", "voltage at zero speed [V]", "height after one second [cm]"), tuple(rows))
+Table(("arguments", "voltage at zero speed [V]", "the carriage"), tuple(rows))
 
 # %% [markdown]
 # ### `calculate`: velocities, not an acceleration
@@ -250,7 +208,7 @@ Table(("arguments", "voltage at zero speed [V]", "height after one second [cm]")
 # ```
 
 # %%
-print(write_controller_code(found, target="phoenix6", name="shooter"))
+print(write_robot_code(found, target="phoenix6", name="shooter"))
 foc = replace(shooter, motor=find_motor("krakenX60FOC")).gains
 share = {gain: 100 * (foc[gain] / shooter.gains[gain] - 1) for gain in ("kV", "kA")}
 print("FOC is a mode of CTRE's motors. With FOC, the gains of the same wheel change:", end=" ")
@@ -269,6 +227,33 @@ print(f"kV by {share['kV']:+.1f} %, kA by {share['kA']:+.0f} %.")
 # FOC are wrong without it. (`VelocityVoltage` and `Slot0Configs` in [Phoenix 6, release
 # 26.3.0](https://pypi.org/project/phoenix6/26.3.0/), [REVLib API:
 # FeedForwardConfig](https://codedocs.revrobotics.com/java/com/revrobotics/spark/config/feedforwardconfig))
+# </details>
+#
+# <details><summary>If you use TorqueCurrentFOC: gains in amperes</summary>
+#
+# A request such as `VelocityTorqueCurrentFOC` sets the *current* of the motor, so it "directly
+# controls the acceleration". ([CTRE docs: TorqueCurrentFOC, at one
+# commit](https://github.com/CrossTheRoadElec/Phoenix6-Documentation/blob/079a28341bc1ed380f3a4bc6e9fcec300517eabb/source/docs/api-reference/device-specific/talonfx/talonfx-control-intro.rst))
+# Then kS, kV, kA and kP of the slot are in **amperes**. Gains in volts are wrong there:
+#
+# - kV is nearly 0: a steady speed needs volts against the back-EMF, but hardly any current.
+# - kS and kA: divide the gain in volts by the motor's resistance R = 12 V / (stall current).
+#
+# **Do it:** a flywheel with two Kraken X60 has kS = 0.12 V, and R is 0.033 Ω. How many amperes is
+# its kS? (3.7 A for each motor.) Then look into your team's code: which requests does it use, and
+# do the gains of their slot have the right unit?
+# </details>
+#
+# <details><summary>If your arm is not level at 0</summary>
+#
+# An arm's kG is multiplied by the cosine of its position. So 0 must be where the *center of mass*
+# is level, and for an arm like an L that is not where the arm looks level. The fit finds this angle
+# (lesson 2). Set the sensor to 0 there. Or give Phoenix 6 the angle, in rotations:
+# `GravityArmPositionOffset` in `Slot0Configs`, from −0.25 to 0.25. ([`Slot0Configs` of phoenix6
+# 26.3.0](https://pypi.org/project/phoenix6/26.3.0/))
+#
+# **Do it:** hold the arm where its center of mass is level, with the robot disabled. What does the
+# sensor show?
 # </details>
 #
 # <details><summary>If your swerve drive uses a newer YAGSL</summary>
@@ -294,21 +279,19 @@ TARGET = np.interp(TIME, [0.0, 0.2, 1.4, 2.6, 3.6, 4.0], [0, 0, 50, 50, 0, 0])  
 wheel = convert_gains(shooter.gains, factor=2 * math.pi)  # the truth, per rotation
 
 
-def forward(gains: dict[str, float]) -> np.ndarray:
-    """The feedforward's volts along the profile."""
-    ahead = np.append(TARGET[1:], TARGET[-1])
-    speed_up = gains["kA"] * (ahead - TARGET) / LOOP
-    return gains["kS"] * np.sign(np.maximum(TARGET, ahead)) + gains["kV"] * TARGET + speed_up
+target = Motion("target", velocity=TARGET, asked=True)
 
 
-def follow(gains: dict[str, float], kp: float = 0.0, late: int = 0) -> np.ndarray:
-    """The wheel's velocity with a feedforward and a kP; it is measured some loops late."""
-    fed = forward(gains)
+def follow(gains: dict[str, float], kp: float) -> Motion:
+    """The wheel with a feedforward and a kP."""
 
     def volts(loop: int, _: list[float], v: list[float]) -> float:
-        return float(fed[loop]) + kp * (float(TARGET[loop]) - v[max(loop - late, 0)])
+        now, ahead = TARGET[loop], TARGET[min(loop + 1, TIME.size - 1)]
+        fed = gains["kS"] * np.sign(max(now, ahead)) + gains["kV"] * now
+        return float(fed + gains["kA"] * (ahead - now) / LOOP + kp * (now - v[-1]))
 
-    return moved(wheel, volts, loops=TIME.size - 1)[1]
+    turns, velocity, _ = simulate_loop(Model("simple", wheel), volts, loops=TIME.size)
+    return Motion("wheel", velocity=velocity, position=2 * math.pi * turns)
 
 
 measured = {name: found.gains[name] for name in ORDER["simple"]}
@@ -335,39 +318,25 @@ GAINS = {
 display(ask_question("lesson8.radian"), ask_question("lesson8.rotation"))
 
 # %% [markdown]
-# Choose gains and a kP. (kP is always per rotation.)
-
+# Choose gains and a kP. (kP is always per rotation.) With 12 V the wheel reaches about 100 rot/s.
 
 # %%
-def follower(gains: str, kp: float) -> Picture:
-    """The profile, and the velocity of the wheel."""
-    title = f"kP = {kp:g} V per rot/s"
-    return plot_tracking_error(
-        TIME, TARGET, {gains: follow(GAINS[gains], kp)}, unit="rot/s", title=title
-    )
-
-
-show_interactive(
-    follower,
-    gains=widgets.Dropdown(options=list(GAINS), description="gains"),
-    kp=widgets.FloatSlider(min=0, max=0.6, step=0.02, value=0, description="kP"),
+KPS = {f"{kp:g}": kp for kp in (0.0, 0.1, 0.2, 0.4)}  # [V per rot/s]
+animate_mechanism(
+    "flywheel",
+    {
+        (name, shown): Scene(TIME, (follow(gains, kp), target), target=TARGET)
+        for name, gains in GAINS.items()
+        for shown, kp in KPS.items()
+    },
+    choices=(Choice("gains", tuple(GAINS)), Choice("kP", tuple(KPS))),
+    panels=(Panel("velocity", "velocity [rot/s]", low=-5.0, high=105.0),),
+    score=Score("wheel", unit="rot/s"),
+    slow=12.0,
+    alt="A wheel spins up to 50 rot/s, holds this speed, and spins down. With the measured gains "
+    "it follows its target closely. With gains per radian, it hardly turns. With gains that are 2π "
+    "times too large, it is twice as fast as its target.",
 )
-
-# %% [markdown]
-# The next table compares all sets of gains, without and with feedback:
-
-# %%
-SOME = 0.2  # [V per rot/s]
-Table(
-    ("gains", "top speed [rot/s]", "error [rot/s], kP = 0", f"error [rot/s], kP = {SOME}"),
-    tuple(
-        (name, float(follow(one).max()), measure_tracking_error(TARGET, follow(one)).typical,
-         measure_tracking_error(TARGET, follow(one, SOME)).typical)
-        for name, one in GAINS.items()
-    ),
-    caption=f"The highest target is {TARGET.max():.0f} rot/s. With 12 V the wheel "
-    f"reaches {(12 - wheel['kS']) / wheel['kV']:.0f} rot/s.",
-)  # fmt: skip
 
 # %% [markdown]
 # ### Explain
@@ -415,55 +384,44 @@ WANTED = 4000 / 60  # [rot/s]
 STEADY = wheel["kS"] + wheel["kV"] * WANTED
 
 
-def left_over(kp: float, share: float = 11.7 / 12.0) -> float:
-    """By how many rpm the wheel stays below its target, if it gets a share of each volt."""
+def hold_speed(times: float, late: int = 0) -> Motion:
+    """The wheel with 11.7/12 of each volt and a kP of some kV; it is measured some loops late."""
 
-    def volts(_: int, __: list[float], v: list[float]) -> float:
-        return share * (STEADY + kp * (WANTED - v[-1]))
+    def volts(loop: int, _: list[float], v: list[float]) -> float:
+        asked = STEADY + times * wheel["kV"] * (WANTED - v[max(loop - late, 0)])
+        return min(asked, 12.0) * 11.7 / 12
 
-    return 60 * (WANTED - float(moved(wheel, volts, loops=250)[1, -1]))
-
-
-KPS = np.array([0.0, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6])
-REMAINING = [left_over(kp) for kp in KPS.tolist()]
+    turns, velocity, _ = simulate_loop(Model("simple", wheel), volts, loops=TIME.size)
+    return Motion("wheel", velocity=60 * velocity, position=2 * math.pi * turns)
 
 
-def remaining_error(kp: float) -> Picture:
-    """The remaining error for each kP."""
-    rule = REMAINING[0] / (1 + KPS / wheel["kV"])
-    return plot_curves(
-        KPS,
-        {"simulated": REMAINING, "error without kP ÷ (1 + kP/kV)": rule},
-        xlabel="kP [V per rot/s]",
-        ylabel="rpm below the target",
-        marked=(kp, left_over(kp)),
-        mark="your kP",
-    )
-
-
-show_interactive(
-    remaining_error,
-    kp=widgets.FloatSlider(min=0, max=0.6, step=0.02, value=0.12, description="kP"),
+wanted = Motion("target", velocity=np.full(TIME.size, 60 * WANTED), asked=True)
+TIMES, LATE = {"0": 0, "kV": 1, "4 · kV": 4, "6 · kV": 6}, {"at once": 0, "120 ms late": 6}
+animate_mechanism(
+    "flywheel",
+    {
+        (shown, when): Scene(TIME, (hold_speed(times, late), wanted))
+        for shown, times in TIMES.items()
+        for when, late in LATE.items()
+    },
+    choices=(Choice("kP", tuple(TIMES)), Choice("the speed is measured", tuple(LATE))),
+    panels=(Panel("velocity", "speed [rpm]", low=3000.0, high=5000.0),),
+    slow=12.0,
+    alt="A wheel spins up to nearly 4000 rpm. With a larger kP it comes closer to 4000 rpm. But "
+    "with a large kP and a speed that is measured 120 ms late, its speed swings up and down.",
 )
 
 # %%
-print(f"kP = kV: {left_over(wheel['kV']):.0f} of {REMAINING[0]:.0f} rpm remain.")
-print(f"kP = 4 · kV: {left_over(4 * wheel['kV']):.0f} rpm remain.")
+rests = {name: 4000 - float(hold_speed(times).velocity[-1]) for name, times in TIMES.items()}
+print(", ".join(f"kP = {name}: {rest:.0f} rpm remain" for name, rest in rests.items()))
+print(f"kP that the fit suggests: {found.feedback()['velocity'].kp:.3f} V per rot/s,", end=" ")
+print(f"which is {found.feedback()['velocity'].kp / wheel['kV']:.1f} · kV.")
 
 # %% [markdown]
 # Feedback with kP acts only if there is an error. So it never removes the whole error: about
 # **error ÷ (1 + kP/kV)** remains. (Engineers call it *droop*.) With a larger kP, less of the error
-# remains. So why not use a very large kP?
-
-# %%
-suggested = found.feedback()["velocity"].kp
-print(f"kP that the fit suggests, for WPILib's own loop: {suggested:.3f} V per rot/s.")
-shaking = follow(measured, 0.6, late=6)
-plot_tracking_error(
-    TIME, TARGET, {"kP = 0.6, 120 ms late": shaking, "kP = 0": follow(measured)}, unit="rot/s"
-)
-
-# %% [markdown]
+# remains. So why not use a very large kP? Choose "120 ms late" above.
+#
 # If the measurement is late, the feedback may correct an error that is already gone. Then a large
 # kP makes the error larger, until the speed oscillates (swings up and down). So choose SysId's
 # *Gain Preset* for your motor controller, and start from the suggested kP.
@@ -595,21 +553,10 @@ animate_mechanism(
 )
 
 # %%
-rows = []
-for name, move in moves.items():
-    gains = SETS.get(name, SETS["reconciled"])
-    again = rise(gains, kp=0.0, with_tube=name not in SETS)
-    rows.append(
-        (
-            name,
-            *(gains[gain] for gain in ORDER["elevator"]),
-            100 * again.worst_error,
-            100 * move.worst_error,
-        )
-    )
-Table(
-    ("gains", *ORDER["elevator"], "worst error [cm], kP = 0", "worst error [cm], kP = 5"),
-    tuple(rows),
+tabulate_gains(
+    {name: SETS.get(name, SETS["reconciled"]) for name in moves},
+    first="gains",
+    more={"worst error [cm]": [100 * move.worst_error for move in moves.values()]},
 )
 
 # %% [markdown]
@@ -639,57 +586,28 @@ Table(
 # **Motion Magic** does all of this inside the motor controller. It uses the gains of
 # `Slot0Configs`, in volts per rotation of the *mechanism*. Here that is the drum that winds up the
 # rope.
-
-# %%
-DRUM = 2 * math.pi * robot.radius  # [m] for one rotation of the drum
-per_drum = convert_gains(SETS["reconciled"], factor=DRUM) | {"kP": 5.0 * DRUM}
-per_rotor = convert_gains(SETS["reconciled"], factor=DRUM / robot.ratio) | {
-    "kP": 5 * DRUM / robot.ratio
-}
-
-
-def magic(slot0: dict[str, float]) -> FollowedMove:
-    """The move with Motion Magic; the tube's volts are the request's own feedforward."""
-
-    def volts(one: LoopInput) -> float:
-        held = tube["rate"] * one.now.position + tube["preload"]
-        return compute_phoenix_voltage(slot0, one, meters_per_rotation=DRUM) + held
-
-    return follow_in_closed_loop(robot, RISE, volts, period=ONBOARD)
-
-
-def profiled(ff: ElevatorFeedforward, pid: PIDController, one: LoopInput) -> float:
-    """ProfiledPIDController: its feedback already looks at the next setpoint."""
-    forward = ff.calculateWithVelocities(one.now.velocity, one.after.velocity)
-    return forward + pid.calculate(one.position, one.after.position)
-
-
-ff = ElevatorFeedforward(*(SETS["reconciled"][name] for name in ORDER["elevator"]))
-with_pid = follow_in_closed_loop(
-    robot,
-    RISE,
-    lambda one: (
-        profiled(ff, PIDController(5.0), one) + tube["rate"] * one.now.position + tube["preload"]
-    ),
-)
-on_drum, on_rotor = magic(per_drum), magic(per_rotor)
-Table(
-    ("what follows the profile", "kV", "worst error [cm]"),
-    (
-        ("your loop, 20 ms", ff.kV, 100 * moves["+ tube"].worst_error),
-        ("ProfiledPIDController, 20 ms", ff.kV, 100 * with_pid.worst_error),
-        ("Motion Magic, gains per turn of the drum", per_drum["kV"], on_drum.worst_error * 100),
-        ("Motion Magic, gains per turn of the rotor", per_rotor["kV"], on_rotor.worst_error * 100),
-    ),
-)
-
-# %% [markdown]
-# <details><summary>Want to know why? The last three rows</summary>
 #
-# With ProfiledPIDController the elevator is about a centimeter ahead, because the feedback uses the
-# setpoint of the next loop. The last row is a common mistake: `SensorToMechanismRatio` is set, but
-# the gains are per rotation of the *rotor* (the motor's shaft). So they are too small by the gear
-# ratio.
+# - With `ProfiledPIDController` our elevator is about a centimeter ahead, because the feedback uses
+#   the setpoint of the next loop.
+# - A common mistake: `SensorToMechanismRatio` is set, but the gains are per rotation of the *rotor*
+#   (the motor's shaft). Then they are too small by the gear ratio.
+#
+# <details><summary>If you use Motion Magic Expo: a kV and a kA of its own</summary>
+#
+# *Expo* plans the move with `MotionMagicExpo_kV` and `MotionMagicExpo_kA`. They are separate from
+# the gains of the slot, and always in volts per rotation of the mechanism. The plan's top speed is
+# 12 V / kV, and its first acceleration is 12 V / kA. Their defaults are 0.12 and 0.1.
+# ([`MotionMagicConfigs` of phoenix6 26.3.0](https://pypi.org/project/phoenix6/26.3.0/)) But 0.12 V
+# per rot/s is a Kraken X60 *without gears* (lesson 1). With gears of 10:1, this plan is ten times
+# too fast for the mechanism.
+#
+# Start from your measured gains per rotation of the mechanism. CTRE says that it is safer to start
+# *above* them, because a higher kV or kA makes the plan slower. ([CTRE docs: Motion Magic Expo, at
+# one
+# commit](https://github.com/CrossTheRoadElec/Phoenix6-Documentation/blob/0ffe1e97bf7740e152af0ef86e176f162e777af1/source/docs/api-reference/device-specific/talonfx/motion-magic.rst))
+#
+# **Do it:** find both numbers in your team's code. Divide 12 V by the kV. Can your mechanism turn
+# so many rotations in a second?
 # </details>
 #
 # <details><summary>Sources</summary>
@@ -723,35 +641,34 @@ loaded = bare | {
 }
 
 
-def sag(kp: float, *, told: dict[str, float]) -> float:
-    """How far the loaded arm hangs below level [degrees] with these gains."""
+HELD = np.arange(0.0, 3.0, LOOP)
+
+
+def hold_level(kp: float, told: dict[str, float]) -> Motion:
+    """The loaded arm, which should stay level, with the gains of the empty or the loaded arm."""
 
     def volts(_: int, x: list[float], v: list[float]) -> float:
-        return told["kG"] * math.cos(0.0) + kp * (0.0 - x[-1]) - 0.1 * v[-1]
+        return told["kG"] - kp * x[-1] - 0.1 * v[-1]
 
-    return -math.degrees(float(moved(loaded, volts, loops=200, arm=True)[0, -1])) + 0.0
+    position, _, voltage = simulate_loop(Model("arm", loaded), volts, loops=HELD.size)
+    return Motion("arm", position=position, voltage=voltage)
 
 
-for name, one in (("Empty: ", bare), ("Loaded:", loaded)):
-    print(f"{name} kG {one['kG']:.2f} V, kA {one['kA']:.3f} V·s²/rad.")
-print("kV and kS stay the same.")
-Table(
-    (
-        "kP [V/rad]",
-        "gains of the empty arm [°]",
-        "missing kG ÷ kP [°]",
-        "gains of the loaded arm [°]",
-    ),
-    tuple(
-        (
-            f"{kp:.0f}",
-            sag(kp, told=bare),
-            math.degrees((loaded["kG"] - bare["kG"]) / kp),
-            sag(kp, told=loaded),
-        )
-        for kp in (1.0, 2.0, 5.0, 10.0)
-    ),
-    caption="How far the loaded arm hangs below level",
+print(f"kG: {bare['kG']:.2f} V empty, {loaded['kG']:.2f} V with the piece. kV, kS: the same.")
+TOLD = {"the empty arm": bare, "the loaded arm": loaded}
+STIFF = {f"{kp:g}": kp for kp in (1.0, 2.0, 5.0, 10.0)}  # [V/rad]
+animate_mechanism(
+    "arm",
+    {
+        (name, shown): Scene(HELD, (hold_level(kp, told),))
+        for name, told in TOLD.items()
+        for shown, kp in STIFF.items()
+    },
+    choices=(Choice("gains of", tuple(TOLD)), Choice("kP", tuple(STIFF))),
+    panels=(Panel("position", "angle [°]", low=-40.0, high=5.0, scale=180 / math.pi),),
+    alt="A level arm with a game piece. With the gains of the empty arm and a kP of 1 V/rad it "
+    "sinks by about 20 degrees. With a larger kP it sinks less. With those of the loaded arm it "
+    "does not sink.",
 )
 
 # %% [markdown]
@@ -761,8 +678,8 @@ Table(
 # sensor detects the piece.
 #
 # With the load, kA and kG grow. kV stays the same, because it comes from the motor's back-EMF (the
-# voltage that a turning motor produces) and the gears. The next cell makes our elevator's carriage
-# 1.5 times as heavy:
+# voltage that a turning motor produces) and the gears. (Section 2 of lesson 2 shows the numbers for
+# an elevator with 1.5 times the mass.)
 #
 # <details><summary>For mentors: which gains change with the load?</summary>
 #
@@ -773,16 +690,8 @@ Table(
 # > the drum; mass is not in it. ([WPILib docs: Introduction to DC Motor
 # > Feedforward](https://github.com/wpilibsuite/frc-docs/blob/250e32128d9a93f27d58bc3cd1d0b3ab5eec43cd/source/docs/software/advanced-controls/introduction/introduction-to-feedforward.rst))
 # >
-# > **Try it:** the next cell puts more mass on our simulated elevator.
+# > **Try it:** look at the table in section 2 of lesson 2. Which factor is 1?
 # </details>
-
-# %%
-heavier = replace(elevator, load=1.5 * elevator.load).gains
-print(
-    ", ".join(
-        f"{gain} times {heavier[gain] / elevator.gains[gain]:.2f}" for gain in ORDER["elevator"]
-    )
-)
 
 # %% [markdown]
 # ## 8 Which gains belong to which mechanism?
@@ -798,14 +707,11 @@ for name, mechanism in sets.items():
     one = MECHANISMS[mechanism]
     record = simulate(one, sim.Routine(ramp=0.5, step=4.0), rng=np.random.default_rng(1))
     fits[name] = fit(record, type=one.type)
-Table(
-    ("set", "kS [V]", "kG [V]", "kV", "kA", "kA/kV [ms]"),
-    tuple(
-        (name, one.gains["kS"], one.gains.get("kG", "none"), one.gains["kV"], one.gains["kA"],
-         1000 * one.gains["kA"] / one.gains["kV"])
-        for name, one in fits.items()
-    ),
-)  # fmt: skip
+tabulate_gains(
+    {name: one.gains for name, one in fits.items()},
+    unit="m or rad",
+    more={"kA/kV [ms]": [1000 * x.gains["kA"] / x.gains["kV"] for x in fits.values()]},
+)
 
 # %%
 display(ask_question("lesson8.one"), ask_question("lesson8.two"))
@@ -917,19 +823,9 @@ display(ask_question("lesson8.one"), ask_question("lesson8.two"))
 # </details>
 #
 # You compute the moment of inertia (how hard it is to turn the robot) from two kA values: I = mass
-# · r · kA_angular / kA_linear. The next cell checks which lever r is right for a square swerve:
-
-# %%
-drivetrain, TRACK, INERTIA = MECHANISMS["drivetrain"], 0.6, 5.0  # [m], [kg·m²]
-linear, lever = drivetrain.gains["kA"], TRACK / np.sqrt(2)
-# turning: the wheels feel a mass of I / lever², and meters at the wheel are radians · lever
-turning = replace(drivetrain, load=INERTIA / lever**2).gains["kA"] * lever
-print(f"kA is {linear:.4f} V·s²/m straight ahead, and {turning:.4f} V·s²/rad while turning.")
-for name, r in (("half the trackwidth", TRACK / 2), ("trackwidth/√2", lever)):
-    print(f"with {name}: I = {drivetrain.load * r * turning / linear:.2f} kg·m²")
-print(f"The truth is {INERTIA:.2f} kg·m².")
-
-# %% [markdown]
+# · r · kA_angular / kA_linear. Lesson 10 does it for a square swerve, and finds out which lever r
+# is right.
+#
 # ### When
 #
 # Plan two evenings in the last two weeks of build season: measure on the first, and again on the

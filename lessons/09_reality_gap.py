@@ -13,7 +13,7 @@
 # %% [markdown]
 # # Lesson 9: The reality gap
 #
-# *About 40 minutes. You need lessons 1 and 7. In this lesson you find out what is missing in your
+# *About 45 minutes. You need lessons 1 and 7. In this lesson you find out what is missing in your
 # model.*
 #
 # **At the end you can**
@@ -63,6 +63,7 @@ from IPython.display import display
 import sim
 from grader import ask_question, enable_checkboxes
 from sim.bench.mechanisms import MECHANISMS
+from sim.fit import fit
 from sim.physics.effects import EFFECTS
 from sim.physics.model import Model, Part
 from sim.plot import (
@@ -72,11 +73,14 @@ from sim.plot import (
     plot_voltage_residual,
     show_interactive,
 )
-from sim.plot.animation import Choice, Gain, Knob, Motion, Panel, Scene, Score, animate_mechanism
+from sim.plot.animation import Choice, Motion, Panel, Scene, animate_mechanism
+from sim.plot.animation.of_logs import animate_model
 from sim.plot.effect_search import EffectSearch
 from sim.plot.story import make_findings_table, plot_remaining_gap
 from sim.reconcile import reconcile
 from sim.reconcile.by_hand import HandSearch
+from sim.support.extras import format_install_command
+from sim.teaching.logs import read_own_log
 from sim.teaching.reality_gap import (
     forget_position,
     make_team_robot,
@@ -128,34 +132,13 @@ base = search.model  # kS, kV and kA, and no effect
 ask_question("lesson9.ka")
 
 # %%
-FIRST = {"ramp": ("quasistatic-forward", 3.0), "step": ("dynamic-forward", 1.0)}  # and how long [s]
-
-
-def beside_its_model(test: str, seconds: float) -> Scene:
-    """The first seconds of a test, and a model that gets the same voltage."""
-    run = log.list_runs_of_test(test)[0]
-    time = run.time - run.time[0]
-    shown = time <= seconds
-    gains = {name: Gain(name) for name in truth}
-    model = Motion("model", gains=gains, voltage=run.voltage[shown], ghost=True)
-    real = Motion("robot", velocity=run.velocity[shown])
-    return Scene(time[shown], (real, model), target=run.velocity[shown])
-
-
 velocity_alone = EffectSearch(forget_position(log), validation=forget_position(validation)).model
 for name, gains in (("velocity alone", velocity_alone.gains), ("our fit", base.gains)):
     print(f"{name}: kA = {gains['kA']:.3f} V·s²/m. The true kA is {truth['kA']:.3f} V·s²/m.")
-knobs = [
-    Knob(name, f"{name} [{unit}]", low=0.0, high=high, step=0.005, value=round(base.gains[name], 3))
-    for name, unit, high in (("kS", "V", 0.6), ("kV", "V·s/m", 4.0), ("kA", "V·s²/m", 0.8))
-]
-animate_mechanism(
-    "drivetrain",
-    {(name,): beside_its_model(*which) for name, which in FIRST.items()},
-    choices=(Choice("test", tuple(FIRST), value="step"),),
-    panels=(Panel("velocity", "velocity [m/s]", low=0.0, high=1.4),),
-    knobs=knobs,
-    score=Score("model"),
+animate_model(
+    log,
+    base.gains,
+    tests={"step": ("dynamic-forward", 1.0), "ramp": ("quasistatic-forward", 3.0)},
     alt="The solid robot is the log. The dashed robot is the model with the same voltage. After "
     "the step the model is ahead at first, and behind later. Its velocity curve has a different "
     "shape.",
@@ -462,6 +445,91 @@ if mine:
     display(EffectSearch.read(mine[0].parent))
 else:
     print("No log of your own yet. Make it in a terminal, in the course's folder:  grade start")
+
+# %% [markdown]
+# ### Your gains in WPILib's simulation
+#
+# WPILib has simulations of its own: with `FlywheelSim` your robot code spins its wheel on your
+# computer. ([WPILib docs: Physics Simulation, at one
+# commit](https://github.com/wpilibsuite/frc-docs/blob/01297402d0a2406bb70e95e13d2620759a69e385/source/docs/software/wpilib-tools/robot-simulation/physics-sim.rst))
+# It needs only kV and kA. So measured gains make it *your* wheel. Is it? The next cells fit your
+# log of exercise 9, and give `FlywheelSim` the same volts. **Predict:**
+
+# %%
+ask_question("lesson9.wpilib")
+
+
+# %%
+def spin_in_wpilib(gains: dict[str, float], run: sim.Run, friction: float) -> np.ndarray:
+    """The speed of WPILib's wheel with the volts of a run; friction takes some of them."""
+    plant = LinearSystemId.identifyVelocitySystemRadians(gains["kV"], gains["kA"])
+    wheel, speeds = FlywheelSim(plant, DCMotor.krakenX60(2)), []
+    for volts, span in zip(run.voltage, np.diff(run.time, append=run.time[-1]), strict=True):
+        speeds.append(wheel.getAngularVelocity())
+        wheel.setInputVoltage(np.sign(volts) * max(abs(volts) - friction, 0.0))
+        wheel.update(span)
+    return np.array(speeds)
+
+
+# %%
+try:
+    from wpilib.simulation import FlywheelSim
+    from wpimath.system.plant import DCMotor, LinearSystemId
+except ImportError:
+    print(f"This cell needs RobotPy. In a terminal:  {format_install_command('robot')}")
+else:
+    own, where = read_own_log()
+    print(where)
+    gains, run = fit(own).gains, own.list_runs_of_test("quasistatic-forward")[0]
+    speeds = {
+        "kV and kA alone": spin_in_wpilib(gains, run, 0.0),
+        "minus kS": spin_in_wpilib(gains, run, gains["kS"]),
+    }
+    for name, speed in speeds.items():
+        print(f"{name}: the typical error is {np.sqrt(np.mean((speed - run.velocity) ** 2)):.3g}")
+    real = Motion("your log", velocity=run.velocity)
+    scenes = {
+        (name,): Scene(run.time - run.time[0], (real, Motion("WPILib", velocity=speed, ghost=True)))
+        for name, speed in speeds.items()
+    }
+    moving = animate_mechanism(
+        "drivetrain" if own.units == "meters" else "flywheel",
+        scenes,
+        choices=(Choice("FlywheelSim gets the volts,", tuple(speeds)),),
+        panels=(Panel("velocity", "speed [m/s or rad/s]"),),
+        slow=20.0,
+        alt="Your log and WPILib's simulation in a ramp test. With kV and kA alone, WPILib moves "
+        "before your mechanism does, and stays too fast. Minus kS, both are the same.",
+    )
+    display(moving)
+
+# %% [markdown]
+# WPILib's simulation has no friction. So subtract kS from the volts yourself, as the cell above the
+# picture does. Then only the noise of the sensor remains.
+#
+# <details><summary>The same in Java, and an elevator</summary>
+#
+# ```java
+# private final FlywheelSim m_sim =
+#     new FlywheelSim(LinearSystemId.identifyVelocitySystem(kV, kA), DCMotor.getKrakenX60(2));
+#
+# @Override
+# public void simulationPeriodic() {
+#   double volts = m_motor.getMotorVoltage().getValueAsDouble();
+#   m_sim.setInputVoltage(Math.signum(volts) * Math.max(Math.abs(volts) - kS, 0.0));
+#   m_sim.update(0.02);
+# }
+# ```
+#
+# The gains are per radian. An `ElevatorSim` takes `LinearSystemId.identifyPositionSystem(kV, kA)`.
+# It adds a gravity of 9.8 m/s² by itself, whatever your kG is. This is right only if kG/kA is 9.8
+# m/s² (lesson 2). With a counterweight or a second stage, switch `simulateGravity` off, and
+# subtract kG from the volts, too. ([LinearSystemId of WPILib
+# 2026.2.2](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/wpimath/src/main/java/edu/wpi/first/math/system/plant/LinearSystemId.java))
+#
+# **Try it:** in the cell above the picture, divide kA by 2. In which part of which test do you see
+# it?
+# </details>
 
 # %% [markdown]
 # ## 9 System check

@@ -115,6 +115,19 @@ print(f"A square robot: {robot.trackwidth} m wide, {robot.mass:.0f} kg.")
 # 26.3.0](https://pypi.org/project/phoenix6/26.3.0/))
 # </details>
 #
+# <details><summary>Want to know more? The steer routine</summary>
+#
+# It turns the four wheels in place, with the default ramp of 1 V/s and a step of 7 V (the same
+# file). The load is only gears, rotors and wheels, so kA is small, and a log with 20 ms between
+# rows hardly shows it (lesson 1, section 6). On carpet the tires rub, so kS is larger than on
+# blocks: test where you drive. A module steers to a *position*: from this fit it needs kS, and a
+# kP.
+#
+# **Do it:** run it with a step of 3 V, and fit `MotorVoltage`, `Position` and `Velocity` of one
+# steer motor. Compare kV with the theoretical kV (lesson 1, section 5). If it is wrong by the gear
+# ratio, the log is in turns of the motor, and not of the module.
+# </details>
+#
 # The same motors move the robot in both tests, translation and rotation. Only the **load** differs:
 #
 # - straight, the wheels push the **mass**;

@@ -1,6 +1,7 @@
 """Every page for everybody: axe-core finds nothing wrong, and no console has an error."""
 
 import nbformat
+import numpy as np
 import pytest
 from chromium import list_violations
 from open_page import drive_log, served, slipped_log, write_log
@@ -11,8 +12,12 @@ from test_open_in_browser import DESKTOP, PHONE, drop, opened, write_strange
 from grader.classroom.result_pages import write_pages
 from grader.classroom.results import ClassResults
 from grader.edition import build_pages
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
 from sim.cli.open.saved_page import save_page
 from sim.cli.open.session import OpenLog
+from sim.reconcile import reconcile
 
 pytestmark = [pytest.mark.slow, pytest.mark.browser]
 
@@ -43,8 +48,12 @@ def test_the_page_of_open_in_each_of_its_views(browser, tmp_path, viewport, them
 
 
 def write_files(folder):
-    """A saved page, the pages of a class, and a page of the edition with its slides."""
+    """Saved pages, one with a story; the pages of a class, and of the edition with its slides."""
     save_page(OpenLog(1, "log.csv", write_log(drive_log(), folder / "log.csv")), folder / "s.html")
+    arm = MECHANISMS["arm"].hide("drag", 1.0)
+    log = simulate(arm, Routine(step=5.0), rng=np.random.default_rng(5))
+    one = OpenLog(1, "arm.csv", folder, finished={"": log})
+    save_page(one, folder / "story.html", reconcile(log, type="arm"))
     people = (student("Ada", [1.0, 2.0]), student("Bo", [0.0, 2.0]))
     write_pages(ClassResults("Robotics 1", people, ("exercise1",)), folder)
     cells = [nbformat.v4.new_markdown_cell(WIDE), nbformat.v4.new_code_cell(CODE)]
@@ -62,8 +71,10 @@ def test_every_page_that_is_a_file(browser, tmp_path, theme):
         page = browser.new_page(viewport=DESKTOP, color_scheme=theme)
         page.on("pageerror", lambda one: complaints.append(str(one)))
         page.goto(file.as_uri())
-        if file.name == "s.html":
+        if file.name in {"s.html", "story.html"}:
             page.locator("#gain-kV").wait_for()
+        if file.name == "story.html":
+            page.locator("#story .gains-table", has_text="with drag").wait_for()
         if found := list_violations(page):
             wrong[file.name] = found
         page.close()

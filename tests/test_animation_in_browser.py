@@ -16,7 +16,10 @@ from lab import (
 )
 from matplotlib.image import imread
 
+from sim.physics.engine import State, simulate_run
+from sim.physics.model import Model
 from sim.plot.animation import (
+    Choice,
     Gain,
     Knob,
     Motion,
@@ -103,21 +106,65 @@ def shown(browser, tmp_path):
         page.close()
 
 
+def wanted_volts():
+    """The voltage of each motion, as the knobs first stand."""
+    speed, push = (TARGET[:-1] + TARGET[1:]) / 2, np.diff(TARGET) / np.diff(TIME)
+    ramp = 0.2 + 2.0 * TIME
+    free = simulate_run(
+        Model("simple", GAINS), time=TIME, voltage=ramp, state=State.cold_at(0.0)
+    ).position
+    off = TIME[int(np.argmax(free > 0.8))] + 0.3
+    return {
+        "program": np.append(0.3 * np.sign(speed) + 2.0 * speed + 0.1 * push, 0.0),
+        "model": 4.0 * np.sin(3 * TIME),
+        "elevator": np.full(TIME.size, 4.0),
+        "arm": np.full(TIME.size, 0.3),
+        "test": np.where(off > TIME, ramp, 0.0),
+    }
+
+
 @pytest.mark.parametrize("name", MOTIONS)
 def test_the_page_simulates_as_the_engine_does(name, shown):
-    motion = MOTIONS[name]
-    scene = Scene(TIME, (motion,), target=TARGET)
-    knobs = {knob.name: knob.value for knob in KNOBS}
+    motion, volts = MOTIONS[name], wanted_volts()[name]
     kind = motion.type if motion.type != "simple" else "drivetrain"
-    animation = animate_mechanism(
-        kind, scene, panels=(Panel("velocity", "v"),), knobs=KNOBS, alt="It moves."
-    )
-    _, figure = shown(animation)
+    scene = Scene(TIME, (motion,), target=TARGET)
+    panels = (Panel("velocity", "v"),)
+    _, figure = shown(animate_mechanism(kind, scene, panels=panels, knobs=KNOBS, alt="It moves."))
+    found = figure.evaluate("figure => figure.animation.scene.motions[0]")
 
-    for signal in ("velocity", "position", "voltage"):
-        wanted = motion.curve(signal, scene, knobs)
-        found = figure.evaluate(f"figure => figure.animation.scene.motions[0].{signal}")
-        assert np.abs(np.array(found) - wanted).max() < 1e-3 * np.abs(wanted).max(), signal
+    track = simulate_run(
+        Model(motion.type, found["gains"]), time=TIME, voltage=volts,
+        state=State.cold_at(motion.start),
+    )  # fmt: skip
+    wanted = {"voltage": volts, "velocity": track.velocity, "position": track.position}
+    for signal, values in wanted.items():
+        assert np.abs(np.array(found[signal]) - values).max() < 1e-3 * np.abs(values).max(), signal
+
+
+def test_axes_hold_all_scenes_and_what_is_given_stays(shown):
+    late = Motion("robot", velocity=TARGET, position=TIME - 0.25)
+    asked = Motion("target", velocity=TARGET, position=TIME, asked=True)
+    scenes = {
+        ("slow",): Scene(TIME, (asked, late)),
+        ("fast",): Scene(TIME, (Motion("robot", velocity=3.0 * TARGET),)),
+    }
+    panels = (
+        Panel("velocity", "[m/s]"), Panel("position", "[cm]", low=-7.0, scale=100.0),
+        Panel("error", "[m]"),
+    )  # fmt: skip
+    choices = (Choice("drive", ("slow", "fast")),)
+    _, figure = shown(
+        animate_mechanism("drivetrain", scenes, panels=panels, choices=choices, alt="It moves.")
+    )
+    speed, place, error = figure.evaluate("figure => figure.animation.data.panels")
+    stage = figure.evaluate("figure => figure.animation.data.stage")
+
+    assert 7.5 < speed["high"] < 8.5
+    assert place["low"] == -7.0
+    assert 100 * TIME[-1] < place["high"]
+    assert stage["high"] == pytest.approx(place["high"] / 100.0, rel=0.01)
+    assert stage["low"] < 0.0
+    assert error["low"] == pytest.approx(-0.27)
 
 
 def test_a_knob_changes_the_motion_the_score_and_the_picture(shown):

@@ -162,7 +162,7 @@ def test_a_permuted_control_has_all_voltages_and_hardly_one_in_its_place(modules
 
 
 @pytest.mark.parametrize("seed", range(20))
-def test_an_exchanged_control_has_no_run_with_its_own_voltage(modules, seed):
+def test_in_an_exchanged_case_no_run_keeps_its_own_voltage(modules, seed):
     log = four_tests()
 
     shuffled = modules("recording").exchanged(log, rng=np.random.default_rng(seed))

@@ -54,7 +54,7 @@ def note(tmp_path):
 @pytest.fixture
 def level(request, monkeypatch):
     """What this machine can do, as the command is told."""
-    monkeypatch.setattr("grader.cli.classroom.find_isolation_level", lambda: request.param)
+    monkeypatch.setattr("grader.cli.class_run.find_isolation_level", lambda: request.param)
     return request.param
 
 

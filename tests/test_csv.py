@@ -9,7 +9,7 @@ import sim
 from sim.core.errors import BadRequest, MissingSignal
 from sim.core.log import Log, Run
 from sim.io import list_entries
-from sim.io.entries import assemble_log
+from sim.io.entries import assemble_logs
 from sim.io.entries.entry import ValuesEntry
 from sim.io.format import ReadOptions
 
@@ -186,7 +186,7 @@ def test_whole_numbers_that_count_something_are_no_voltage():
     named = {"state": "state", "position": "angle", "voltage": "flags"}
 
     with pytest.raises(MissingSignal, match="'flags' cannot be a voltage: .* 32, 33"):
-        assemble_log(entries, options=ReadOptions(entries=named), where="log")
+        assemble_logs(entries, options=ReadOptions(entries=named), where="log")
 
 
 def test_columns_of_a_table_are_listed_as_entries(tmp_path):

@@ -174,7 +174,7 @@ def test_a_number_says_nothing_about_what_was_done_to_a_log(tmp_path):
     }  # 40 draws miss one of five 1 time in 1500
 
 
-def test_no_room_for_temporary_files_is_one_line(tmp_path, monkeypatch, capsys):
+def test_a_full_temporary_folder_is_refused_in_one_line(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(making.tempfile, "tempdir", str(tmp_path / "none"))
 
     assert sysid("dataset", spec(tmp_path), "-o", tmp_path / "data") == 2

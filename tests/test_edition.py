@@ -24,8 +24,8 @@ CELLS = (
         metadata=FOLDED,
     ),
     CODE(
-        "import ipywidgets\nfrom sim.plot import plot_relative_change, show_interactive\n"
-        "show_interactive(lambda ramp: plot_relative_change({'kS': ramp}), "
+        "import ipywidgets\nfrom sim.plot import plot_choices, show_interactive\n"
+        "show_interactive(lambda ramp: plot_choices({'kS': ramp}, truth=1, name='kS'), "
         "ramp=ipywidgets.IntSlider(3))"
     ),
     MARKDOWN("## 2 System check\n\n- [ ] the robot has room\n\n### Details\n\nmore"),

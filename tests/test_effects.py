@@ -13,7 +13,7 @@ from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.core.errors import BadRequest
 from sim.core.log import KINDS, Log, Run
-from sim.physics.effects import EFFECTS, find_effect
+from sim.physics.effects import EFFECTS, find_effect, list_look_alikes
 from sim.physics.engine import State, find_finest_step, simulate_run
 from sim.physics.model import Model, Part
 from sim.physics.voltage_residual import compute_voltage_residual
@@ -59,9 +59,10 @@ def test_an_effect_is_written_as_the_contract_asks(name):
     assert not found.summary.endswith(".")
     assert found.fingerprint.endswith(".")
     assert found.inspect.endswith(".")
-    assert found.apart, "name at least one look-alike and the test that tells them apart"
+    assert list_look_alikes(name), "name a look-alike, and the test that tells them apart"
     for other, test in found.apart.items():
         assert other in EFFECTS, f"{name} is told apart from {other!r}, which is no effect"
+        assert name not in EFFECTS[other].apart, f"{other}'s file says it: once is enough"
         assert test.endswith("."), test
     for parameter in found.parameters:
         assert parameter.name.isidentifier()

@@ -282,7 +282,7 @@ def test_a_verdict_that_follows_from_a_wrong_difference_is_told_to_correct_that_
     assert "Correct it first" in graded(copy, student=student, **answers)["verdict"].hint
 
 
-def test_a_duty_cycle_on_a_tired_battery_logged_as_asked_for_does_what_is_told():
+def test_a_duty_cycle_logged_as_commanded_on_a_weak_battery_changes_gains_as_stated():
     """12 V over 10.9 V: on the bench, too, kV comes out 10 % too large."""
     sound = MECHANISMS["shooter"]
     tired = replace(sound, battery=Battery(10.9, 0.005))

@@ -48,6 +48,17 @@ def test_fifty_students_can_solve_theirs_and_no_row_passes_for_horizontal(copy):
     assert ways == {True, False}
 
 
+@pytest.mark.parametrize("student", ["ann", "ben", "zoë"])
+def test_the_mean_of_all_middles_is_told_as_such_and_not_as_an_edge(copy, student):
+    rows = OWN.module.draw(student).arm
+    mean = sum(row.middle for row in rows) / len(rows)
+
+    hint = grade_answer(copy, student=student, arm_kG=mean)["arm-kg"].hint
+
+    assert "the mean of all middles" in hint
+    assert "an edge" not in hint
+
+
 @pytest.mark.parametrize(
     ("name", "written", "right"),
     [

@@ -168,7 +168,7 @@ FAULT = Fault(
         (("Fingerprint", "Looks"), "begins with Fingerprint:"),
         (('summary="they bite"', 'summary=""'), "has no summary of one line"),
         (('"they bite"', '"they\\nbite"'), "has no summary of one line"),
-        (("3 bites", "many bites"), "says what severity 1 means without a number"),
+        (("3 bites", "many bites"), "says what severity 1 means without digits"),
         (("detect=lambda features: ()", "detect=None"), "has a detect that cannot be called"),
         (("detect=", 'kinds=("static",), detect='), "strikes kinds ('static',)"),
         (("detect=", "kinds=(), detect="), "strikes no kind of test"),

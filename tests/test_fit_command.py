@@ -12,7 +12,8 @@ import sim
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.cli import sysid
+from sim.cli import options, sysid
+from sim.report.robot_code_snippet import SEASONS, TARGETS
 from sim.support.command_line import run_command
 
 SHORT = Routine(ramp=0.5, step=3.5, timeout=3.0)
@@ -174,3 +175,8 @@ def test_units_that_contradict_the_file_are_the_first_thing_said(tmp_path, fit):
     assert "but you chose radians" in first
     assert out.count("but you chose") == 1
     assert "the file says" not in right
+
+
+def test_paste_offers_every_target_and_season():
+    assert tuple(TARGETS) == options.TARGETS
+    assert tuple(map(str, SEASONS)) == options.SEASONS

@@ -30,6 +30,7 @@ def test_right_lines_are_said_to_be_right_and_are_used():
         ({"columns": lambda volts, v, _: [v, volts, ...]}, "Gap 2: still empty"),
         ({"columns": lambda volts, v, _: [v, volts, np.ones_like(v)]}, "Gap 2: not yet."),
         ({"columns": lambda volts, v, _: [v, volts]}, "Gap 2: it stops with an error"),
+        ({"columns": lambda volts, v, _: [v, volts, 1]}, "A column needs a number for each row"),
         ({"columns": lambda *_: nothing}, "Gap 2: it stops with an error: name 'nothing'"),  # noqa: F821 - meant
         ({"gains": lambda *_: {"kS": ..., "kV": ..., "kA": ...}}, "Gap 3: still empty"),
         (

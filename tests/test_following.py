@@ -74,7 +74,7 @@ def test_an_elevator_without_kg_falls_as_its_gains_say():
         ("arm", {"offset_rad": 0.3 - math.pi}),
     ],
 )
-def test_a_wrong_gain_is_told_by_what_it_does(kind, changes, reads):
+def test_a_wrong_gain_is_described_by_its_effect_on_the_motion(kind, changes, reads):
     reads(followed(kind, **changes).description)
 
 

@@ -1,5 +1,6 @@
 """The code that lesson 4 shows does on a simulated robot what the lesson says."""
 
+import inspect
 import re
 import subprocess
 import sys
@@ -113,3 +114,11 @@ def test_the_python_runs_on_a_robot_and_its_log_gives_the_gains(tmp_path, root):
     slow = log.list_runs_of_test("quasistatic-forward")[0]
     assert 5.9 < slow.time[-1] - slow.time[0] < 6.0  # let go after 6 s, well before the timeout
     assert slow.voltage[-1] == pytest.approx(6.0, abs=0.1)  # at 1 V/s
+
+
+@pytest.mark.robot
+def test_a_config_takes_the_ramp_rate_before_the_step():
+    sysid = pytest.importorskip("commands2.sysid", reason="RobotPy is not installed")
+    taken = list(inspect.signature(sysid.SysIdRoutine.Config).parameters)
+
+    assert taken[:3] == ["rampRate", "stepVoltage", "timeout"]

@@ -48,7 +48,7 @@ def test_an_answer_that_is_not_there_is_refused(check):
         ("0,0191", "Right."),
         ("0.12 V·s/rot", "Right. 0.12 V·s/rot is 0.0191 V·s/rad"),
         (0.12, "radians"),
-        (0.754, "Not yet."),
+        (0.754, "39.5 = (2π)²."),
         ("many", "not one number"),
         (float("nan"), "nan"),
     ],

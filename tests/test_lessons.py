@@ -20,7 +20,10 @@ from jupyter_client.kernelspec import KernelSpecManager
 import grader
 import sim
 from grader.edition import SLIDES, VIEW, convert_notebook, execute_notebook
+from grader.robotcode.library import revlib
 from sim.bench.simulate import simulate
+from sim.fit import fit
+from sim.physics.motors import MOTORS
 from sim.plot import Picture, plot_r2_vs_gain_error
 from sim.teaching.answers import read_answer
 from sim.teaching.r2_cases import GOOD, make_cases
@@ -186,9 +189,9 @@ def test_every_question_is_on_a_slide(text, run):
 
 @each_lesson
 def test_every_picture_has_words_and_draws_only_on_white(text, run):
-    pictures = [picture for html in _htmls(run(text)) for picture in Page(html).pictures]
-    assert pictures
-    for picture in pictures:
+    pages = [Page(html) for html in _htmls(run(text))]
+    assert any(page.pictures or page.animations for page in pages)
+    for picture in (picture for page in pages for picture in page.pictures):
         assert len(picture["alt"]) > 40
         assert picture["src"].startswith("data:image/svg+xml;base64,")
         assert "background:white" in picture["style"]
@@ -375,6 +378,83 @@ def test_what_is_folded_or_repeated_takes_no_time():
 
     assert load == Load(words=2 + 2 + 1, questions=2, moving=1, still=1 + 1 + 1)
     assert minutes(load) == pytest.approx(5 / 130 + 2 * 0.75 + 1.5 + 3)
+
+
+def run_cell(number, begin, **space):
+    """What a cell of a lesson defines, from where it begins, run with the given names."""
+    (text,) = (path for path in TEXTS if path.stem.startswith(number))
+    _, _, source = text.read_text(encoding="utf-8").partition(begin)
+    exec(begin + source.partition("# %%")[0], space)  # noqa: S102 - the lesson's own cell
+    return space
+
+
+@pytest.mark.robot
+def test_wpilibs_simulation_with_the_gains_and_without_ks_differs_from_the_log_by_the_noise():
+    simulation = pytest.importorskip("wpilib.simulation", reason="RobotPy is not installed")
+    plant = pytest.importorskip("wpimath.system.plant")
+    names = {"FlywheelSim": simulation.FlywheelSim, "DCMotor": plant.DCMotor}
+    names |= {"LinearSystemId": plant.LinearSystemId, "np": np, "sim": sim}
+    spin = run_cell("09", "def spin_in_wpilib", **names)["spin_in_wpilib"]
+    wheel = sim.MECHANISMS["shooter"]
+    log = simulate(wheel, sim.Routine(ramp=0.5, step=4.0), rng=np.random.default_rng(1))
+    gains = fit(log).gains
+
+    for run in log.runs:
+        with_friction, without = (
+            float(np.std(spin(gains, run, friction) - run.velocity))
+            for friction in (gains["kS"], 0.0)
+        )
+        assert with_friction < 1.1 * wheel.sensor.velocity_noise, run.test
+        assert abs(np.mean(spin(gains, run, 0.0)[-20:] - run.velocity[-20:])) > 0.8 * (
+            gains["kS"] / gains["kV"]
+        ), run.test
+        assert without >= with_friction
+
+
+@pytest.mark.robot
+def test_an_elevator_in_wpilibs_simulation_falls_at_its_own_gravity_whatever_kg_is():
+    simulation = pytest.importorskip("wpilib.simulation", reason="RobotPy is not installed")
+    plant = pytest.importorskip("wpimath.system.plant")
+    gains = sim.MECHANISMS["counterweight-elevator"].gains
+    system = plant.LinearSystemId.identifyPositionSystemMeters(gains["kV"], gains["kA"])
+    lift = simulation.ElevatorSim(system, plant.DCMotor.NEO(1), 0.0, 2.0, True, 1.0)  # noqa: FBT003
+    lift.setInputVoltage(0.0)
+    lift.update(0.001)
+
+    assert lift.getVelocity() / 0.001 == pytest.approx(-9.8, rel=0.02)
+    assert gains["kG"] / gains["kA"] < 0.5 * 9.8
+
+
+def test_gains_in_amperes_are_those_in_volts_over_the_resistance_and_no_kv():
+    wheel = sim.MECHANISMS["shooter"]
+    gains, resistance = wheel.gains, 12.0 / wheel.motor.stall_current
+    routine = sim.Routine(step=2.0, timeout=3.0, kinds=("dynamic",))
+    log = simulate(wheel, routine, rng=np.random.default_rng(1), electrical=True)
+
+    for run in log.runs:
+        volts, speed = np.abs(run.voltage), np.abs(run.velocity)
+        speeds_up = (volts - gains["kS"] - gains["kV"] * speed) / gains["kA"]
+        amperes = (gains["kS"] + gains["kA"] * speeds_up) / resistance
+        noise = gains["kV"] * wheel.sensor.velocity_noise / resistance
+        assert np.std(np.abs(run.current) - amperes) == pytest.approx(noise, rel=0.2)
+        steady = np.abs(run.current[-20:]).mean()  # at full speed, and no kV·v in it
+        assert steady == pytest.approx(gains["kS"] / resistance, rel=0.01)
+        assert round(steady, 1) == 3.7
+
+
+def test_the_default_of_motion_magic_expo_is_a_kraken_without_gears():
+    assert MOTORS["krakenX60"].back_emf * 2 * math.pi == pytest.approx(0.12, rel=0.01)
+
+
+def test_a_spark_with_voltage_compensation_takes_a_duty_cycle_as_a_share_of_12_volts():
+    motor = revlib.CANSparkBase(1, revlib.MotorType.kBrushless)
+    asked = {}
+    for nominal in (0.0, 12.0):
+        motor.enableVoltageCompensation(nominal)
+        motor.set(0.3)
+        asked[nominal] = (motor._command.kind, motor._command.value)
+
+    assert asked == {0.0: ("duty", 0.3), 12.0: ("voltage", pytest.approx(3.6))}
 
 
 def test_lesson_6_does_not_name_the_damage_of_a_log_before_one_decided():

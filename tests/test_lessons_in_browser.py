@@ -117,6 +117,29 @@ def test_a_newcomer_soon_sees_something_move(printed, browser):
     page.close()
 
 
+def test_a_prediction_a_quick_check_and_a_box_answer_a_click(address, browser):
+    page = browser.new_page(viewport=SCREEN)
+    page.set_default_timeout(3 * PATIENCE)  # a first kernel compiles the engine
+    run_all(page, address.format(name=LESSONS[0].name))
+
+    def click(asked, answer):
+        question = page.locator(".jp-OutputArea .widget-vbox").filter(has_text=asked)
+        question.get_by_text(answer, exact=True).click()
+        question.get_by_text(re.compile(r"^(?:No|Not yet|Right)\. ")).wait_for()
+        return question.locator("p b").inner_text()
+
+    prediction = "Who gets the smaller typical error?"
+    assert click(prediction, "I do, clearly").startswith("No. The answer is: the three lines.")
+    assert click("Which gain changed when", "kS").startswith("Not yet. Most friction")
+    box = page.locator(".jp-RenderedMarkdown input[type=checkbox]").first
+    box.check()
+    assert box.is_checked()
+    assert page.evaluate(
+        "Object.keys(localStorage).some(key => key.startsWith('system check: '))"
+    )  # it is kept
+    page.close()
+
+
 def test_a_student_finds_what_lesson_9_hides_by_clicks(address, browser, tmp_path):
     """As the page says: the largest share, an effect for it, fit, look again, stop."""
     page = browser.new_page(viewport=SCREEN)
@@ -170,7 +193,7 @@ def test_a_student_finds_what_lesson_9_hides_by_clicks(address, browser, tmp_pat
 def _check_pictures(page):
     """Every picture has come through, says in words what it shows, and is not blank."""
     pictures = page.locator(".jp-Notebook img")
-    assert pictures.count() > 0
+    assert pictures.count() + page.locator(".jp-Notebook figure.motion").count() > 0
     for picture in pictures.all():
         picture.scroll_into_view_if_needed()
         assert picture.get_attribute("alt")

@@ -454,11 +454,11 @@ def test_a_reload_keeps_what_was_chosen(page, tmp_path):
 def test_the_heights_of_the_chart_follow_the_zoom(page, tmp_path):
     drop(page, write_log(drive_log(), tmp_path / "drive.wpilog"))
     page.locator("#gain-kV").wait_for()
-    heights = "(([low, high]) => high - low)(sysid.chart.rangeOfPanel('velocity'))"
+    heights = "(([low, high]) => high - low)(sysid.chart.ranges.velocity)"
     whole = page.evaluate(heights)
     page.evaluate("sysid.chart.setView(1, 1.5)")
 
     assert page.evaluate(heights) < 0.3 * whole
-    assert page.evaluate("sysid.chart.rangeOfPanel('voltage')[1]") < 2.0
+    assert page.evaluate("sysid.chart.ranges.voltage[1]") < 2.0
     page.locator("#moving").dblclick()
     assert page.evaluate(heights) == pytest.approx(whole)

@@ -258,3 +258,17 @@ def test_example_is_simulated(tmp_path):
 
     assert opened["name"] == "example drivetrain.wpilog"
     assert "encoder-slip" in [one["fault"] for one in faults["faults"]]
+
+
+def test_a_search_excludes_the_part_that_was_left_out(server, drive):
+    one = server.session.add(drive.name, drive)
+    fault = ask_json(server, f"logs/{one.number}/faults")[1]["faults"][0]
+    part = f"{fault['test']}:{fault['start_s'] - 0.001:.3f}-{fault['end_s'] + 0.001:.3f}"
+    names = []
+    for query in ("", f"?left_out={part}"):
+        story = None
+        while story is None:
+            story = ask_json(server, f"logs/{one.number}/reconcile{query}")[1]["story"]
+        names.append([finding["name"] for finding in story["findings"]])
+
+    assert names == [["encoder-slip"], []]

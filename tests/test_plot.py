@@ -18,7 +18,7 @@ from test_plot_motor import PICTURES as MOTOR
 import sim
 from sim.bench.simulate import simulate
 from sim.core.errors import BadRequest
-from sim.inspect.fault import LogInterval
+from sim.inspect.fault import Damage, LogInterval
 from sim.plot import (
     Line,
     Picture,
@@ -43,9 +43,7 @@ def _log(name):
 DRIVE, SHOOTER = _log("drivetrain"), _log("shooter")
 PICTURES = {
     "time series": lambda: plot_time_series(DRIVE),
-    "time series beside another": lambda: plot_time_series(
-        DRIVE, beside=DRIVE, dynamic_seconds=1.0
-    ),
+    "the first second of steps": lambda: plot_time_series(DRIVE, dynamic_seconds=1.0),
     "time series in rotations": lambda: plot_time_series(SHOOTER),
     "one test only": lambda: plot_time_series(replace(DRIVE, runs=DRIVE.runs[:1])),
     "voltage against velocity": lambda: plot_voltage_velocity(DRIVE),
@@ -53,7 +51,8 @@ PICTURES = {
         DRIVE, lines={"a": Line(0.2, 2.5), "b": Line(0.1, 2.4)}
     ),
     "time series with damage": lambda: plot_time_series(
-        DRIVE, damages=[LogInterval(0, DRIVE.runs[0].test, 2.0, 2.5)]
+        DRIVE,
+        damages=[Damage("overrun", LogInterval(0, DRIVE.runs[0].test, 2.0, 2.5), 0.9, "", "")],
     ),
     "timesteps": lambda: plot_timesteps(DRIVE),
     "acceleration against velocity": lambda: plot_acceleration_velocity(DRIVE),
@@ -205,3 +204,13 @@ def test_a_name_that_the_font_lacks_stays_text_without_a_warning():
     assert ">王小明</text>" in Picture(figure, "a name").svg
     axes.set_title("ann")
     assert "<text" not in Picture(figure, "a name").svg
+
+
+def test_the_axes_of_a_picture_that_is_drawn_again_stand_still():
+    drawn, again = (plot_choices({"a": value}, truth=2.0, name="kA") for value in (1.0, 1e6))
+    assert drawn.svg
+    again.place_as(drawn)
+    assert again.svg
+
+    first, second = (picture.figure.axes[0].get_position().bounds for picture in (drawn, again))
+    assert first == pytest.approx(second)

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from handmade import FOUR, log_of, run_of, with_gaps
 from matplotlib.colors import same_color
-from matplotlib.patches import Rectangle
 
 from sim.core.errors import BadRequest
 from sim.core.log import Log, Run
@@ -19,50 +18,48 @@ from sim.plot import (
 from sim.plot.picture import COLORS
 
 
-def _boxes(picture):
-    """(panel, left, right, bottom, top, frame's color) of each frame drawn around damage."""
+def _damage(fault, run, test="", start=0.0, end=0.0):
+    return Damage(fault, LogInterval(run, test, start, end), 0.9, "seen", "Run it again.")
+
+
+def _hatched(picture):
+    """Panel, left and right end and edge color of each hatched part."""
     return [
-        (place, *patch.get_bbox().intervalx, *patch.get_bbox().intervaly, patch.get_edgecolor())
+        (place, *patch.get_bbox().intervalx, patch.get_edgecolor())
         for place, axes in enumerate(picture.figure.axes)
         for patch in axes.patches
-        if isinstance(patch, Rectangle) and not patch.get_fill()
     ]
 
 
-def _damage(fault, run, start, end):
-    """A fault so many seconds after its run began."""
-    first = FOUR.runs[run].time[0]
-    where = LogInterval(run, FOUR.runs[run].test, first + start, first + end)
-    return Damage(fault, where, 0.9, "seen", "Run it again.")
-
-
 @pytest.mark.parametrize(("run", "panels"), [(0, (0, 2)), (1, (0, 2)), (2, (1, 3)), (3, (1, 3))])
-def test_damage_is_framed_around_its_own_curve(run, panels):
-    picture = plot_time_series(FOUR, damages=[_damage("hard-stop", run, 4.0, 5.0)])
-    boxes = _boxes(picture)
-    assert tuple(box[0] for box in boxes) == panels  # voltage above, velocity below
-    for (_, left, right, bottom, top, color), name in zip(
-        boxes, ("voltage", "velocity"), strict=True
-    ):
+def test_damage_is_hatched_in_the_color_of_its_curve(run, panels):
+    one = FOUR.runs[run]
+    damage = _damage("hard-stop", run, one.test, one.time[0] + 4.0, one.time[0] + 5.0)
+    picture = plot_time_series(FOUR, damages=[damage])
+
+    hatched = _hatched(picture)
+    assert tuple(place for place, *_ in hatched) == panels  # voltage above, velocity below
+    for _, left, right, color in hatched:
         assert (left, right) == pytest.approx((4.0, 5.0))
-        within = getattr(FOUR.runs[run], name)[200:251]
-        assert bottom < within.min()
-        assert top > within.max()
-        assert same_color(color, COLORS[run % 2])  # of the curve: forward or reverse
+        assert same_color(color, COLORS[run % 2])
+    assert f"hard-stop in {one.test}, from 4.00 to 5.00 s." in picture.alt
 
 
 @pytest.mark.parametrize(
-    "where",
+    "damage",
     [
-        LogInterval(4, "coast-forward", 0.0, 1.0),
-        LogInterval(0, "quasistatic-forward", 11.5, 11.8),
+        _damage("odd-clock", None),
+        _damage("missing-test", None, "dynamic-reverse"),
+        _damage("hard-stop", 4, "coast-forward", 35.0, 36.0),
     ],
-    ids=["no such run", "no such time"],
+    ids=["the log", "no run", "a test of another kind"],
 )
-def test_damage_of_another_log_is_refused(where):
-    with pytest.raises(BadRequest) as refused:
-        plot_time_series(FOUR, damages=[where])
-    assert refused.value.advice
+def test_damage_that_no_panel_can_show_is_told(damage):
+    log = replace(FOUR, runs=(*FOUR.runs, run_of("coast-forward")))
+    picture = plot_time_series(log, damages=[damage])
+    assert damage.fault in picture.alt
+    assert damage.where.test in picture.alt
+    assert _hatched(picture) == []
 
 
 ELEVATOR = replace(
@@ -106,31 +103,6 @@ def test_a_huge_log_makes_a_small_picture_that_counts_every_sample(draw, huge):
     picture = draw(huge)
     assert len(picture.svg) < 300_000
     assert any(count in str(picture.table) for count in ("20000", "19999"))
-
-
-@pytest.mark.parametrize(
-    "where",
-    [
-        LogInterval(None, "", 0.0, 0.0),
-        LogInterval(None, "dynamic-reverse", 0.0, 0.0),
-        LogInterval(1, "quasistatic-reverse", 0.0, 99.0),
-        LogInterval(4, "coast-forward", 35.0, 36.0),
-    ],
-    ids=["the log", "no run", "a whole run", "a test of another kind"],
-)
-def test_whole_run_of_damage_that_no_box_can_show_is_told(where):
-    log = replace(FOUR, runs=(*FOUR.runs, run_of("coast-forward")))
-    picture = plot_time_series(log, damages=[where])
-    assert where.test in picture.alt
-    assert len(_boxes(picture)) == (2 if where.run == 1 else 0)
-
-
-def test_much_damage_is_summed_up():
-    picture = plot_time_series(
-        FOUR, damages=[_damage("overrun", 0, 0.2 * i, 0.2 * i) for i in range(40)]
-    )
-    assert "The fault is in 34 more parts." in picture.alt
-    assert len(picture.figure.legends[0].get_patches()) == 1
 
 
 @pytest.mark.parametrize(

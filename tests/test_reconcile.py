@@ -13,7 +13,7 @@ from reconcile_made import bench, logs, session, solved, told
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.cli.reconcile import inspect_damage
+from sim.cli.open.reconcile_job import inspect_damage
 from sim.core.units import find_unit
 from sim.estimation.initial_guess import guess_gains
 from sim.inspect.contaminate import contaminate

@@ -48,7 +48,7 @@ def third():
 
 
 @pytest.mark.parametrize("until", [2.9, LATER], ids=["with its run", "for good"])
-def test_what_joins_in_a_run_is_found_to_the_sample(third, until):
+def test_inertia_added_during_a_run_is_found_to_the_sample(third, until):
     onset = third + 0.513
     extra, sessions = drives(onset=onset, until=third + until if until < LATER else LATER)
 

@@ -69,7 +69,7 @@ def ours(path: Path) -> dict[str, tuple[str, str, list[int], list[object]]]:
             entry.type,
             entry.metadata,
             entry.time.tolist(),
-            entry.texts() if entry.type in {"string", "json"} else entry.values().tolist(),
+            entry.texts() if entry.type in {"string", "json"} else entry.numbers().tolist(),
         )
         for entry in read_contents(path).entries
     }

@@ -181,7 +181,7 @@ def reconcile(capsys, monkeypatch):
             asked.append(how | {"log": log})
             return one
 
-        monkeypatch.setattr("sim.cli.reconcile.solve", solve)
+        monkeypatch.setattr("sim.cli.open.reconcile_job.reconcile", solve)
         capsys.readouterr()
         code = run_command(sysid, name="sysid", arguments=["reconcile", *map(str, arguments)])
         said = capsys.readouterr()

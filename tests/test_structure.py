@@ -13,6 +13,7 @@ CATALOGUES = {  # these look into their own folder, or hand on a name when it is
     "sim/support/catalogue.py",
     "sim/cli/__init__.py",
     "sim/io/__init__.py",
+    "sim/support/lazy_package.py",
     "grader/__init__.py",
     "grader/answers/answer_key.py",  # the module beside an exercise's checks
     "grader/classroom/exports/__init__.py",

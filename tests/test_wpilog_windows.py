@@ -36,9 +36,8 @@ def shape(found, wanted):
     """Entries that are wanted, and what is odd about a file."""
     rows = [
         (
-            entry.name, entry.type, entry.metadata, entry.time.tolist(),
-            [entry.payloads[at : at + size] for at, size in
-             zip(entry.begin.tolist(), entry.size.tolist(), strict=True)],
+            entry.name, entry.type, entry.metadata, entry.time.tolist(), entry.size.tolist(),
+            entry.payloads,
         )
         for entry in found.entries if wanted(entry)
     ]  # fmt: skip

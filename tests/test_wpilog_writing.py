@@ -89,7 +89,7 @@ def test_a_log_of_nothing_is_refused_and_leaves_no_file(
 ) -> None:
     path = tmp_path / "log.wpilog"
 
-    with pytest.raises(BadRequest, match=f"{what}.*runs all have samples"):
+    with pytest.raises(BadRequest, match=f"{what}.*in which every run has samples"):
         sim.write(log, path)
     assert not list(tmp_path.iterdir())
 

@@ -31,7 +31,7 @@ def format_questions(variant: Variant) -> str:
                     "### KC2_volts\n\nWhich voltage does the feedforward give at the target "
                     "speed?\nOne minute has 60 seconds.\n"
                 )
-        parts.append(_asked(name, one.asks.format(**variant.numbers), variant))
+        parts.append(_write_question(name, one.asks.format(**variant.numbers), variant))
     rows = "".join(f"- {row.name}: {row.told}\n" for row in ROWS)
     reasons = "".join(f"- **{one}** {REASONS[name]}\n" for one, name in variant.reasons.items())
     parts.append(
@@ -42,7 +42,7 @@ def format_questions(variant: Variant) -> str:
     return "\n".join(parts)
 
 
-def _asked(name: str, asks: str, variant: Variant) -> str:
+def _write_question(name: str, asks: str, variant: Variant) -> str:
     letters = variant.letters[name].items()
     return f"### {name}\n\n{asks}\n\n" + "".join(f"- **{one}** {o.text}\n" for one, o in letters)
 
@@ -111,10 +111,10 @@ def _judge_decision(row: Row, given: Mapping[str, object], variant: Variant) -> 
     if row.argues(found, _read_reason(row, given, variant)):
         return "Accepted: with that reason, your choice may be the better one."
 
-    def why(_: str) -> tuple[str, str]:
+    def explain_wrong_choice(_: str) -> tuple[str, str]:
         return f"{row.ask} Choose one of: {', '.join(DECISIONS)}.", ""
 
-    check_choice(raw, row.decision, DECISIONS, why=why, also=ALSO)
+    check_choice(raw, row.decision, DECISIONS, why=explain_wrong_choice, also=ALSO)
     return None
 
 

@@ -28,6 +28,7 @@ def list_lookalikes(variant: Variant) -> Numbers:
             "half-trackwidth": radius * HALF,
         },
         "lever": {"tank": side / 2.0, "whole-trackwidth": side, "diagonal": side / HALF},
+        "kA": {"as-kv": asked["kV"]},
         "kA_turning": {
             "per-degree": turning * DEGREE,
             "per-rotation": turning * 2.0 * math.pi,

@@ -25,7 +25,7 @@ def judge_word(name: str, raw: object) -> None:
     types = name.endswith("_type")
     choices = TYPES if types else CLASSES
 
-    def why(found: str) -> tuple[str, str]:
+    def explain_wrong_choice(found: str) -> tuple[str, str]:
         ask = f"Choose one of: {', '.join(choices)}."
         if found.startswith("Simple"):
             says = "Simple has no gravity term. Does yours stay where it is without a voltage? "
@@ -35,4 +35,4 @@ def judge_word(name: str, raw: object) -> None:
         )
         return says + ask, ""
 
-    check_choice(raw, RIGHT[name], choices, why=why, also=None if types else ALSO)
+    check_choice(raw, RIGHT[name], choices, why=explain_wrong_choice, also=None if types else ALSO)

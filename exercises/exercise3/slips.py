@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from grader.answers.number_answer import AnswerKey, diagnose_number
-from grader.answers.wrong_number import Lookalike, Scene, Slips, WrongNumber
+from grader.answers.wrong_number import ALIKE, Lookalike, Scene, Slips, WrongNumber
 
 from .holds import Variant
 
@@ -62,6 +62,9 @@ def _list_lookalikes(
             edges |= {level.lower, level.upper, max(row.upper for row in rows)}
             of_kg += [("as-read", level.middle), ("largest", max(row.middle for row in rows))]
             of_kg += [("degrees", row.middle / math.cos(row.reading + offset)) for row in rows]
+            mean = sum(row.middle for row in rows) / len(rows)
+            of_kg.append(("mean", mean))
+            edges = {edge for edge in edges if abs(edge - mean) > 2 * ALIKE * abs(mean)}
         of_kg += [("edge", edge) for edge in sorted(edges)]
         halves = [ks, *(row.friction for row in rows)]
         of_ks = [("width", 2.0 * half) for half in halves]

@@ -87,7 +87,7 @@ def _find_lacks(machine: Machine, plan: Plan) -> Iterator[BrokenRule]:
             says += f"your ramp is below {needs} ({machine.hold:.2f} V)"
         yield BrokenRule(says)
     if slow.fastest < LESS * QUARTER * machine.free:
-        yield _too_slow(slow, end)
+        yield _explain_slow_ramp(slow, end)
     push = plan.step - machine.hold
     if push <= 0.0:
         yield BrokenRule(f"your step does not move it: {needs} is {machine.hold:.2f} V")
@@ -97,7 +97,7 @@ def _find_lacks(machine: Machine, plan: Plan) -> Iterator[BrokenRule]:
         yield BrokenRule(f"{says} times. You cannot see it in the noise")
 
 
-def _too_slow(slow: Test, end: str) -> BrokenRule:
+def _explain_slow_ramp(slow: Test, end: str) -> BrokenRule:
     machine = slow.machine
     share = 100.0 * slow.fastest / machine.free
     says = f"your ramp reaches {share:.1f} % of the free speed at {end}; at least 25 %"

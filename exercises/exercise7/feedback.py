@@ -18,6 +18,12 @@ def list_actions(fault: str) -> list[str]:
     return helps
 
 
+def explain_place(fault: str) -> str:
+    """Which samples count as wrong, where that is a question; else nothing."""
+    place: str = _TEXTS["faults"][fault].get("place", "")
+    return place
+
+
 def explain_mixed_up(said: str, really: str) -> str:
     """What to say of a fault that was taken for another one."""
     fault = _TEXTS["faults"][really]

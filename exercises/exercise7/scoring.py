@@ -9,6 +9,7 @@ from .feedback import (
     explain_false_alarm,
     explain_mixed_up,
     explain_overlooked,
+    explain_place,
     list_actions,
 )
 from .line import CLEAN, Claim, Span
@@ -115,8 +116,8 @@ def _explain_place(claim: Claim, *, whole: bool, lasts: float) -> str:
         )
     return (
         "The fault is right, but not the place: write the times of the first and the last wrong"
-        " sample. Is it in this test, and is it as long as you wrote?"
-    )
+        f" sample. Is it in this test, and is it as long as you wrote? {explain_place(claim.fault)}"
+    ).strip()
 
 
 def _explain_alarm(claim: Claim) -> str:

@@ -243,7 +243,10 @@ def _list_unit_factors(scene: Scene) -> Iterator[_Factor]:
         (180.0 / math.pi, "degrees", "57.3 = 180/π. Did you mix up degrees and radians?"),
         (60.0, "minutes", "one minute has 60 seconds. Is your velocity in rpm, per minute?"),
     )
-    turning = ((360.0, "circle", "a rotation is 360°. Is your velocity in degrees per second?"),)
+    turning = (
+        (360.0, "circle", "a rotation is 360°. Is your velocity in degrees per second?"),
+        (4.0 * math.pi**2, "turns-twice", "39.5 = (2π)². Multiply or divide by 2π: which is it?"),
+    )
     going = (
         (1.0 / 0.3048, "feet", "a meter is 3.28 feet. Is your velocity in feet per second?"),
         (1.0 / 0.0254, "inches", "a meter is 39.4 inches. Is your velocity in inches per second?"),

@@ -22,12 +22,14 @@ from sim.support import command_line
 from sim.support.command_line import COULD_NOT, DONE, NOT_RIGHT
 from sim.support.completion import explain_completion
 from sim.support.extras import format_install_command
+from sim.support.lazy_package import lazy_modules
 
 if TYPE_CHECKING:
     from grader.consequence import Consequence
     from grader.course import Progress
     from grader.exercise import Exercise
 
+__getattr__ = lazy_modules(__name__)
 
 OWN_MODULE = {  # each is imported when it is asked for; the list of commands imports none of them
     "check-course": "Check exercises that you wrote or changed.",

@@ -51,10 +51,10 @@ def simulate_duty_cycle(
     unlimited = replace(mechanism, battery=battery, stator=math.inf, supply=math.inf, brownout=0.0)
     log = simulate(unlimited, routine, rng=rng, duty_cycle=True, electrical=True)
     lowest = min(float(np.min(run.bus_voltage)) for run in log.runs if run.bus_voltage is not None)
-    return log.add_doubts(_brownout(lowest)) if lowest < LOWEST else log
+    return log.add_doubts(_warn_of_brownout(lowest)) if lowest < LOWEST else log
 
 
-def _brownout(lowest: float) -> Doubt:
+def _warn_of_brownout(lowest: float) -> Doubt:
     """A warning about a battery voltage [V] at which a robot controller disables the motors."""
     return Doubt(
         "brownout",

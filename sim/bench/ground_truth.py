@@ -7,9 +7,9 @@ from pathlib import Path
 
 from sim.bench.mechanism import Mechanism
 from sim.bench.routine import Routine
-from sim.core.errors import BadRequest
 from sim.core.units import convert_gains, find_unit
 from sim.inspect.fault import LogInterval
+from sim.support.os_errors import refuse_os_errors
 
 
 def write_ground_truth(
@@ -46,11 +46,6 @@ def write_ground_truth(
             for name, severity, where in faults
         ],
     }  # fmt: skip
-    try:
+    advice = "Name a file in a folder that exists and may be written to."
+    with refuse_os_errors("the truth cannot be written", path, advice=advice):
         path.write_text(json.dumps(content, indent=2) + "\n", encoding="utf-8")
-    except OSError as error:
-        raise BadRequest(
-            f"cannot write the truth: {error.strerror}",
-            where=str(path),
-            advice="Name a file in a folder that exists and may be written to.",
-        ) from error

@@ -53,7 +53,7 @@ class Sensor:
     frame: float = 0.0
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Mechanism:
     """A robot mechanism.
 
@@ -93,11 +93,11 @@ class Mechanism:
     motor: Motor
     motor_count: int
     ratio: float
-    radius: float
+    radius: float = 1.0
     load: float
     friction: float
-    drag: float
-    spin: float
+    drag: float = 0.0
+    spin: float = 0.0
     travel: float | None
     sensor: Sensor
     spread: Mapping[str, tuple[float, float]]

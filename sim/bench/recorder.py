@@ -15,7 +15,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from sim.bench.mechanism import Mechanism
-from sim.core.errors import BadRequest
+from sim.core.errors import refuse_unknown
 
 
 @dataclass(frozen=True)
@@ -70,8 +70,5 @@ def find_recorder(name: str) -> Recorder:
     Raises:
         BadRequest: no such recorder; the message lists those there are.
     """
-    if name not in RECORDERS:
-        raise BadRequest(
-            f"unknown recorder {name!r}", advice=f"Choose one of: {', '.join(RECORDERS)}."
-        )
+    refuse_unknown("recorder", name, RECORDERS)
     return RECORDERS[name]

@@ -83,9 +83,9 @@ class Routine:
             [V] the command of a forward test, negated in a reverse test.
         """
         kind, _, way = test.rpartition("-")
-        return (1.0 if way == "forward" else -1.0) * self._forward(kind, time)
+        return (1.0 if way == "forward" else -1.0) * self._command_forward(kind, time)
 
-    def _forward(self, kind: str, time: float) -> float:
+    def _command_forward(self, kind: str, time: float) -> float:
         """[V] of a forward test."""
         match kind:
             case "quasistatic":

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from sim.bench.mechanism import Sensor
-from sim.core.log import Array
+from sim.core.log import Array, integrate_velocity
 
 
 class SensorReading(NamedTuple):
@@ -52,9 +52,7 @@ def read_sensor(
             at = frame * sensor.frame + phase
             first = np.searchsorted(frame, frame)  # all readings of a frame have the same noise
             noise = noise[first]
-        way = np.concatenate(
-            ([0.0], np.cumsum(0.5 * (velocity[1:] + velocity[:-1]) * np.diff(time)))
-        )
+        way = integrate_velocity(time, velocity)
         if sensor.filter:
             velocity = (
                 interpolate_cubic(at, time, way, velocity)

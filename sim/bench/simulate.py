@@ -31,7 +31,7 @@ __all__ = ["move_gains_only", "read_sensor", "simulate"]
 PAUSE = 1.0  # [s] between two tests, in which the mechanism comes to rest
 FASTEST, SLOWEST = 0.0005, 0.5  # [s] limits of the loop period
 DIGITS = 6  # of a time [s]: a roboRIO counts microseconds
-FEWEST = 10  # [samples] of a test
+MIN_SAMPLES = 10  # [samples] of a test
 STEPS_PER_LOOP = 8  # recorded steps of a loop, for a sensor that measures between loops
 MARGIN = 0.04  # [share of the travel] distance to a stop at which a test ends
 
@@ -79,13 +79,13 @@ def simulate(
         voltage = np.array([routine.command_voltage(test, t) for t in time.tolist()])
         cut = cut or _is_cut(state)
         state.clock = float(start + time[0] - runs[0].time[0]) if runs else 0.0  # as in the log
-        begin, active = _at_rest(state, _begin(mechanism, test, last)), model
+        begin, active = _at_rest(state, _find_start(mechanism, test, last)), model
         time, voltage = _divide_loops(time, voltage, parts)
         track, state = _move(active, time, voltage, begin=begin, wires=wires)
         if wheels_slip(mechanism, track):
             active, gripped = (model + slips, gripped) if slips else (model, True)
             track, state = _move(active, time, voltage, begin=begin, wires=wires)
-        end = (_end(track.take_every(parts), mechanism, test=test) - 1) * parts + 1
+        end = (_find_end(track.take_every(parts), mechanism, test=test) - 1) * parts + 1
         time, voltage = time[:end], voltage[:end]
         if end < track.position.size and state.memory.any():  # without heating after the end
             track, state = _move(active, time, voltage, begin=begin, wires=wires)
@@ -95,7 +95,7 @@ def simulate(
         cool_down(state, model, PAUSE)
         start, last = start + float(time[-1]) + PAUSE, float(track.position[end - 1])
     log = Log(tuple(runs), units=mechanism.units, mechanism=mechanism.name, type=mechanism.type)
-    return log.add_doubts(*_doubts(mechanism, cut=cut or _is_cut(state), gripped=gripped))
+    return log.add_doubts(*_make_doubts(mechanism, cut=cut or _is_cut(state), gripped=gripped))
 
 
 def _at_rest(state: State, position: float) -> State:
@@ -166,7 +166,7 @@ def _check_period(period: float) -> None:
         )
 
 
-def _doubts(mechanism: Mechanism, *, cut: bool, gripped: bool) -> Iterator[Doubt]:
+def _make_doubts(mechanism: Mechanism, *, cut: bool, gripped: bool) -> Iterator[Doubt]:
     """Warnings about a simulated log: a brownout, and wheel slip that was left out."""
     if gripped:
         yield Doubt(
@@ -223,7 +223,7 @@ def _loop_times(
     """[s] times of the loops with a voltage, from the second on, with jitter."""
     timeout, jitter = routine.find_longest_duration(test), mechanism.sensor.jitter
     count = math.floor(timeout / period + 1e-9) - LOOPS_BEFORE_DRIVE + 1
-    if count < FEWEST:
+    if count < MIN_SAMPLES:
         raise BadRequest(
             f"a timeout of {timeout:g} s has {max(count, 0)} loops of {period:g} s",
             advice="Ask for a longer timeout or a shorter period.",
@@ -233,7 +233,7 @@ def _loop_times(
     return np.asarray(np.round(times, DIGITS))
 
 
-def _begin(mechanism: Mechanism, test: str, last: float) -> float:
+def _find_start(mechanism: Mechanism, test: str, last: float) -> float:
     """[m or rad] position at which a test begins: a stop, or the end of the last test."""
     if mechanism.stops is None:
         return last
@@ -241,7 +241,7 @@ def _begin(mechanism: Mechanism, test: str, last: float) -> float:
     return low if test.endswith("forward") else high - 0.5 * MARGIN * (high - low)
 
 
-def _end(track: Track, mechanism: Mechanism, *, test: str) -> int:
+def _find_end(track: Track, mechanism: Mechanism, *, test: str) -> int:
     """Number of samples until the end of the test.
 
     Raises:
@@ -249,9 +249,9 @@ def _end(track: Track, mechanism: Mechanism, *, test: str) -> int:
     """
     end = int(track.position.size)
     if mechanism.travel is not None:
-        beyond = _beyond(track, mechanism, test=test)
+        beyond = _mark_beyond(track, mechanism, test=test)
         end = int(np.argmax(beyond)) if beyond.any() else end
-    if end < FEWEST:
+    if end < MIN_SAMPLES:
         raise BadRequest(
             f"{test} lasts {end} loops",
             advice="Ask for a longer timeout, a shorter period or a smaller step.",
@@ -259,7 +259,7 @@ def _end(track: Track, mechanism: Mechanism, *, test: str) -> int:
     return end
 
 
-def _beyond(track: Track, mechanism: Mechanism, *, test: str) -> NDArray[np.bool_]:
+def _mark_beyond(track: Track, mechanism: Mechanism, *, test: str) -> NDArray[np.bool_]:
     """(n,) whether it has reached an end of its travel."""
     if mechanism.stops is None:
         travel = math.inf if mechanism.travel is None else mechanism.travel

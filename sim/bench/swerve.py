@@ -13,7 +13,7 @@ The largest traction is µ·m·g, so the wheels slip at v' = µ·g and at ω' = 
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from sim.bench.mechanism import Mechanism, Sensor
 from sim.core.units import GRAVITY
@@ -114,23 +114,17 @@ class SwerveDrive:
             * self.wheel_radius
             / (self.modules * self.motor.torque_constant * self.ratio * self.lever_arm)
         )
-        return Mechanism(
+        return replace(
+            self.translation,
             name="swerve-rotation",
             summary="a swerve drive turning on the spot, read by a gyro in degrees",
-            type="simple",
             units="degrees",
-            motor=self.motor,
-            motor_count=self.modules,
-            ratio=self.ratio,
             radius=self.wheel_radius / self.lever_arm,
             load=self.inertia,
             friction=self.friction + volts_per_torque * self.scrub,
-            drag=self.drag,
             spin=self.wheel_mass * self.lever_arm**2 / self.inertia,
             travel=None,
             sensor=GYRO,
-            spread={},
-            stator=self.stator,
             grip=(self.traction_limit * self.lever_arm - self.scrub) / self.inertia,
         )
 

@@ -16,10 +16,11 @@ from sim.bench.routine import Routine
 from sim.bench.sensor_model import read_sensor
 from sim.bench.simulate import simulate
 from sim.bench.swerve import WHEELS, SwerveDrive
-from sim.core.errors import BadRequest
+from sim.core.errors import refuse_unknown
 from sim.core.log import Array, Log
 from sim.core.units import find_unit
 from sim.io.formats.wpilog.signals import SignalGroup, write_signals
+from sim.io.formats.wpilog.writing import make_motor_groups
 
 MODULES = ("front-left", "front-right", "back-left", "back-right")
 RATE, VOLTS = "Rotational_Rate", "Phoenix6/TalonFX-{}/MotorVoltage"
@@ -52,10 +53,8 @@ def record_modules(
         BadRequest: ``radii`` has an unknown module.
     """
     worn = dict(radii or {})
-    if unknown := sorted(worn.keys() - set(MODULES)):
-        raise BadRequest(
-            f"there is no module {unknown[0]!r}", advice=f"Choose one of: {', '.join(MODULES)}."
-        )
+    for module in worn:
+        refuse_unknown("module", module, MODULES)
     exact = Sensor(1e-9, 0.0, WHEELS.noise_speed, WHEELS.jitter)
     log = simulate(replace(drive.translation, sensor=exact), routine, rng=rng)
     logs = {}
@@ -81,21 +80,7 @@ def write_modules(logs: Mapping[str, Log], path: Path) -> None:
     Raises:
         BadRequest: the file cannot be written.
     """
-    first = next(iter(logs.values()))
-    groups, units = [], {}
-    for k, run in enumerate(first.runs):
-        signals = {}
-        for module, log in logs.items():
-            one = log.runs[k]
-            for name, values, unit in (
-                ("voltage", one.voltage, "Volt"),
-                ("position", one.position, "Meter"),
-                ("velocity", one.velocity, "Meter per Second"),
-            ):
-                entry = f"{name}-{module}-{first.mechanism}"
-                signals[entry], units[entry] = values, unit
-        texts = {f"sysid-test-state-{first.mechanism}": _tests(run.time, run.test)}
-        groups.append(SignalGroup(run.time, signals, texts))
+    groups, units = make_motor_groups(logs)
     write_signals(groups, path, units=units)
 
 
@@ -119,12 +104,12 @@ def write_rotation(log: Log, path: Path, *, volts_per_rate: float) -> None:
         signals = {VOLTS.format(k + 1): run.voltage for k in range(len(MODULES))}
         signals[RATE] = run.voltage / volts_per_rate
         signals |= {YAW: run.position / degree, YAW_RATE: run.velocity / degree}
-        texts = {"SysIdRotation_State": _tests(run.time, run.test)}
+        texts = {"SysIdRotation_State": _list_states(run.time, run.test)}
         groups.append(SignalGroup(run.time, signals, texts))
     write_signals(groups, path, units={})
 
 
-def _tests(time: Array, test: str) -> list[tuple[float, str]]:
+def _list_states(time: Array, test: str) -> list[tuple[float, str]]:
     """[s] times and test states: the test at its start, ``none`` after its end."""
     return [(float(time[0]), test), (float(time[-1]) + LOOP, "none")]
 

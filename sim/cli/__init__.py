@@ -7,6 +7,9 @@ import click
 
 from sim.support.command_line import run_command
 from sim.support.completion import explain_completion
+from sim.support.lazy_package import lazy_modules
+
+__getattr__ = lazy_modules(__name__)
 
 COMMANDS = {  # each in a module or a folder of this name; the list of commands imports none of them
     "contaminate": "Write a copy of the log FILE with a fault added to it.",

@@ -5,8 +5,8 @@ from pathlib import Path
 import click
 import numpy as np
 
-from sim.cli.log_reader import LogReader, reading_options
-from sim.cli.options import FAULT_NAMES, FILE, output_option, refuse_overwriting
+from sim.cli.log_reader import LogReader
+from sim.cli.options import FAULT_NAMES, FILE, output_option, reading_options, refuse_overwriting
 from sim.inspect.contaminate import contaminate_all, parse_fault_request
 from sim.io import write
 from sim.support.command_line import quote_path

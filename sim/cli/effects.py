@@ -3,7 +3,7 @@
 import click
 
 from sim.cli.options import as_json, list_catalogue
-from sim.physics.effects import EFFECTS
+from sim.physics.effects import EFFECTS, list_look_alikes
 
 
 @click.command()
@@ -29,7 +29,7 @@ def effects(*, as_json: bool) -> None:
                 },
                 "fingerprint": found.fingerprint,
                 "inspect": found.inspect,
-                "apart": dict(found.apart),
+                "apart": list_look_alikes(name),
             }
             for name, found in EFFECTS.items()
         ),

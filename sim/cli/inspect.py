@@ -7,8 +7,8 @@ from pathlib import Path
 
 import click
 
-from sim.cli.log_reader import LogReader, reading_options, refuse_duplicates
-from sim.cli.options import FILE, as_json
+from sim.cli.log_reader import LogReader, refuse_duplicates
+from sim.cli.options import FILE, as_json, reading_options
 from sim.core.doubt import SHOWN_FIRST, Doubt
 from sim.inspect.detect_faults import Inspection, inspect_together
 from sim.inspect.fault import Damage

@@ -1,87 +1,24 @@
-"""Options that say how logs are read, and the reader that follows them.
+"""The reader that follows the options about how logs are read.
 
 Files that hold one test each are joined. A file with a whole recording is a part of its own, and so
 is every motor.
 """
 
-import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import reduce, wraps
+from functools import reduce
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
-import click
-
-from sim.cli.options import combine_options, is_same_file
+from sim.cli.options import is_same_file
 from sim.core.errors import BadRequest
 from sim.core.log import Log
-from sim.core.units import UNITS
-from sim.core.vocabulary import TYPES
 from sim.inspect.log_units import doubt_units
 from sim.io import read_motors, read_with
 from sim.io.format import ReadOptions
 from sim.io.motion import leave_out_falls, mend_motion, scale_velocity
 
 Parts: TypeAlias = Mapping[str, Log]  # name of a side, module or repetition -> its log
-READING = ("units", "motor", "pick", "velocity_scale", "ignore_velocity")  # options of LogReader
-
-
-def _factor(_: click.Context, __: click.Parameter, value: float) -> float:
-    """The value, if it is finite and not zero.
-
-    Raises:
-        BadParameter: it is not.
-    """
-    if not (math.isfinite(value) and value):
-        raise click.BadParameter(f"{value:g} is not a finite number other than zero.")
-    return value
-
-
-_add_reading_options = combine_options(
-    click.option("--type", "type_", type=click.Choice(TYPES), help="What kind of mechanism."),
-    click.option(
-        "--units", type=click.Choice(tuple(UNITS)), help="Units of the positions in the file."
-    ),
-    click.option("--motor", help="Which motor, if the log has several: left, right, …"),
-    click.option(
-        "--pick",
-        type=click.IntRange(min=1),
-        metavar="N",
-        help="Which mechanism, if the log has several: its number in the message.",
-    ),
-    click.option("--voltage", metavar="ENTRY", help="Log entry with the applied voltage."),
-    click.option("--position", metavar="ENTRY", help="Log entry with the position."),
-    click.option("--velocity", metavar="ENTRY", help="Log entry with the velocity."),
-    click.option("--state", metavar="ENTRY", help="Log entry with the running test's name."),
-    click.option(
-        "--velocity-scale",
-        metavar="X",
-        type=float,
-        callback=_factor,
-        default=1.0,
-        help="Multiply the velocity by X, if its factor in the robot's code is wrong.",
-    ),
-    click.option(
-        "--ignore-velocity",
-        is_flag=True,
-        help="Use the slope of the position as the velocity.",
-    ),
-)
-
-
-def reading_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Decorator that adds the options for reading a log; the command gets a ``LogReader``."""
-
-    @wraps(command)
-    def call_with_reader(*args: Any, **options: Any) -> Any:  # noqa: ANN401 - passed on
-        named = {name: options.pop(name) for name in ("voltage", "position", "velocity", "state")}
-        entries = {name: entry for name, entry in named.items() if entry}
-        how = {name: options.pop(name) for name in READING}
-        reader = LogReader(**how, type=options.pop("type_"), entries=entries)
-        return command(*args, reader=reader, **options)
-
-    return _add_reading_options(call_with_reader)
 
 
 @dataclass(frozen=True)

@@ -1,18 +1,25 @@
 """Options and arguments that several commands share."""
 
 import json
+import math
 from collections.abc import Callable, Iterable, Mapping
-from functools import reduce
+from functools import reduce, wraps
 from pathlib import Path
 from typing import Any, TypeAlias
 
 import click
 
+from sim import cli
 from sim.core.errors import BadRequest
+from sim.core.units import UNITS
+from sim.core.vocabulary import TYPES
 from sim.support.completion import complete_members
 
 Option: TypeAlias = Callable[[Callable[..., Any]], Callable[..., Any]]
 
+READING = ("units", "motor", "pick", "velocity_scale", "ignore_velocity")  # options of LogReader
+TARGETS = ("java", "python", "phoenix6", "revlib", "yagsl")  # of robot code
+SEASONS = ("2026", "2027")
 FILE = click.Path(path_type=Path)
 SIM = Path(__file__).resolve().parents[1]
 MECHANISM_NAMES = complete_members(SIM / "bench" / "mechanisms")
@@ -33,6 +40,79 @@ as_json = click.option("--json", "as_json", is_flag=True, help="Print JSON for o
 def combine_options(*options: Option) -> Option:
     """Decorator that adds several options to a command, in their order."""
     return lambda command: reduce(lambda made, option: option(made), reversed(options), command)
+
+
+def _factor(_: click.Context, __: click.Parameter, value: float) -> float:
+    """The value, if it is finite and not zero.
+
+    Raises:
+        BadParameter: it is not.
+    """
+    if not (math.isfinite(value) and value):
+        raise click.BadParameter(f"{value:g} is not a finite number other than zero.")
+    return value
+
+
+_add_reading_options = combine_options(
+    click.option("--type", "type_", type=click.Choice(TYPES), help="What kind of mechanism."),
+    click.option(
+        "--units", type=click.Choice(tuple(UNITS)), help="Units of the positions in the file."
+    ),
+    click.option("--motor", help="Which motor, if the log has several: left, right, …"),
+    click.option(
+        "--pick",
+        type=click.IntRange(min=1),
+        metavar="N",
+        help="Which mechanism, if the log has several: its number in the message.",
+    ),
+    click.option("--voltage", metavar="ENTRY", help="Log entry with the applied voltage."),
+    click.option("--position", metavar="ENTRY", help="Log entry with the position."),
+    click.option("--velocity", metavar="ENTRY", help="Log entry with the velocity."),
+    click.option("--state", metavar="ENTRY", help="Log entry with the running test's name."),
+    click.option(
+        "--velocity-scale",
+        metavar="X",
+        type=float,
+        callback=_factor,
+        default=1.0,
+        help="Multiply the velocity by X, if its factor in the robot's code is wrong.",
+    ),
+    click.option(
+        "--ignore-velocity",
+        is_flag=True,
+        help="Use the slope of the position as the velocity.",
+    ),
+)
+
+
+def reading_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Decorator that adds the options for reading a log; the command gets a ``LogReader``."""
+
+    @wraps(command)
+    def call_with_reader(*args: Any, **options: Any) -> Any:  # noqa: ANN401 - passed on
+        named = {name: options.pop(name) for name in ("voltage", "position", "velocity", "state")}
+        entries = {name: entry for name, entry in named.items() if entry}
+        how = {name: options.pop(name) for name in READING}
+        reader = cli.log_reader.LogReader(**how, type=options.pop("type_"), entries=entries)
+        return command(*args, reader=reader, **options)
+
+    return _add_reading_options(call_with_reader)
+
+
+paste_options = combine_options(
+    click.option(
+        "--paste",
+        type=click.Choice(TARGETS),
+        help="Print only code: WPILib's feedforward, or the settings of a motor controller.",
+    ),
+    click.option(
+        "--season",
+        type=click.Choice(SEASONS),
+        default="2026",
+        show_default=True,
+        help="WPILib season, for --paste.",
+    ),
+)
 
 
 def list_catalogue(rows: Iterable[Mapping[str, Any]], *, as_json: bool) -> None:

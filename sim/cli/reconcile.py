@@ -1,24 +1,30 @@
 """``sysid reconcile``."""
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 
 import click
 
-from sim.cli.fit.paste import make_paste_text, paste_options
-from sim.cli.log_reader import LogReader, reading_options
+from sim.cli.fit.paste import make_paste_text
+from sim.cli.log_reader import LogReader
 from sim.cli.open.page_data import replace_gains
-from sim.cli.open.reconcile_job import inspect_damage
+from sim.cli.open.reconcile_job import search_effects
 from sim.cli.open.saved_page import save_page
 from sim.cli.open.session import OpenLog
-from sim.cli.options import FILE, as_json, combine_options, refuse_overwriting
+from sim.cli.options import (
+    FILE,
+    as_json,
+    combine_options,
+    paste_options,
+    reading_options,
+    refuse_overwriting,
+)
 from sim.core.log import Log
 from sim.fit import Fit, fit
 from sim.physics.engine import engine_can_compile
 from sim.reconcile import Story
-from sim.reconcile import reconcile as solve
 from sim.report.page_file import choose_page_path
 from sim.report.story_terminal import show_progress, show_story
 from sim.support.command_line import DONE, NOT_RIGHT, print_error
@@ -92,7 +98,9 @@ def reconcile(  # noqa: PLR0917 - click passes options by name
     }
     _warn_uncompiled()
     with _progress_display(visible=not (as_json or paste)) as progress:
-        story = _solve(logs, type_=reader.type, travel=travel, effort=effort, progress=progress)
+        story = search_effects(
+            logs, type=reader.type, travel=travel, effort=effort, progress=progress
+        )
     if html is not None:
         names = ", ".join(file.name for file in files)  # a page travels; folders are private
         save_page(OpenLog(1, names, files[0], finished={"": logs["log"]}), html, story)
@@ -129,25 +137,6 @@ def _progress_display(*, visible: bool) -> AbstractContextManager[Callable[[str,
         return nullcontext(lambda _, __: None)
 
     return show_progress()
-
-
-def _solve(
-    logs: Mapping[str, Log], *, type_: str | None, travel: float | None, effort: float,
-    progress: Callable[[str, float], None],
-) -> Story:  # fmt: skip
-    """The story of these logs; intervals in which an inspection finds damage are excluded."""
-    progress("looking for damage", 0.0)
-    log = logs["log"]
-    return solve(
-        log,
-        validation=logs.get("validation"),
-        held_out=logs.get("held_out"),
-        type=type_ or log.type or "simple",
-        travel=travel,
-        effort=effort,
-        damages={name: inspect_damage(some) for name, some in logs.items()},
-        progress=progress,
-    )
 
 
 def _make_fit(story: Story, log: Log) -> Fit:

@@ -11,7 +11,7 @@
 A command turns any of them into one line on standard error and exit code 2.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from typing import Self
 
@@ -65,6 +65,23 @@ class NotIdentifiable(Refusal):
 
 class BadRequest(Refusal):
     """A request that cannot be carried out."""
+
+
+def refuse_unknown(what: str, name: object, known: Iterable[object]) -> None:
+    """Refuse a name that is not among those known.
+
+    Args:
+        what: what it should name: ``motor``.
+        name: the name.
+        known: the names there are, which the message lists.
+
+    Raises:
+        BadRequest: the name is not among them.
+    """
+    known = tuple(known)
+    if name not in known:
+        advice = f"Choose one of: {', '.join(map(str, known))}."
+        raise BadRequest(f"unknown {what} {name!r}", advice=advice)
 
 
 def _rebuild(kind: type[Refusal], what: str, where: str, advice: str | Action) -> Refusal:

@@ -12,7 +12,7 @@ from sim.core.errors import BadRequest
 from sim.core.log import Log, Run
 from sim.core.vocabulary import TESTS
 
-FEWEST = 5  # [samples] shorter pieces of a run are left out, too
+MIN_SAMPLES = 5  # [samples] shorter pieces of a run are left out, too
 SPELLING = re.compile(r"(?P<test>[\w-]+?)(:(?P<start>[\d.]+)-(?P<end>[\d.]+))?")
 
 
@@ -86,7 +86,9 @@ def leave_out(logs: Mapping[str, Log], parts: Iterable[LeftOutPart]) -> dict[str
                 advice="Take test and times from the output of `sysid inspect`.",
             )
         left = {
-            name: replace(log, runs=tuple(piece for run in log.runs for piece in _split(run, part)))
+            name: replace(
+                log, runs=tuple(piece for run in log.runs for piece in _cut_out(run, part))
+            )
             for name, log in left.items()
         }
     if not all(log.runs for log in left.values()):
@@ -94,10 +96,10 @@ def leave_out(logs: Mapping[str, Log], parts: Iterable[LeftOutPart]) -> dict[str
     return left
 
 
-def _split(run: Run, part: LeftOutPart) -> list[Run]:
+def _cut_out(run: Run, part: LeftOutPart) -> list[Run]:
     """The run without the part: itself, or the pieces before and after it."""
     gone = part.find(run).nonzero()[0]
     if not gone.size:
         return [run]
     pieces = (slice(0, gone[0]), slice(gone[-1] + 1, len(run)))
-    return [one for one in (run.select(piece) for piece in pieces) if len(one) >= FEWEST]
+    return [one for one in (run.select(piece) for piece in pieces) if len(one) >= MIN_SAMPLES]

@@ -13,11 +13,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sim.core.doubt import Doubt
-from sim.core.errors import BadRequest, BadSample
+from sim.core.errors import BadRequest, BadSample, refuse_unknown
 from sim.core.units import find_unit
 from sim.core.vocabulary import DIRECTIONS, FOUR_TESTS, KINDS, TESTS, TYPES
 
 __all__ = [  # with the fixed names, which code that works on logs needs
+    "AT_REST",
     "DIRECTIONS",
     "FOUR_TESTS",
     "KINDS",
@@ -35,6 +36,7 @@ Array: TypeAlias = NDArray[np.float64]
 
 LARGEST = 1e9  # [any SI unit] larger than any reading of a robot; its square still fits a double
 MOVING = 0.1  # [share of a run's top speed] faster samples are in motion, however noisy
+AT_REST = 0.03  # [share of the top speed] slower samples are at rest
 STANDSTILL = 0.02  # [share of the top speed] slower, static friction decides the speed
 CONSTANT_KINDS = frozenset({"dynamic", "coast", "multistep"})  # tests with a constant command
 LONE_STEP = 2.0  # [1] ratio to the changes before and after, from which on a change is a step
@@ -82,7 +84,7 @@ class Run:
         for name in ("time", "voltage", "position", "velocity", "current", "bus_voltage"):
             values = getattr(self, name)
             if values is not None:
-                object.__setattr__(self, name, _frozen(values))
+                object.__setattr__(self, name, _freeze(values))
                 self._check(name, getattr(self, name))
         late = np.flatnonzero(np.diff(self.time) <= 0)
         if late.size:
@@ -117,14 +119,14 @@ class Run:
         """
         change = np.diff(self.voltage)
         if self.kind not in CONSTANT_KINDS or not change.any():
-            return _frozen(np.zeros(len(self)))
+            return _freeze(np.zeros(len(self)))
         sizes = np.abs(np.concatenate(([0.0], change, [0.0])))
         steps = sizes[1:-1] > LONE_STEP * np.maximum(sizes[:-2], sizes[2:])
         least = LEAST_STEP * float(np.max(np.abs(self.voltage)))
         steps &= np.abs(change) > least
         if self.kind != "multistep":
             steps &= np.minimum(np.abs(self.voltage[:-1]), np.abs(self.voltage[1:])) < least
-        return _frozen(np.append(np.where(steps, 0.0, change), 0.0))
+        return _freeze(np.append(np.where(steps, 0.0, change), 0.0))
 
     @cached_property
     def voltage_error(self) -> Array:
@@ -140,7 +142,7 @@ class Run:
         kinks = np.max(np.abs([after - before, here - before, after - here]), axis=0, initial=0.0)
         isolated = (before == 0.0) & (after == 0.0)
         error = np.where(isolated, np.abs(here) / math.sqrt(12.0), kinks / 8.0)
-        return _frozen(np.append(np.where(here == 0.0, 0.0, error), 0.0))
+        return _freeze(np.append(np.where(here == 0.0, 0.0, error), 0.0))
 
     def _check(self, name: str, values: Array) -> None:
         """Refuse a signal with a wrong length, or with values that are not finite or too large."""
@@ -219,10 +221,8 @@ class Log:
     def __post_init__(self) -> None:
         object.__setattr__(self, "runs", tuple(self.runs))
         object.__setattr__(self, "units", find_unit(self.units).name)
-        if self.type and self.type not in TYPES:
-            raise BadRequest(
-                f"unknown type {self.type!r}", advice=f"Choose one of: {', '.join(TYPES)}."
-            )
+        if self.type:
+            refuse_unknown("type", self.type, TYPES)
 
     @cached_property
     def top_speed(self) -> float:
@@ -256,7 +256,18 @@ class Log:
         return replace(self, doubts=self.doubts + doubts)
 
 
-def _frozen(values: ArrayLike) -> Array:
+def integrate_velocity(time: Array, velocity: Array) -> Array:
+    """The distance from the first sample by the trapezoidal rule, (n,) [m or rad].
+
+    Args:
+        time: (n,) [s].
+        velocity: (n,) [m/s or rad/s].
+    """
+    steps = 0.5 * np.diff(time) * (velocity[1:] + velocity[:-1])
+    return np.concatenate((np.zeros(min(time.size, 1)), np.cumsum(steps)))
+
+
+def _freeze(values: ArrayLike) -> Array:
     """A read-only copy in double precision."""
     copy = np.array(values, dtype=np.float64)
     copy.setflags(write=False)

@@ -4,10 +4,11 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from sim.core.errors import BadRequest
+from sim.core.errors import refuse_unknown
 
 GRAVITY = 9.81  # [m/s²]
 TURN = 2.0 * math.pi  # [rad]
+ROBUST = 1.4826  # standard deviations in a median absolute deviation
 BATTERY = 12.0  # [V] nominal: a motor's data sheet is for it, and a controller gives no more
 
 
@@ -67,7 +68,6 @@ def find_unit(name: str) -> Unit:
         >>> find_unit("Degrees").symbol
         'deg'
     """
-    found = UNITS.get(name.strip().lower())
-    if found is None:
-        raise BadRequest(f"unknown units {name!r}", advice=f"Choose one of: {', '.join(UNITS)}.")
-    return found
+    name = name.strip().lower()
+    refuse_unknown("units", name, UNITS)
+    return UNITS[name]

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.core.log import Array, Log, Run
+from sim.core.units import ROBUST
 
 MIN_SAMPLES = 4  # of a run that can be compared: fewer have no third difference
 REPEATED = 0.3  # [share of fast samples] if more repeat the one before, the log repeats frames
@@ -22,7 +23,6 @@ FRAME_QUANTILE = 0.2  # quantile of the gaps between changes that is the length 
 DIGITS = 1e-7  # [share of the range] finer than the resolution of any log
 SINGLE = 2.0**-22  # [share of the range] two roundings of single precision
 THIRD = 20.0  # sum of the squares of 1, 3, 3, 1
-ROBUST = 1.4826  # standard deviations in a median absolute deviation
 STOP_GIVES = 0.03  # [share of the way] farther than a mechanism moves while it leans on a stop
 CREEP_WAY = 0.005  # [share of the way] less is no creep on a soft stop
 CREEP_BEGIN = 0.2  # [share of the crept way] after which a creep has begun

@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.core.log import Array, Log
-from sim.estimation.measurements import MIN_SAMPLES, ROBUST, RunMeasurements, measure_runs
+from sim.core.units import ROBUST
+from sim.estimation.measurements import MIN_SAMPLES, RunMeasurements, measure_runs
 from sim.physics.voltage_residual import list_run_start_times, shares_clock
 
 AT_REST = 0.05  # [share of the top speed] a run whose position is slower starts at rest

@@ -52,23 +52,23 @@ class FollowedProfile:
             if part
         ]
         text = " ".join(parts) or "Here it does nearly what it should."
-        return re.sub(r"\b[Ii]t\b", lambda it: self._named(it[0]), text, count=1)
+        return re.sub(r"\b[Ii]t\b", lambda it: self._name_mechanism(it[0]), text, count=1)
 
-    def _named(self, it: str) -> str:
+    def _name_mechanism(self, it: str) -> str:
         return f"{'The' if it == 'It' else 'the'} {self.name}"
 
-    def _distance(self) -> float:
+    def _measure_distance(self) -> float:
         return max(self.target.position) - min(self.target.position)
 
     def _describe_rest(self) -> str:
         """A sentence about its motion before the target moves; may be empty."""
         end = self.target.rest_end
         drift = self.position[end] - self.position[0]
-        if abs(drift) <= NOTABLE * self._distance():
+        if abs(drift) <= NOTABLE * self._measure_distance():
             return ""
         ways = ("sinks", "climbs") if self.place in MORE_LESS else ("moves back", "moves on")
         way = ways[drift > 0.0]
-        text = f"When it should stand still, it {way} {self._size(drift)}"
+        text = f"When it should stand still, it {way} {self._format_size(drift)}"
         if self.position[end] in self.stops:
             return f"{text} and reaches its hard stop."
         return f"{text} in {self.target.time[end]:.1g} s."
@@ -85,10 +85,10 @@ class FollowedProfile:
         if found * wanted < 0.0:
             return f"{text} goes the other way."
         off = (found - wanted) * math.copysign(1.0, wanted)
-        if abs(off) > CLEAR * abs(wanted) and self._size(found) != self._size(wanted):
-            return f"{text} reaches {self._size(found)}/s."
+        if abs(off) > CLEAR * abs(wanted) and self._format_size(found) != self._format_size(wanted):
+            return f"{text} reaches {self._format_size(found)}/s."
         if abs(off) > NOTABLE * abs(wanted):
-            return f"{text} is {self._size(off)}/s too {'fast' if off > 0.0 else 'slow'}."
+            return f"{text} is {self._format_size(off)}/s too {'fast' if off > 0.0 else 'slow'}."
         return self._describe_rise()
 
     def _describe_rise(self) -> str:
@@ -100,17 +100,17 @@ class FollowedProfile:
             return ""
         ahead = off * wanted[self.target.cruise_end] > 0.0
         way = "high" if ahead else "low"
-        return f"While it speeds up, its velocity is up to {self._size(off)}/s too {way}."
+        return f"While it speeds up, its velocity is up to {self._format_size(off)}/s too {way}."
 
     def _describe_end(self) -> str:
         """A sentence about the final position error; may be empty."""
         off = self.position[-1] - self.target.position[-1]
-        if not self.place or abs(off) <= NOTABLE * self._distance():
+        if not self.place or abs(off) <= NOTABLE * self._measure_distance():
             return ""
         more, less = MORE_LESS.get(self.place, ("ahead of", "behind"))
-        return f"It ends {self._size(off)} {more if off > 0.0 else less} where it should be."
+        return f"It ends {self._format_size(off)} {more if off > 0.0 else less} where it should be."
 
-    def _size(self, value: float) -> str:
+    def _format_size(self, value: float) -> str:
         """An absolute value with one digit and unit."""
         return f"about {float(f'{abs(value):.1g}'):g} {self.symbol}"
 

@@ -77,14 +77,14 @@ def solve_riccati(a: Matrix, g: Matrix, h: Matrix) -> Matrix:
         h: H, the weights of the states; the process noise's covariance for a Kalman filter.
     """
     for _ in range(DOUBLINGS):
-        p, q, r, s = _times(g, h)
+        p, q, r, s = _multiply(g, h)
         size = (1.0 + p) * (1.0 + s) - q * r
         inverse = ((1.0 + s) / size, -q / size, -r / size, (1.0 + p) / size)  # of I + GH
-        onward = _times(inverse, a)
-        more = _times(_transpose(a), _times(h, onward))
-        g = _sum(g, _times(a, _times(_times(inverse, g), _transpose(a))))
-        a = _times(a, onward)
-        h = _sum(h, more)
+        onward = _multiply(inverse, a)
+        more = _multiply(_transpose(a), _multiply(h, onward))
+        g = _add(g, _multiply(a, _multiply(_multiply(inverse, g), _transpose(a))))
+        a = _multiply(a, onward)
+        h = _add(h, more)
         if max(map(abs, more)) <= SETTLED * max(map(abs, h)):
             break
     return h
@@ -112,7 +112,7 @@ def _row_times_power(k: Pair, m: Matrix, power: float) -> Pair:
     )
 
 
-def _times(a: Matrix, b: Matrix) -> Matrix:
+def _multiply(a: Matrix, b: Matrix) -> Matrix:
     return (
         a[0] * b[0] + a[1] * b[2],
         a[0] * b[1] + a[1] * b[3],
@@ -121,7 +121,7 @@ def _times(a: Matrix, b: Matrix) -> Matrix:
     )
 
 
-def _sum(a: Matrix, b: Matrix) -> Matrix:
+def _add(a: Matrix, b: Matrix) -> Matrix:
     return (a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3])
 
 

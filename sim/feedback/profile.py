@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from sim.core.units import BATTERY
 from sim.feedback.response import Plant
 
 STEP = 0.005  # [s] time step
@@ -107,7 +108,7 @@ def make_return_profile(
 def make_brisk_profile(plant: Plant) -> Profile:
     """A profile in one direction with rounded numbers, for a mechanism without gravity."""
     gains = plant.gains
-    speed = float(f"{BRISK * (12.0 - gains['kS']) / gains['kV']:.0e}")
+    speed = float(f"{BRISK * (BATTERY - gains['kS']) / gains['kV']:.0e}")
     rising = max(QUICKEST, float(f"{speed * gains['kA'] / PUSH:.0e}"))
     push = speed / rising
     return join_legs([Leg(STILL), Leg(rising, push), Leg(STEADY), Leg(rising, -push), Leg(STILL)])

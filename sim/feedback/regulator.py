@@ -12,6 +12,7 @@ import math
 from dataclasses import dataclass
 
 from sim.core.errors import BadRequest
+from sim.core.units import BATTERY
 from sim.feedback.linear_quadratic import design_two_state_regulator
 
 MASSLESS = 1e-7  # [V·s²/unit] with a smaller kA, the input of SysId's model is the velocity
@@ -72,7 +73,7 @@ def compute_allowed_velocity_error(*, ks: float, kv: float) -> float:
         ks: static friction [V].
         kv: [V·s/unit].
     """
-    return SPEED_SHARE * (12.0 - ks) / kv if kv else VELOCITY_ERROR
+    return SPEED_SHARE * (BATTERY - ks) / kv if kv else VELOCITY_ERROR
 
 
 def design_velocity_loop(

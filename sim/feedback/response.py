@@ -16,7 +16,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from sim.core.errors import BadRequest
+from sim.core.errors import BadRequest, refuse_unknown
 from sim.core.units import BATTERY
 from sim.feedback.regulator import PRESETS, Feedback, Preset
 
@@ -193,10 +193,14 @@ class _Controller:
         """The voltage [V] that it applies until its next sample."""
         change = 0.0 if self.last is None else measured - self.last
         self.last = measured
-        asked = self._forward(position) + self.kp * (self.target - measured) - self.kd * change
+        asked = (
+            self._compute_feedforward(position)
+            + self.kp * (self.target - measured)
+            - self.kd * change
+        )
         return min(max(asked, -BATTERY), BATTERY)
 
-    def _forward(self, position: float) -> float:
+    def _compute_feedforward(self, position: float) -> float:
         if self.loop == "position":
             return self.plant.compute_gravity_voltage(self.target)
         gains = self.plant.gains
@@ -222,8 +226,7 @@ def _choose_duration(plant: Plant, wait: float, preset: Preset) -> float:
 
 
 def _check(plant: Plant, *, loop: str, numbers: tuple[float, ...]) -> None:
-    if loop not in SIZES:
-        raise BadRequest(f"unknown loop {loop!r}", advice=f"Choose one of: {', '.join(SIZES)}.")
+    refuse_unknown("loop", loop, SIZES)
     if not all(map(math.isfinite, (*numbers, *plant.gains.values()))):
         raise BadRequest(
             "a gain or a target of this loop is not a number", advice="Give finite numbers."

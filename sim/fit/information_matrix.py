@@ -72,7 +72,7 @@ def compute_information(rows: Mapping[str, Rows], *, type: str, noise: float) ->
     if type not in TYPES:
         raise BadRequest(f"unknown type {type!r}", advice=f"Choose one of: {', '.join(TYPES)}.")
     if not (math.isfinite(noise) and noise > 0.0):
-        raise BadRequest(f"a noise of {noise:g} V", advice="Give one above 0.")
+        raise BadRequest(f"the noise must be above 0, not {noise:g} V", advice="Give its size.")
     if not any(len(part) for part in rows.values()):
         raise BadRequest("there are no rows", advice="Give at least one test that moves.")
     parts = [_columns(part, type=type) for part in rows.values()]

@@ -10,8 +10,9 @@ from dataclasses import replace
 import numpy as np
 
 from sim.core.log import Array, Log
+from sim.core.units import ROBUST
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
-from sim.estimation.measurements import ROBUST, RunMeasurements, merge_stale_samples
+from sim.estimation.measurements import RunMeasurements, merge_stale_samples
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import JointJacobian, levenberg_marquardt, tune_process_noise
 from sim.estimation.run_records import make_separate_records

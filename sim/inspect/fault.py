@@ -194,7 +194,7 @@ def _contract_breaches(fault: Fault, *, name: str, caption: str) -> list[str]:
         "opens with no sentence that says what it is": bool(caption.strip()),
         "has no line in the module's text that begins with Fingerprint:": "Fingerprint:" in caption,
         "has no summary of one line": len(fault.summary) > 0 and "\n" not in fault.summary,
-        "says what severity 1 means without a number": any(c.isdigit() for c in fault.ordinary),
+        "says what severity 1 means without digits": any(c.isdigit() for c in fault.ordinary),
         f"strikes kinds {fault.kinds}, which are not all tests": {*fault.kinds} <= {*KINDS},
         "strikes no kind of test": bool(fault.kinds),
         f"strikes types {fault.types}, which are not all types": {*fault.types} <= {*TYPES},

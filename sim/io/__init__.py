@@ -7,13 +7,13 @@ are needed are imported.
 import os
 import stat
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import replace
 from difflib import get_close_matches
 from pathlib import Path
 from pkgutil import iter_modules
-from typing import Protocol, cast
+from typing import cast
 
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, Refusal, UnreadableFile
@@ -26,29 +26,9 @@ from sim.io.hoot import SUFFIX, convert_hoot
 from sim.io.motion import differentiate_position
 from sim.support.atomic_file import atomic_path
 from sim.support.catalogue import import_member
+from sim.support.os_errors import refuse_os_errors
 
 FORMATS = tuple(sorted(found.name for found in iter_modules(formats.__path__)))
-
-
-class _WithEntries(Format, Protocol):
-    """A format whose logs have entries with names."""
-
-    def entries(self, path: Path) -> list[Entry]:
-        """All entries of a file."""
-
-
-class _WithMotors(Format, Protocol):
-    """A format whose logs may have several motors."""
-
-    def read_motors(self, path: Path, options: ReadOptions) -> dict[str, Log]:
-        """The log of each motor by its name."""
-
-
-class _Writer(Format, Protocol):
-    """A format that can be written too."""
-
-    def write(self, log: Log, path: Path) -> None:
-        """Write the log as a file."""
 
 
 def read(
@@ -97,10 +77,8 @@ def read_with(path: str | os.PathLike[str], options: ReadOptions) -> Log:
     Raises:
         Refusal: as ``read``.
     """
-    given = os.fspath(path)
-    with _readable(given) as (module, file):
-        log = _name_source(module.read(file, options), file, given)
-    return _finish(log, options)
+    (log,) = _read(path, replace(options, each_motor=False)).values()
+    return log
 
 
 def read_motors(path: str | os.PathLike[str], options: ReadOptions | None = None) -> dict[str, Log]:
@@ -116,15 +94,16 @@ def read_motors(path: str | os.PathLike[str], options: ReadOptions | None = None
     Raises:
         Refusal: as ``read``.
     """
-    options = options or ReadOptions()
+    return _read(path, replace(options or ReadOptions(), each_motor=True))
+
+
+def _read(path: str | os.PathLike[str], options: ReadOptions) -> dict[str, Log]:
+    """The name of each motor -> its log, as ``read`` and ``read_motors`` return them."""
     given = os.fspath(path)
-    with _readable(given) as (module, file):
-        if hasattr(module, "read_motors"):
-            logs = cast("_WithMotors", module).read_motors(file, options)
-        else:
-            logs = {"": module.read(file, options)}
+    with _open_format(given) as (module, file):
+        logs = module.read(file, options)
         logs = {name: _name_source(log, file, given) for name, log in logs.items()}
-    return {name: _finish(log, options) for name, log in logs.items()}
+    return {name: _apply_options(log, options) for name, log in logs.items()}
 
 
 def list_entries(path: str | os.PathLike[str]) -> list[Entry]:
@@ -138,17 +117,18 @@ def list_entries(path: str | os.PathLike[str]) -> list[Entry]:
         BadRequest: files of this format have no named entries.
     """
     given = os.fspath(path)
-    with _readable(given) as (module, file):
-        if not hasattr(module, "entries"):
+    with _open_format(given) as (module, file):
+        list_of_file = getattr(module, "entries", None)
+        if list_of_file is None:
             raise BadRequest(
                 "a log of this format has fixed signals and no entries",
                 advice="Read it with `sysid fit` or `sysid inspect`.",
             )
-        return list(cast("_WithEntries", module).entries(file))
+        return list(list_of_file(file))
 
 
 @contextmanager
-def _readable(given: str) -> Iterator[tuple[Format, Path]]:
+def _open_format(given: str) -> Iterator[tuple[Format, Path]]:
     """A context with the format and the path to read: the file, or the one it was converted to.
 
     Raises:
@@ -156,14 +136,14 @@ def _readable(given: str) -> Iterator[tuple[Format, Path]]:
     """
     path = Path(given)
     with _name_file_in_refusals(given):
-        head = _head(given)
+        head = _read_head(given)
         if path.suffix.lower() != SUFFIX or head.startswith(b"WPILOG"):
-            yield _reader(path, head), path
+            yield _find_format(path, head), path
             return
         with tempfile.TemporaryDirectory(prefix="sysid-hoot-") as folder:
             made = convert_hoot(path, Path(folder))
             try:
-                yield _reader(made, _head(str(made))), made
+                yield _find_format(made, _read_head(str(made))), made
             except Refusal as refusal:
                 raise refusal.move(refusal.where.replace(str(made), given)) from None
 
@@ -202,7 +182,7 @@ def write(log: Log, path: str | os.PathLike[str]) -> None:
 
     Raises:
         BadRequest: no format with this suffix can be written, the file cannot be written, or the
-            format cannot hold the log.
+            log has no runs, or a run without samples.
 
     Examples:
         >>> import tempfile
@@ -217,25 +197,27 @@ def write(log: Log, path: str | os.PathLike[str]) -> None:
     given = os.fspath(path)
     if "\0" in given:
         raise BadRequest("a path cannot hold a zero byte", advice="Give another path.")
-    writer = _writer(given)
+    write_file = _find_writer(given)
+    if not log.runs or not all(len(run) for run in log.runs):
+        raise BadRequest(
+            "a run of the log has no samples" if log.runs else "the log has no runs",
+            advice="Write a log in which every run has samples.",
+        )
     target = Path(os.path.realpath(given))
-    try:
+    advice = (
+        "Choose a folder that exists and that you may write to, and close the file if another "
+        "program has it open."
+    )
+    with refuse_os_errors("cannot be written", Path(given), advice=advice):
         if target.exists() and not (target.is_file() and os.access(target, os.W_OK)):
             raise BadRequest(
                 "is there already and cannot be replaced", where=given, advice="Choose another."
             )
         with atomic_path(target) as part:
-            writer.write(log, part)
-    except OSError as error:
-        raise BadRequest(
-            f"cannot be written ({error.strerror or error})",
-            where=given,
-            advice="Choose a folder that exists and that you may write to, and close the file if "
-            "another program has it open.",
-        ) from None
+            write_file(log, part)
 
 
-def _finish(log: Log, options: ReadOptions) -> Log:
+def _apply_options(log: Log, options: ReadOptions) -> Log:
     """The log with the type that the user chose, and its velocity replaced if that was asked for.
 
     There is a doubt if the file names another type.
@@ -261,7 +243,7 @@ def _order_formats(path: str) -> Iterator[tuple[str, Format]]:
         yield name, cast("Format", import_member(formats, name))
 
 
-def _reader(path: Path, head: bytes) -> Format:
+def _find_format(path: Path, head: bytes) -> Format:
     """The format of a file that starts with ``head``.
 
     Raises:
@@ -293,17 +275,18 @@ def _reader(path: Path, head: bytes) -> Format:
     )
 
 
-def _writer(given: str) -> _Writer:
-    """The format with the suffix of a path.
+def _find_writer(given: str) -> Callable[[Log, Path], None]:
+    """The function that writes a file with the suffix of a path.
 
     Raises:
         BadRequest: no format with this suffix can be written.
     """
     writable: list[str] = []
     for _, module in _order_formats(given):
-        if hasattr(module, "write"):
+        write_file: Callable[[Log, Path], None] | None = getattr(module, "write", None)
+        if write_file is not None:
             if given.lower().endswith(module.SUFFIXES):
-                return cast("_Writer", module)
+                return write_file
             writable.extend(module.SUFFIXES)
     raise BadRequest(
         f"a log whose name ends in {Path(given).suffix or 'nothing'!r} cannot be written",
@@ -312,7 +295,7 @@ def _writer(given: str) -> _Writer:
     )
 
 
-def _head(given: str) -> bytes:
+def _read_head(given: str) -> bytes:
     """The first bytes of a file.
 
     Raises:

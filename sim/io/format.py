@@ -4,10 +4,9 @@ A module defines
 
     SUFFIXES : tuple[str, ...]                 endings of its files, lower case: (".wpilog",)
     def recognizes(head: bytes) -> bool             whether a file that starts like this is its own
-    def read(path: Path, options: ReadOptions) -> Log
+    def read(path: Path, options: ReadOptions) -> dict[str, Log]    name of each motor -> its log
     def write(log: Log, path: Path) -> None    optional: some formats are only read
     def entries(path: Path) -> list[Entry]     optional: where a log has entries with names
-    def read_motors(path, options) -> dict[str, Log]    optional: where a log has several motors
 
 and is found by its place in the folder. Formats do not import one another.
 """
@@ -20,11 +19,11 @@ from typing import Protocol
 import numpy as np
 
 from sim.core.doubt import Doubt
-from sim.core.errors import BadRequest, BadSample, MissingSignal
-from sim.core.log import LARGEST, Array, Log, Run
+from sim.core.errors import BadRequest, BadSample, MissingSignal, refuse_unknown
+from sim.core.log import LARGEST, Array, Log, Run, integrate_velocity
 from sim.core.units import find_unit
 from sim.core.vocabulary import TYPES
-from sim.io.motion import MADE_FROM, compute_position_slope, integrate_velocity
+from sim.io.motion import MADE_FROM, compute_position_slope
 
 HEAD = 4096  # [bytes] length of the beginning of a file that `recognizes` gets
 LARGEST_FILE = 2**30  # [bytes] hours of logging
@@ -42,6 +41,7 @@ class ReadOptions:
             for logs that do not use SysId's names.
         ignore_velocity: the velocity is the slope of the position, and the file needs none.
         pick: number of the mechanism to read, counted from 1 as in the message that lists them.
+        each_motor: whether each motor gets a log of its own, instead of one log for their mean.
 
     Raises:
         BadRequest: an unknown unit or type.
@@ -53,11 +53,11 @@ class ReadOptions:
     entries: Mapping[str, str] = field(default_factory=dict)
     ignore_velocity: bool = False
     pick: int | None = None
+    each_motor: bool = False
 
     def __post_init__(self) -> None:
-        if self.type is not None and self.type not in TYPES:
-            advice = f"Choose one of: {', '.join(TYPES)}."
-            raise BadRequest(f"unknown type {self.type!r}", advice=advice)
+        if self.type is not None:
+            refuse_unknown("type", self.type, TYPES)
         if self.units is not None:
             object.__setattr__(self, "units", find_unit(self.units).name)
 
@@ -75,8 +75,8 @@ class Format(Protocol):
     def recognizes(self, head: bytes) -> bool:
         """Whether a file whose first bytes are ``head`` is of this format."""
 
-    def read(self, path: Path, options: ReadOptions) -> Log:
-        """Read a file of this format into a log."""
+    def read(self, path: Path, options: ReadOptions) -> dict[str, Log]:
+        """Read a file: the name of each motor -> its log; ``""`` -> the log of all together."""
 
 
 def refuse_pick(pick: int | None, *, where: str) -> None:

@@ -37,13 +37,13 @@ def convert_hoot(path: Path, folder: Path) -> Path:
             command, capture_output=True, check=False, stdin=subprocess.DEVNULL, timeout=TIMEOUT
         )
     except subprocess.TimeoutExpired:
-        raise _failed(f"took longer than {TIMEOUT} s") from None
+        raise _make_failure(f"took longer than {TIMEOUT} s") from None
     except OSError as error:
-        raise _failed(f"cannot be started: {error.strerror or error}") from None
+        raise _make_failure(f"cannot be started: {error.strerror or error}") from None
     if ended.returncode or not target.is_file():
         output = (ended.stderr or ended.stdout).decode("utf-8", "replace").split("\n")
         last = next((line.strip() for line in reversed(output) if line.strip()), "")
-        raise _failed(f"cannot convert it{f': {last}' if last else ''}")
+        raise _make_failure(f"cannot convert it{f': {last}' if last else ''}")
     return target
 
 
@@ -67,7 +67,7 @@ def _find_owlet() -> str:
     return found
 
 
-def _failed(how: str) -> UnreadableFile:
+def _make_failure(how: str) -> UnreadableFile:
     return UnreadableFile(
         f"CTRE's owlet {how}",
         advice="Convert the log to WPILOG with Phoenix Tuner X (Log Extractor), and give that; a "

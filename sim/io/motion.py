@@ -11,19 +11,18 @@ import numpy as np
 
 from sim.core.doubt import Doubt
 from sim.core.errors import BadSample
-from sim.core.log import Array, Log, Run
+from sim.core.log import AT_REST, Array, Log, Run, integrate_velocity
 from sim.core.units import find_unit
 
 SAME = 0.02  # [share of its spread] a velocity nearer to a line of the position is a position
 UNLIKE = 0.3  # [share of its spread] farther from the slope of the position, it is no velocity
-FEWEST = 10  # [samples] shorter runs are not checked
+MIN_SAMPLES = 10  # [samples] shorter runs are not checked
 COARSE = 0.02  # [share of the top speed] least step of a velocity that is checked for truncation
 WHOLE = 1e-3  # [steps] by which a reading may differ from a whole number of steps
 CUT = 0.25, 0.75  # [steps] mean of what a truncation cuts off: half a step; rounding cuts off none
 FALLING = ("arm", "elevator")  # types that gravity moves
 NEAR = 0.05  # [share of a run's way] from its start: farther is no fall onto a stop
 FELL = 0.01  # [share of a run's way] least way of a fall
-MOVING = 0.03  # [share of a run's top speed] slower is at rest
 RESTED = 5  # samples of a fall, and of the rest after it, at least
 PAUSED = 2.5  # [frames] a position that is constant for longer stands still
 COPIED = "velocity-is-position"  # code of the doubt
@@ -75,17 +74,6 @@ def compute_position_slope(time: Array, position: Array) -> Array:
     return np.asarray(slope, dtype=np.float64)
 
 
-def integrate_velocity(time: Array, velocity: Array) -> Array:
-    """The distance from the first sample by the trapezoidal rule, (n,) [m or rad].
-
-    Args:
-        time: (n,) [s].
-        velocity: (n,) [m/s or rad/s].
-    """
-    steps = 0.5 * np.diff(time) * (velocity[1:] + velocity[:-1])
-    return np.concatenate((np.zeros(min(time.size, 1)), np.cumsum(steps)))
-
-
 def mend_motion(log: Log) -> Log:
     """The log, with a doubt for each signal that was replaced.
 
@@ -95,18 +83,18 @@ def mend_motion(log: Log) -> Log:
     is replaced by the sum of the velocity, except of an arm.
     """
     try:
-        return _mend(log)
+        return _replace_motion(log)
     except BadSample:  # a slope or a sum that no robot has
         return log
 
 
-def _mend(log: Log) -> Log:
+def _replace_motion(log: Log) -> Log:
     """The log as ``mend_motion`` returns it.
 
     Raises:
         BadSample: a slope or a sum is too large.
     """
-    runs = [run for run in log.runs if len(run) > FEWEST]
+    runs = [run for run in log.runs if len(run) > MIN_SAMPLES]
     if not runs:
         return log
     position, velocity = (
@@ -146,7 +134,7 @@ def find_truncation(log: Log) -> float:
 
     All readings are multiples of the step, and the position moves faster by half a step.
     """
-    moving = [run for run in log.runs if len(run) > FEWEST and run.top_speed > 0.0]
+    moving = [run for run in log.runs if len(run) > MIN_SAMPLES and run.top_speed > 0.0]
     if not moving:
         return 0.0
     sizes = np.unique(np.abs(np.concatenate([run.velocity for run in moving])))
@@ -217,18 +205,18 @@ def leave_out_falls(log: Log) -> Log:
 
 def find_landing(run: Run) -> int:
     """Index of the sample from which a mechanism rests that fell as its test began; 0 if none."""
-    if len(run) < FEWEST:
+    if len(run) < MIN_SAMPLES:
         return 0
     far = int(np.argmax(np.abs(run.position - run.position[:1]) > NEAR * np.ptp(run.position)))
     speed = run.velocity[:far] * np.sign(run.voltage[far] if far else 0.0)
-    fell = np.flatnonzero(speed < -MOVING * run.top_speed)
-    if fell.size < RESTED or abs(run.velocity[0]) > MOVING * run.top_speed:
+    fell = np.flatnonzero(speed < -AT_REST * run.top_speed)
+    if fell.size < RESTED or abs(run.velocity[0]) > AT_REST * run.top_speed:
         return 0
     after = int(fell[-1]) + 1
     way = (run.position[0] - run.position[after]) * np.sign(run.voltage[far])
     if way < FELL * np.ptp(run.position):  # noise of a velocity at rest moves nothing
         return 0
-    still = np.abs(run.velocity[after:far]) < MOVING * run.top_speed
+    still = np.abs(run.velocity[after:far]) < AT_REST * run.top_speed
     if still.size < RESTED:
         return 0
     rests = np.flatnonzero(np.convolve(still, np.ones(RESTED), mode="valid") >= RESTED)

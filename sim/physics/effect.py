@@ -137,7 +137,6 @@ class Effect:
         parameters: its parameters.
         fingerprint: how it shows in a log, in plain words.
         inspect: what to check on the robot.
-        apart: similar effect -> the test that tells the two apart.
         example: parameters of a typical case, from the scale of a mechanism and a size; size 1 is
             ordinary, more is stronger.
         start_values: start values of a search, from the voltage residual of a log; the best first.
@@ -154,6 +153,7 @@ class Effect:
         reason_against: why a mechanism cannot have it, from its scale; empty if it can.
         inertia_shares: [1] shares of kA with which the first start is tried as well, for an effect
             whose delay a model without it mistakes for inertia.
+        apart: similar effect -> the test that tells the two apart; one of the two files says it.
         simpler: the effect with fewer parameters that acts about the same; empty if there is none.
         same_in_motion: the effect that is equal to it while the mechanism moves; empty if none is.
         simplify: parameters of ``simpler``, from those of this effect and the voltage residual.
@@ -167,7 +167,6 @@ class Effect:
     parameters: tuple[Parameter, ...]
     fingerprint: str
     inspect: str
-    apart: Mapping[str, str]
     example: Callable[[Scale, float], Mapping[str, float]]
     start_values: Callable[[VoltageResidual], Iterable[Mapping[str, float]]]
     hooks: Mapping[str, Callable[..., Any]]
@@ -179,6 +178,7 @@ class Effect:
     order: int = 0
     reason_against: Callable[[Scale], str] = field(default=lambda _: "")
     inertia_shares: tuple[float, ...] = ()
+    apart: Mapping[str, str] = field(default_factory=dict)
     simpler: str = ""
     same_in_motion: str = ""
     simplify: Callable[[Mapping[str, float], VoltageResidual], Mapping[str, float]] = field(

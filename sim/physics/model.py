@@ -8,7 +8,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
-from sim.core.errors import BadRequest
+from sim.core.errors import BadRequest, refuse_unknown
 from sim.core.log import TYPES
 from sim.core.units import Unit
 from sim.physics.effect import are_compatible
@@ -86,16 +86,13 @@ class Model:
     travel: tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
-        if self.type not in TYPES:
-            raise BadRequest(
-                f"unknown type {self.type!r}", advice=f"Choose one of: {', '.join(TYPES)}."
-            )
+        refuse_unknown("type", self.type, TYPES)
         names = [part.effect for part in self.parts]
         if twice := [name for name in names if names.count(name) > 1]:
             raise BadRequest(f"{twice[0]} is there twice", advice="Add each effect once.")
         if not are_compatible(map(find_effect, names)):
             raise BadRequest(
-                f"{' and '.join(names)} in one model",
+                f"{' and '.join(names)} cannot be in one model",
                 advice="Choose slipping wheels or a joint (backlash, compliance), not both.",
             )
 

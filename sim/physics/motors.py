@@ -12,7 +12,7 @@ https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/wpimath/src/main/java/ed
 import math
 from dataclasses import dataclass
 
-from sim.core.errors import BadRequest
+from sim.core.errors import refuse_unknown
 from sim.core.units import BATTERY
 
 
@@ -50,24 +50,24 @@ class Motor:
         return (BATTERY - self.resistance * self.free_current) / self.free_speed
 
 
-def _motor(name: str, torque: float, stall: float, free: float, rpm: float) -> Motor:
+def _make_motor(name: str, torque: float, stall: float, free: float, rpm: float) -> Motor:
     return Motor(name, torque, stall, free, rpm * 2.0 * math.pi / 60.0)
 
 
 MOTORS: dict[str, Motor] = {
     motor.name: motor
     for motor in (
-        _motor("krakenX60", 7.09, 366, 2, 6000),
-        _motor("krakenX60FOC", 9.37, 483, 2, 5800),
-        _motor("krakenX44", 4.11, 279, 2, 7758),
-        _motor("krakenX44FOC", 5.01, 329, 2, 7368),
-        _motor("falcon500", 4.69, 257, 1.5, 6380),
-        _motor("falcon500FOC", 5.84, 304, 1.5, 6080),
-        _motor("neo", 2.6, 105, 1.8, 5676),
-        _motor("neoVortex", 3.6, 211, 3.615, 6784),
-        _motor("neo550", 0.97, 100, 1.4, 11000),
-        _motor("minion", 3.17, 211, 2, 7704),
-        _motor("cim", 2.42, 133, 2.7, 5310),
+        _make_motor("krakenX60", 7.09, 366, 2, 6000),
+        _make_motor("krakenX60FOC", 9.37, 483, 2, 5800),
+        _make_motor("krakenX44", 4.11, 279, 2, 7758),
+        _make_motor("krakenX44FOC", 5.01, 329, 2, 7368),
+        _make_motor("falcon500", 4.69, 257, 1.5, 6380),
+        _make_motor("falcon500FOC", 5.84, 304, 1.5, 6080),
+        _make_motor("neo", 2.6, 105, 1.8, 5676),
+        _make_motor("neoVortex", 3.6, 211, 3.615, 6784),
+        _make_motor("neo550", 0.97, 100, 1.4, 11000),
+        _make_motor("minion", 3.17, 211, 2, 7704),
+        _make_motor("cim", 2.42, 133, 2.7, 5310),
     )
 }
 
@@ -82,8 +82,7 @@ def find_motor(name: str) -> Motor:
         >>> find_motor("neo").stall_torque  # [N·m]
         2.6
     """
-    if name not in MOTORS:
-        raise BadRequest(f"unknown motor {name!r}", advice=f"Choose one of: {', '.join(MOTORS)}.")
+    refuse_unknown("motor", name, MOTORS)
     return MOTORS[name]
 
 

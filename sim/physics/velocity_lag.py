@@ -21,15 +21,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sim.core.log import Array, Run
+from sim.core.log import Array, Run, integrate_velocity
+from sim.core.units import ROBUST
 
 EARLIEST, LATEST = -0.05, 0.4  # [s] range of the delays; the slowest published filter is 0.11
 STEP = 0.005  # [s] grid of the delays, which the parabola refines
-WINDOW, FEWEST_STEPS = 0.3, 8  # [s, samples] of an integral: many frames, and a part of a run
-SAMPLES = 1000  # times of a run that are compared; more do not add information
-FEWEST = 20  # [samples] of a run; fewer do not determine scale, delay and start
+WINDOW, MIN_STEPS = 0.3, 8  # [s, samples] of an integral: many frames, and a part of a run
+MAX_SAMPLES = 1000  # times of a run that are compared; more do not add information
+MIN_SAMPLES = 20  # [samples] of a run; fewer do not determine scale, delay and start
 EXACT = 1e-9  # [share of the variance] a smaller residual is rounding
-NORMAL = 0.6745  # [standard deviations] median distance of a normal variable from its mean
 MATCHED = 0.02  # [share of the variance] larger residuals are of two different motions
 
 
@@ -78,26 +78,25 @@ def estimate_velocity_lag(runs: Sequence[Run]) -> VelocityLag | None:
         for share, _, _ in fits
     ]
     several = len(deviations) > 1
-    spread = float(np.median(deviations)) / NORMAL if several else np.nan
+    spread = ROBUST * float(np.median(deviations)) if several else np.nan
     error = spread / np.sqrt(len(deviations)) if several else np.nan
     return VelocityLag(lag, float(error), scale, unexplained)
 
 
 def _fit_run(run: Run, lags: Array) -> tuple[Array, Array, int] | None:
     """For each delay of (lags,), the unexplained share and the scale; and the number of samples."""
-    if len(run) < FEWEST or not run.top_speed > 0.0 or not np.ptp(run.position) > 0.0:
+    if len(run) < MIN_SAMPLES or not run.top_speed > 0.0 or not np.ptp(run.position) > 0.0:
         return None
-    steps = 0.5 * np.diff(run.time) * (run.velocity[1:] + run.velocity[:-1])
-    integral = np.concatenate(([0.0], np.cumsum(steps)))
+    integral = integrate_velocity(run.time, run.velocity)
     # before a start at rest the position is known
     first = run.time[0] + LATEST if run.moving[0] else run.time[0]
     inside = np.flatnonzero((run.time >= first) & (run.time <= run.time[-1] + EARLIEST))
-    if inside.size < FEWEST:
+    if inside.size < MIN_SAMPLES:
         return None
     times = run.time[inside]
-    if times.size > SAMPLES:  # every n-th sample could always be the same one of a frame
-        times = np.linspace(times[0], times[-1], SAMPLES)
-    window = max(WINDOW, FEWEST_STEPS * float(np.median(np.diff(run.time))))
+    if times.size > MAX_SAMPLES:  # every n-th sample could always be the same one of a frame
+        times = np.linspace(times[0], times[-1], MAX_SAMPLES)
+    window = max(WINDOW, MIN_STEPS * float(np.median(np.diff(run.time))))
 
     def change(signal: Array, until: Array) -> Array:
         end = np.interp(until, run.time, signal)

@@ -15,14 +15,13 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.core.log import Array, Log, Run
+from sim.core.log import AT_REST, Array, Log, Run
 from sim.core.units import find_unit
 
 SPAN = 0.04  # [s] over which velocities are differentiated; at least two samples
 ENDLESS = 8.0 * np.pi  # [rad] four turns: more than any arm or turret makes, unlike a wheel
-SHORTEST = 5  # [samples] of a run that can be differentiated
+MIN_SAMPLES = 5  # [samples] of a run that can be differentiated
 NEGLIGIBLE = 1e-9  # [1] a smaller relative norm or eigenvalue is rounding
-MOVING = 0.03  # [share of the top speed] slower samples are left out
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,9 +135,9 @@ def compute_voltage_residual(log: Log, gains: Mapping[str, float], *, type: str)
         type: ``simple``, ``elevator`` or ``arm``.
     """
     starts = list_run_start_times(log)
-    parts = [_rows(run, number, starts[number]) for number, run in enumerate(log.runs)]
+    parts = [_compute_rows(run, number, starts[number]) for number, run in enumerate(log.runs)]
     top = max((float(np.max(np.abs(p[5]), initial=0.0)) for p in parts), default=0.0)
-    table = np.concatenate([p[:, np.abs(p[5]) > MOVING * top] for p in parts], axis=1)
+    table = np.concatenate([p[:, np.abs(p[5]) > AT_REST * top] for p in parts], axis=1)
     run, clock, since, voltage, position, velocity, acceleration = table
     modelled = gains["kS"] * np.sign(velocity) + gains["kV"] * velocity + gains["kA"] * acceleration
     if type == "elevator":
@@ -173,10 +172,10 @@ def shares_clock(log: Log) -> bool:
     return all(one.time[-1] < other.time[0] for one, other in pairwise(runs))
 
 
-def _rows(run: Run, number: int, clock: float) -> Array:
+def _compute_rows(run: Run, number: int, clock: float) -> Array:
     """(7, n): run, clock, since, voltage, position, velocity, acceleration."""
     since = run.time - run.time[0]
-    if len(run) < SHORTEST:
+    if len(run) < MIN_SAMPLES:
         return np.empty((7, 0))
     reach = max(1, round(0.5 * SPAN / float(np.median(np.diff(run.time)))))
     if len(run) <= 2 * reach:

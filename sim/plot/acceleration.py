@@ -9,7 +9,7 @@ from sim.core.units import Unit, find_unit
 from sim.fit.sysid_rows import prepare_rows
 from sim.plot.decimate import decimate_cloud
 from sim.plot.picture import COLORS, INK, MARKERS, Picture, add_legend, make_panels
-from sim.plot.table import Table, to_text
+from sim.plot.table import Table
 
 MOST = 300  # samples of a test drawn at most
 FEWEST = 3  # samples needed to fit a straight line
@@ -49,8 +49,8 @@ def plot_acceleration_velocity(log: Log) -> Picture:
     axes.set_xlabel(f"velocity [{per.symbol}/s]", color=INK)
     axes.set_ylabel(f"acceleration [{per.symbol}/s²]", color=INK)
     add_legend(figure, [axes])
-    table = _table(samples, per)
-    return Picture(figure, _words(table, per), table)
+    alt = "Acceleration against velocity of each test, as recorded and filtered."
+    return Picture(figure, alt, _table(samples, per))
 
 
 def _line(speed: Array, height: Array) -> tuple[float, float] | tuple[str, str]:
@@ -72,17 +72,3 @@ def _table(samples: Mapping[str, tuple[Array, Array]], per: Unit) -> Table:
         ),
         caption="Acceleration against velocity, the rows of the fit",
     )  # fmt: skip
-
-
-def _words(table: Table, per: Unit) -> str:
-    """The description of the picture, with the numbers of the table."""
-    text = "The picture shows acceleration against velocity, as recorded and filtered."
-    for test, samples, slowest, fastest, height, slope in table.rows:
-        text += f" {test} has {samples} samples from {to_text(slowest)} to {to_text(fastest)} "
-        text += f"{per.symbol}/s"
-        if isinstance(slope, str):
-            text += ", too few for a line."
-        else:
-            text += f". Their line is at {to_text(height)} {per.symbol}/s² for velocity 0. Its "
-            text += f"slope is {to_text(slope)} per second."
-    return text

@@ -1,6 +1,6 @@
 """Charts that compare numbers: estimates with the truth, curves, and points with a line."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -8,7 +8,17 @@ from matplotlib.ticker import FuncFormatter
 
 from sim.core.errors import BadRequest
 from sim.core.log import Array
-from sim.plot.picture import COLORS, INK, LINES, MARKERS, PAPER, REFERENCE, Picture, make_panels
+from sim.plot.picture import (
+    COLORS,
+    INK,
+    LINES,
+    MARKERS,
+    REFERENCE,
+    Picture,
+    make_panels,
+    make_rows,
+    write_number,
+)
 from sim.plot.table import Cell, Table, to_text
 
 WINDOW = 0.25  # [1] relative range around the truth that is always shown
@@ -22,6 +32,8 @@ def plot_choices(
     truth: float,
     name: str,
     unit: str = "",
+    line: str = "the truth",
+    within: float = WINDOW,
     spreads: Mapping[str, float] | None = None,
 ) -> Picture:
     """Several estimates of one number, as dots, with a line at the true value.
@@ -31,6 +43,8 @@ def plot_choices(
         truth: the true value.
         name: name of the number: ``kA``.
         unit: unit of the number: ``V·s²/m``.
+        line: what the line at the true value is called.
+        within: relative range around the true value that is always shown.
         spreads: method -> standard deviation over repetitions, drawn as a bar; may lack methods.
 
     Raises:
@@ -38,39 +52,23 @@ def plot_choices(
     """
     if not values:
         raise BadRequest("there is nothing to compare", advice="Give at least one value.")
-    figure, ((axes,),) = make_panels(1, 1, height=0.9 + 0.36 * len(values))
-    axes.axvline(truth, color=REFERENCE, linestyle="--", linewidth=1.2)
-    rows = []
-    for place, (way, value) in enumerate(values.items()):
-        _dot(axes, place, way, value, spread=(spreads or {}).get(way, 0.0))
-        rows.append((way, value, _percent(value, truth)))
     label = f"{name} [{unit}]" if unit else name
-    axes.set_xlabel(f"{label} (dashed line: the truth, {to_text(truth)})", color=INK)
-    axes.set_yticks(range(len(values)), list(values))
-    axes.set_ylim(len(values) - 0.4, -0.8)
+    words = f"{line}, {to_text(truth)}"
+    figure, axes = make_rows(list(values), label=f"{label} (dashed line: {words})", line=truth)
+    for place, (way, value) in enumerate(values.items()):
+        mark = GAINS.index(way) if way in GAINS else 0
+        axes.errorbar(
+            value, place, xerr=(spreads or {}).get(way, 0.0) or None, fmt=MARKERS[mark],
+            color=COLORS[mark], markersize=8, capsize=4,
+        )  # fmt: skip
+        write_number(axes, to_text(value), (value, place))
+    rows = tuple((way, value, _percent(value, truth)) for way, value in values.items())
     axes.margins(x=0.1)
-    near = WINDOW * abs(truth) * np.array([-1.0, 1.0]) + truth
+    near = within * abs(truth) * np.array([-1.0, 1.0]) + truth
     axes.update_datalim(np.column_stack([near, [0.0, 0.0]]), updatey=False)
     axes.autoscale_view(scaley=False)
-    alt = (
-        f"Dots show {name}, {len(values)} of them; a dashed line marks the truth, "
-        f"{to_text(truth)}{' ' + unit if unit else ''}. "
-        + " ".join(f"“{way}”: {to_text(value)}, off by {off}." for way, value, off in rows)
-    )
-    return Picture(figure, alt, Table(("which", label, "off by"), tuple(rows)))
-
-
-def _dot(axes: Axes, place: int, way: str, value: float, *, spread: float) -> None:
-    """A number's dot in its row, with the number above it; each gain has its own color."""
-    mark = GAINS.index(way) if way in GAINS else 0
-    axes.errorbar(
-        value, place, xerr=spread or None, fmt=MARKERS[mark], color=COLORS[mark],
-        markersize=8, capsize=4,
-    )  # fmt: skip
-    axes.annotate(
-        to_text(value), (value, place), xytext=(0, 7), textcoords="offset points", ha="center",
-        fontsize=8, color=INK, bbox={"facecolor": PAPER, "edgecolor": "none", "pad": 0.8},
-    )  # fmt: skip
+    alt = f"Dots show {name}, {len(values)} of them. A dashed line marks {words} {unit}".rstrip()
+    return Picture(figure, f"{alt}.", Table(("which", label, "off by"), rows))
 
 
 def plot_curves(
@@ -120,26 +118,15 @@ def plot_curves(
         axes.set_yscale("log")
         axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axes.legend(fontsize=8)
-    sentences = [f"{ylabel} over {xlabel}.", *_curve_sentences(x, lines, levels or {})]
+    sentences = [f"Curves of {ylabel} over {xlabel}: {', '.join(lines)}."]
+    for name, level in (levels or {}).items():
+        sentences.append(f"A dashed line marks “{name}”, {to_text(level)}.")
     if marked is not None:
         sentences.append(f"A star marks “{mark}”, {to_text(marked[1])} at {marked[0]:g}.")
     rows = tuple(
         _row(f"{x[i]:g}", [float(y[i]) for y in lines.values()]) for i in range(0, len(x), few)
     )
     return Picture(figure, " ".join(sentences), Table((xlabel, *lines), rows, caption=ylabel))
-
-
-def _curve_sentences(
-    x: Sequence[float] | Array,
-    lines: Mapping[str, Sequence[float] | Array],
-    levels: Mapping[str, float],
-) -> Iterator[str]:
-    """Sentences with the first and last value of each curve, and the value of each dashed line."""
-    for name, y in lines.items():
-        first, last = to_text(float(y[0])), to_text(float(y[-1]))
-        yield f"“{name}” goes from {first} at {x[0]:g} to {last} at {x[-1]:g}."
-    for name, level in levels.items():
-        yield f"A dashed line marks “{name}”, {to_text(level)}."
 
 
 def plot_misses(

@@ -1,7 +1,6 @@
 """The search for missing effects as one widget: choose an effect, fit it, look, decide."""
 
 from collections.abc import Sequence
-from dataclasses import replace
 from functools import cached_property
 from html import escape
 from pathlib import Path
@@ -157,11 +156,10 @@ class EffectSearch:
         self._measure(())
         tried = {" + ".join(one) or NONE: gaps for one, gaps in self._tried.items()}
         shown = dict(list(tried.items())[-MOST_BARS:])
-        drawn = (
+        return [
             plot_gap_bars(shown),
             plot_voltage_residual(self.hand.recordings.fitted_runs, self.model),
-        )
-        return [replace(picture, table=None) for picture in drawn]  # its words have the numbers
+        ]
 
     @property
     def html(self) -> str:

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from sim.core.errors import BadRequest
-from sim.plot.picture import COLORS, INK, PAPER, REFERENCE, Picture, add_legend, make_panels
+from sim.plot.picture import COLORS, INK, REFERENCE, Picture, add_legend, make_panels, write_number
 from sim.plot.table import Table, to_text
 
 HATCHES = ("", "///", "..")  # one for each log, so that color is not the only difference
@@ -37,11 +37,7 @@ def plot_gap_bars(gaps: Mapping[str, Mapping[str, float]]) -> Picture:
             edgecolor=INK, linewidth=0.5, label=log,
         )  # fmt: skip
         for place, value in zip(places, values, strict=True):
-            axes.annotate(
-                to_text(float(value)), (value, place), xytext=(4, 0), textcoords="offset points",
-                va="center", fontsize=8, color=INK,
-                bbox={"facecolor": PAPER, "edgecolor": "none", "pad": 0.8},  # over the dashed line
-            )  # fmt: skip
+            write_number(axes, to_text(float(value)), (value, place), right=True)
     axes.axvline(1.0, color=REFERENCE, linestyle="--", linewidth=1.2, label="the noise")
     axes.set_yticks(range(len(gaps)), list(gaps))
     axes.set_ylim(len(gaps) - 0.5, -0.5)
@@ -53,13 +49,9 @@ def plot_gap_bars(gaps: Mapping[str, Mapping[str, float]]) -> Picture:
     rows: list[tuple[str | float, ...]] = [
         (model, *(one[log] for log in logs)) for model, one in gaps.items()
     ]
-    listed = "; ".join(
-        f"{model}: " + ", ".join(f"{log} {to_text(one[log])}" for log in logs)
-        for model, one in gaps.items()
-    )
     return Picture(
         figure,
-        f"Bars show how many times the noise each model is away from each log: {listed}. A dashed "
-        "line at 1 marks the noise.",
+        "Bars show how many times the noise each model is away from each log. A dashed line at 1 "
+        "marks the noise.",
         Table(("model", *logs), tuple(rows), caption="gap [times the noise]"),
     )

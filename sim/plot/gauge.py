@@ -6,7 +6,16 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from sim.core.errors import BadRequest
-from sim.plot.picture import COLORS, INK, MARKERS, PAPER, Picture, add_legend, make_panels
+from sim.plot.picture import (
+    COLORS,
+    INK,
+    MARKERS,
+    PAPER,
+    Picture,
+    add_legend,
+    make_panels,
+    write_number,
+)
 from sim.plot.table import Table, to_text
 
 GOOD = COLORS[2]
@@ -54,7 +63,9 @@ def plot_gauge(
     axes.set_xlabel(label, color=INK)
     add_legend(figure, (axes,), columns=len(bands) + len(values))
     rows = tuple((name, value, find_band(value, bands)) for name, value in values.items())
-    return Picture(figure, _words(rows, bands, label, low), Table(("which", label, "band"), rows))
+    names = [f"{name} up to {to_text(end)}" for name, end in list(bands.items())[:-1]]
+    alt = f"A scale of {label} with bands: {', '.join(names)}, and {list(bands)[-1]} above."
+    return Picture(figure, alt, Table(("which", label, "band"), rows))
 
 
 def _span(values: Sequence[float], *, least: float, last: float) -> tuple[float, float]:
@@ -88,27 +99,10 @@ def _draw(
     for index, ((name, value), place) in enumerate(zip(values.items(), heights, strict=True)):
         axes.plot(value, place, MARKERS[index % len(MARKERS)], color=INK, markersize=9,
                   clip_on=False, label=name, zorder=5)  # fmt: skip
-        axes.annotate(to_text(value), (value, place), xytext=(0, 9), ha="center",
-                      textcoords="offset points", fontsize=9, color=INK, zorder=6,
-                      bbox={"facecolor": PAPER, "edgecolor": "none", "pad": 0.8})  # fmt: skip
+        write_number(axes, to_text(value), (value, place))
 
 
 def find_band(value: float, bands: Mapping[str, float]) -> str:
     """The name of the band of a number; the upper end of a band belongs to the band."""
     names = list(bands)
     return next((name for name in names[:-1] if value <= bands[name]), names[-1])
-
-
-def _words(
-    rows: tuple[tuple[str, float, str], ...], bands: Mapping[str, float], label: str, low: float
-) -> str:
-    text = f"A scale of {label} with bands: "
-    names, start, parts = list(bands), low, []
-    for name in names[:-1]:
-        parts.append(f"{name} from {to_text(start)} to {to_text(bands[name])}")
-        start = bands[name]
-    parts.append(f"{names[-1]} above {to_text(start)}")
-    text += ", ".join(parts) + "."
-    for name, value, band in rows:
-        text += f" {name} is {to_text(value)}: {band}."
-    return text

@@ -52,7 +52,6 @@ def plot_hold_window(
     alt = (
         f"The picture shows speed over voltage. Below {to_text(low)} V the mechanism sinks. Above "
         f"{to_text(high)} V it rises. Between them it stays: this part is shaded."
-        + "".join(f" A mark, “{name}”, is at {to_text(value)} V." for name, value in marks.items())
     )
     rows = tuple((name, value, _where(value, low, high)) for name, value in marks.items())
     return Picture(figure, alt, Table(("mark", "voltage [V]", "in the window"), rows))

@@ -29,6 +29,8 @@ def show_interactive(draw: Callable[..., Picture | Sequence[Picture]], **knobs: 
         def _repr_mimebundle_(self, **how: object) -> Any:  # noqa: ANN401 - ipywidgets has no types
             return super()._repr_mimebundle_(**how) | {"text/html": shown.value}
 
+    last: list[Picture] = []
+
     def redraw(_: object = None) -> None:
         try:
             drawn = draw(**{name: knob.value for name, knob in knobs.items()})
@@ -36,7 +38,10 @@ def show_interactive(draw: Callable[..., Picture | Sequence[Picture]], **knobs: 
             shown.value = f"<p>{refusal}</p>"
             return
         pictures = [drawn] if isinstance(drawn, Picture) else drawn
+        for picture, before in zip(pictures, last, strict=False):
+            picture.place_as(before)
         shown.value = "".join(picture.html for picture in pictures)
+        last[:] = pictures
 
     for knob in knobs.values():
         knob.observe(redraw, "value")

@@ -9,31 +9,24 @@ from matplotlib.axes import Axes
 from sim.core.errors import BadRequest
 from sim.core.log import DIRECTIONS, Array, Log, Run
 from sim.core.units import Unit, find_unit
+from sim.inspect.fault import Damage
 from sim.plot.decimate import decimate_curve
-from sim.plot.fault_marks import (
-    Damaged,
-    assign_fault_marks,
-    describe_faults,
-    draw_fault_marks,
-    make_legend_entries,
-)
 from sim.plot.picture import (
     COLORS,
     INK,
     LINES,
     MARKERS,
-    REFERENCE,
     Dash,
     Picture,
     add_legend,
     make_panels,
 )
-from sim.plot.table import Cell, Table
+from sim.plot.table import Table
 
 KINDS = ("quasistatic", "dynamic")
 APART = 0.15  # [share of a panel] distance of markers
 MOST = 1000  # samples of a curve drawn at most: a panel has fewer pixels
-HIDDEN = "_"  # matplotlib leaves labels that begin with this out of the legend
+BACKGROUND = "#F9EEF5"  # of a damaged part; curves drawn over it stay legible
 
 
 @dataclass(frozen=True)
@@ -47,16 +40,13 @@ class _Pen:
 
 
 _PENS = tuple(_Pen(COLORS[i], LINES[i], MARKERS[i], 1.4) for i in range(len(DIRECTIONS)))
-_THIN = _Pen(REFERENCE, ":", "", 1.2)
 
 
 def plot_time_series(
     log: Log,
     *,
-    beside: Log | None = None,
-    names: tuple[str, str] = ("log", "what happened"),
     dynamic_seconds: float | None = None,
-    damages: Iterable[Damaged] = (),
+    damages: Iterable[Damage] = (),
 ) -> Picture:
     """Voltage and velocity of the four tests over time, in the log's own unit.
 
@@ -64,38 +54,51 @@ def plot_time_series(
 
     Args:
         log: a log with at least one of the four tests.
-        beside: a second log of the same tests, drawn as a thin black line: the true motion, or a
-            simulation with the same voltage.
-        names: names of the log and of ``beside``.
         dynamic_seconds: length of the dynamic tests to show [s]; None shows all.
-        damages: damaged parts, drawn hatched with a letter for each fault; those of runs that are
-            not drawn are only described.
+        damages: damaged parts, drawn hatched; those of runs that are not drawn are only described.
 
     Raises:
-        BadRequest: the log has none of the four tests, or a damage is not of this log.
+        BadRequest: the log has none of the four tests.
     """
     per = find_unit(log.units)
     runs = _first_runs(log)
-    damage = assign_fault_marks(log, damages)
     figure, (upper, lower) = make_panels(2, 2, height=4.4, shared=True)
-    labels = tuple(f"{names[0]}, {way}" for way in DIRECTIONS)
+    labels = tuple(f"log, {way}" for way in DIRECTIONS)
     drawn: dict[int, list[tuple[Axes, Array]]] = {}
     for kind, *pair in zip(KINDS, upper, lower, strict=True):
         drawn |= _draw(runs, kind, pair, per=per, pens=_PENS, labels=labels)
-        if beside is not None:
-            others = _first_runs(beside)
-            _draw(others, kind, pair, per=per, pens=(_THIN, _THIN), labels=(names[1], HIDDEN))
         pair[0].set_title(f"{kind} tests", fontsize=10, color=INK)
         pair[1].set_xlabel("time since the test began [s]", color=INK)
     upper[0].set_ylabel("voltage [V]", color=INK)
     lower[0].set_ylabel(f"velocity [{per.symbol}/s]", color=INK)
     if dynamic_seconds is not None:
         lower[1].set_xlim(-0.02 * dynamic_seconds, dynamic_seconds)
-    draw_fault_marks(log, damage, drawn=drawn)
-    add_legend(figure, lower, extra=make_legend_entries(damage))
-    table = _tests_table(runs, per)
-    alt = _time_words(table, per, names if beside is not None else names[:1])
-    return Picture(figure, alt + describe_faults(log, damage, drawn=drawn), table)
+    sentences = [_mark_damage(log, one, drawn) for one in damages]
+    add_legend(figure, lower)
+    alt = (
+        "Four panels show the log over time: voltage above and velocity below, the quasistatic "
+        "tests on the left and the dynamic tests on the right. A solid line with circles is a "
+        "forward test. A dashed line with squares is a reverse test."
+    )
+    return Picture(figure, " ".join([alt, *sentences]), _tests_table(runs, per))
+
+
+def _mark_damage(
+    log: Log, damage: Damage, drawn: Mapping[int, Sequence[tuple[Axes, Array]]]
+) -> str:
+    """Hatch a damaged part in the color of its curve; a sentence about where it is."""
+    where = damage.where
+    if where.run is None or where.run not in drawn:
+        return f"The picture does not show {damage.fault} in {where.test or 'the whole log'}."
+    run = log.runs[where.run]
+    start, end = where.start - run.time[0], where.end - run.time[0]
+    color = _PENS[DIRECTIONS.index(run.direction)].color
+    for axes, _ in drawn[where.run]:
+        axes.axvspan(
+            start, end, facecolor=BACKGROUND, edgecolor=color, hatch="///", zorder=1,
+            label=damage.fault,
+        )  # fmt: skip
+    return f"Hatching marks {damage.fault} in {where.test}, from {start:.2f} to {end:.2f} s."
 
 
 def _first_runs(log: Log) -> dict[int, Run]:
@@ -161,32 +164,3 @@ def _tests_table(runs: Mapping[int, Run], per: Unit) -> Table:
     )
     header = ("test", "samples", "lasts [s]", "first [V]", "last [V]", f"fastest [{per.symbol}/s]")
     return Table(header, rows, caption="The log in numbers")
-
-
-def _two_decimals(value: Cell) -> str:
-    return f"{round(float(value), 2) + 0.0:.2f}".replace("-", "−")  # never −0.00
-
-
-def _time_words(table: Table, per: Unit, names: Sequence[str]) -> str:
-    text = "Four panels show the log over time. The upper two show voltage, the lower two "
-    text += "velocity. The quasistatic tests are on the left, the dynamic tests on the right. A "
-    text += (
-        "solid line with circles is a forward test. A dashed line with squares is a reverse test."
-    )
-    for test, _, lasts, first, last, fastest in table.rows:
-        goes = (
-            f"stays at {_two_decimals(first)} V for"
-            if first == last
-            else (f"goes from {_two_decimals(first)} to {_two_decimals(last)} V in")
-        )
-        text += f" In {test} the voltage {goes} {lasts:.1f} s, "
-        text += f"and the velocity reaches {_two_decimals(fastest)} {per.symbol}/s."
-    for kind in KINDS:
-        there = [way for way in DIRECTIONS if any(row[0] == f"{kind}-{way}" for row in table.rows)]
-        if len(there) < len(DIRECTIONS):
-            lacking = "".join(way for way in DIRECTIONS if not there or way not in there[0])
-            which = f"{kind}-{lacking}" if there else f"{kind} test"
-            text += f" There is no {which}."
-    if len(names) > 1:
-        text += f" A thin dotted black line shows {names[1]} beside the {names[0]}."
-    return text

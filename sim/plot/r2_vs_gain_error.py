@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-import numpy as np
 from matplotlib.axes import Axes
 
 from sim.core.errors import BadRequest
@@ -16,6 +15,7 @@ from sim.plot.picture import (
     Picture,
     add_legend,
     make_panels,
+    write_number,
 )
 from sim.plot.table import Table
 
@@ -63,7 +63,9 @@ def plot_r2_vs_gain_error(
         add_legend(figure, [right])
     right.set_xlabel("off by [%]", color=INK)
     right.set_title("errors of the gains (known only in simulation)", fontsize=10, color=INK)
-    return Picture(figure, _words(scores, good, score, off), _table(scores, good, score, off))
+    errors = "hidden" if off is None else "shown as marks"
+    alt = f"A badge says whether the {score} of each log is above {good:g}. Errors are {errors}."
+    return Picture(figure, alt, _table(scores, good, score, off))
 
 
 def _badges(axes: Axes, scores: Mapping[str, float], *, good: float, score: str) -> None:
@@ -74,17 +76,7 @@ def _badges(axes: Axes, scores: Mapping[str, float], *, good: float, score: str)
         axes.barh(
             place, shown, height=0.78, color=color, hatch=hatch, edgecolor=PAPER, linewidth=0.0
         )
-        axes.annotate(
-            f"{sign} {value:.2f}",
-            (0.0, place),
-            xytext=(5, 0),
-            textcoords="offset points",
-            va="center",
-            fontsize=9,
-            fontweight="bold",
-            color=INK,
-            bbox={"facecolor": PAPER, "edgecolor": "none", "pad": 1.0},
-        )
+        write_number(axes, f"{sign} {value:.2f}", (0.0, place), right=True)
     axes.axvline(good, color=REFERENCE, linestyle="--", linewidth=1.2)
     axes.set_xlim(0.0, 1.0)
     axes.set_yticks(range(len(scores)), list(scores))
@@ -139,26 +131,3 @@ def format_percent(share: float) -> str:
     """A ratio as a signed percentage without decimals: 0.1 gives ``+10 %``."""
     whole = round(PERCENT * share)
     return f"{whole:+d} %".replace("-", "−") if whole else "0 %"
-
-
-def _words(
-    scores: Mapping[str, float],
-    good: float,
-    score: str,
-    off: Mapping[str, Mapping[str, float]] | None,
-) -> str:
-    passing = [name for name, value in scores.items() if value > good]
-    text = (
-        f"Each of the {len(scores)} logs has a badge. {len(passing)} have a {score} above {good:g}"
-    )
-    failing = [name for name in scores if name not in passing]
-    text += f". These do not: {', '.join(failing)}." if failing else "."
-    if off is None:
-        return f"{text} The errors of their gains are hidden."
-    text += " Next to the badges are the errors of the gains."
-    for gain, found in off.items():
-        sizes = np.abs([found[name] for name in scores])
-        worst = max(found, key=lambda name: abs(found[name]))
-        text += f" {gain} is off by more than {PERCENT * float(np.median(sizes)):.0f} % in half of "
-        text += f"the logs. The largest error is {format_percent(found[worst])}, in {worst}."
-    return text

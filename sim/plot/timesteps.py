@@ -10,7 +10,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from sim.core.errors import BadRequest
@@ -25,10 +24,9 @@ HIGHEST = 15.0  # [median steps] largest height of a panel; longer steps are mar
 NEAR_MEDIAN = 2.5  # [median steps] least height of a panel
 MOST = 160  # ordinary steps drawn in a panel
 MOST_GAPS = 200  # gaps drawn in a panel
-DESCRIBED = 4  # gaps of a test in the description
 # [share of a panel's height] height of the mark of a gap that is longer than the panel
 EDGE = 0.955
-TITLE, ROW, FOOT = 0.3, 1.6, 0.85  # [in] above the panels, for each row of them, and below
+HEIGHT, ROW = 1.15, 1.6  # [in] height around the panels, and of each row of them
 MILLI = 1e3
 
 
@@ -71,8 +69,7 @@ def plot_timesteps(log: Log) -> Picture:
     longest = max(float(steps.length.max()) for steps in all_steps)
     top = median * min(max(NEAR_MEDIAN, 1.15 * longest / median), HIGHEST)
     ways = [way for way in DIRECTIONS if any(one.run.direction == way for one in all_steps)]
-    figure, grid = make_panels(len(kinds), len(ways), height=_height(len(kinds)), shared=True)
-    _place_panels(figure, rows=len(kinds))
+    figure, grid = make_panels(len(kinds), len(ways), height=HEIGHT + ROW * len(kinds), shared=True)
     for kind, row in zip(kinds, grid, strict=True):
         for way, axes in zip(ways, row, strict=True):
             these = [one for one in all_steps if one.run.test == f"{kind}-{way}"]
@@ -82,26 +79,12 @@ def plot_timesteps(log: Log) -> Picture:
     for axes in grid[-1]:
         axes.set_xlabel("time since the test began [s]", color=INK)
     add_legend(figure, [axes for row in grid for axes in row], columns=5)
-    return Picture(figure, _words(all_steps, median=median, top=top), _table(all_steps))
-
-
-def _height(rows: int) -> float:
-    """The height of the figure [in], for rows of panels with title, labels and legend."""
-    return TITLE + ROW * rows + FOOT
-
-
-def _place_panels(figure: Figure, *, rows: int) -> None:
-    """Set the positions of the panels: matplotlib's own layout takes half a second for twelve."""
-    height = _height(rows)
-    figure.set_layout_engine(None)
-    figure.subplots_adjust(
-        left=0.085,
-        right=0.99,
-        top=1.0 - TITLE / height,
-        bottom=FOOT / height,
-        hspace=0.38,
-        wspace=0.06,
+    alt = (
+        "One panel for each test shows the time from each sample to the next. A solid line marks "
+        f"the median of these time steps, {to_text(median)} ms, and a dotted line {GAP:g} times "
+        "the median. Diamonds mark longer steps, triangles those too long for the panel."
     )
+    return Picture(figure, alt, _table(all_steps))
 
 
 def _steps(run: Run, *, median: float) -> _Steps:
@@ -160,41 +143,6 @@ def _set_title_and_ticks(axes: Axes, test: str, these: Sequence[_Steps]) -> None
     axes.set_title(f"{test}: {text}", fontsize=10, color=INK)
     axes.xaxis.set_major_locator(MaxNLocator(6, steps=[1, 2, 5, 10]))
     axes.yaxis.set_major_locator(MaxNLocator(3, steps=[1, 2, 5, 10]))
-
-
-def _words(all_steps: Sequence[_Steps], *, median: float, top: float) -> str:
-    total = sum(one.length.size for one in all_steps)
-    gaps = sum(int(one.gaps.sum()) for one in all_steps)
-    text = "One panel for each test shows the time from each sample to the next. A "
-    text += f"solid line marks the median of these time steps, {to_text(median)} ms. "
-    text += f"A dotted line marks {GAP:g} times the median. "
-    if not gaps:
-        longest = max(float(one.length.max()) for one in all_steps)
-        return text + (
-            f"None of the {total} time steps is above the dotted line. The longest is "
-            f"{to_text(longest)} ms."
-        )
-    verb, mark = (
-        ("is", "a diamond marks this gap") if gaps == 1 else ("are", "diamonds mark these gaps")
-    )
-    text += f"{gaps} of the {total} time steps {verb} above the dotted line "
-    text += f"({_share(gaps, total)}): {mark}."
-    for one in all_steps:
-        where = np.flatnonzero(one.gaps)
-        if not where.size:
-            continue
-        worst = np.sort(where[np.argsort(one.length[where])[::-1][:DESCRIBED]])
-        listed = ", ".join(f"{to_text(one.length[i])} ms at {one.after[i]:.2f} s" for i in worst)
-        only = "" if where.size <= DESCRIBED else f" The {DESCRIBED} longest:"
-        gap = "gap" if where.size == 1 else "gaps"
-        text += f" {one.run.test} has {where.size} {gap}{only and '.'}{only or ':'} {listed}."
-    beyond = sum(int((one.length > top).sum()) for one in all_steps)
-    if beyond:
-        verb, mark = (
-            ("is", "a triangle marks it") if beyond == 1 else ("are", "triangles mark them")
-        )
-        text += f" {beyond} of them {verb} too long for the panel: {mark} at the upper edge."
-    return text
 
 
 def _share(part: int, total: int) -> str:

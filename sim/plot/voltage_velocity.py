@@ -84,7 +84,8 @@ def plot_voltage_velocity(log: Log, *, lines: Mapping[str, Line] | None = None) 
     whole.set_title("the whole ramp", fontsize=10, color=INK)
     close.set_title("close to standstill", fontsize=10, color=INK)
     whole.legend(fontsize=9)
-    return Picture(figure, _words(ramps, drawn, per, top=top), _table(ramps, drawn, per, top=top))
+    alt = "Two panels show voltage against velocity: the whole voltage ramp, and its slow part."
+    return Picture(figure, alt, _table(ramps, drawn, per, top=top))
 
 
 def _ramps(runs: Sequence[Run], per: Unit) -> list[_Ramps]:
@@ -176,46 +177,6 @@ def _rms_from_line(one: _Ramps, *, top: float) -> float | None:
         return None
     line = np.polynomial.Polynomial.fit(velocity, voltage, 1)
     return float(np.sqrt(np.mean((voltage - line(velocity)) ** 2)))
-
-
-def _decimals(value: float) -> str:
-    return f"{round(value, 2) + 0.0:.2f}".replace("-", "−")  # never −0.00
-
-
-def _direction_text(way: str) -> str:
-    return "in reverse" if way == "reverse" else way
-
-
-def _words(ramps: Sequence[_Ramps], lines: Mapping[str, Line], per: Unit, *, top: float) -> str:
-    text = (
-        "Two panels show voltage against velocity. The first shows the whole voltage ramp, and the "
-    )
-    text += "second only the slow part."
-    for one in ramps:
-        index = int(np.argmax(np.abs(one.velocity)))
-        moving = _moving(one, top=top)
-        tests = f"{one.way} test" if one.runs == 1 else f"{one.runs} {one.way} tests"
-        text += f" The {one.velocity.size} samples of the {tests} reach "
-        text += (
-            f"{_decimals(one.velocity[index])} {per.symbol}/s at {_decimals(one.voltage[index])} V"
-        )
-        fast = f"{_direction_text(one.way)} faster than {MOVING * top:.2f} {per.symbol}/s"
-        text += (
-            f". At {_decimals(one.voltage[moving][0])} V, the mechanism moves {fast} for the "
-            "first time"
-            if moving.any()
-            else f". The mechanism never moves {fast}"
-        )
-        stray = _rms_from_line(one, top=top)
-        if stray is not None:
-            text += (
-                f". While it moves, the samples are {stray:.3f} V (RMS) away from a straight line"
-            )
-        text += "."
-    for name, line in lines.items():
-        text += f" The line “{name}” is at {line.intercept:.3f} V for velocity 0, and rises by "
-        text += f"{line.slope:.3f} V per {per.symbol}/s."
-    return text
 
 
 def _table(ramps: Sequence[_Ramps], lines: Mapping[str, Line], per: Unit, *, top: float) -> Table:

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from sim.estimation.likelihood import PredictionErrorProblem
-from sim.physics.effects import EFFECTS
+from sim.physics.effects import EFFECTS, list_look_alikes
 from sim.reconcile.candidates import Candidate, score_estimate, simplify_effect
 from sim.reconcile.cross_validation import Gap, compute_validation_gap
 from sim.reconcile.local_minimum import minimize
@@ -99,4 +99,4 @@ def refit_without_effect(
 
 def find_separating_test(effect: str, other: str) -> str:
     """The test that separates two effects; empty if none is known."""
-    return EFFECTS[effect].apart.get(other, "") or EFFECTS[other].apart.get(effect, "")
+    return list_look_alikes(effect).get(other, "")

@@ -18,6 +18,10 @@ WHOLE_RUN_FAULTS = ("sign-flip",)
 not belong together then."""
 
 
+LEFT_OUT = "left-out"
+"""In place of a fault: the user left the interval out. It is excluded, and not reported."""
+
+
 @dataclass(frozen=True)
 class DamagedInterval:
     """An interval of a run that a fault has damaged, as an inspection reports it.
@@ -26,7 +30,7 @@ class DamagedInterval:
         run: its index, from 0; None concerns the whole log.
         start: [s] on the run's own clock.
         end: [s].
-        fault: name of the fault.
+        fault: name of the fault, or ``LEFT_OUT``.
         confidence: [1] 0 to 1.
         sentence: what the inspection found.
         advice: what to do.
@@ -39,6 +43,10 @@ class DamagedInterval:
     confidence: float
     sentence: str
     advice: str
+
+    def is_within(self, other: "DamagedInterval") -> bool:
+        """Whether another interval contains this one."""
+        return self.run == other.run and other.start <= self.start and self.end <= other.end
 
 
 @dataclass(frozen=True)
@@ -60,9 +68,9 @@ class DamageDecision:
 def judge_damage(damages: Mapping[str, Sequence[DamagedInterval]]) -> DamageDecision:
     """Decide about the damage that an inspection found in each log.
 
-    An interval is excluded if it is at a hard stop, or if its fault is one of ``RECORD_FAULTS``
-    with a confidence of at least ``DAMAGED``. Any other fault of a run is suspected if its
-    confidence is at least ``SURE_FAULT``.
+    An interval is excluded if the user left it out, if it is at a hard stop, or if its fault is one
+    of ``RECORD_FAULTS`` with a confidence of at least ``DAMAGED``. Any other fault of a run is
+    suspected if its confidence is at least ``SURE_FAULT``.
     """
     excluded: dict[str, list[ExcludedInterval]] = {}
     found: dict[str, DamagedInterval] = {}
@@ -72,15 +80,18 @@ def judge_damage(damages: Mapping[str, Sequence[DamagedInterval]]) -> DamageDeci
         for one in every:
             stopped = one.fault in STOP_FAULTS
             damaged = one.fault in RECORD_FAULTS and one.confidence >= DAMAGED
+            left_out = one.fault == LEFT_OUT
             if one.fault in WHOLE_RUN_FAULTS and len(flipped) > 1:
                 continue
-            if (damaged or stopped) and one.run is not None:
+            if (damaged or stopped or left_out) and one.run is not None:
                 interval = ExcludedInterval(one.run, one.start, one.end, stopped)
                 excluded.setdefault(name, []).append(interval)
+            if name == "held_out" or left_out:
+                continue
             told = found if damaged or stopped else suspected
             sure = damaged or stopped or (one.run is not None and one.confidence >= SURE_FAULT)
             best = told.get(one.fault)
-            if name != "held_out" and sure and (best is None or one.confidence > best.confidence):
+            if sure and (best is None or one.confidence > best.confidence):
                 told[one.fault] = one
     return DamageDecision(
         {name: tuple(some) for name, some in excluded.items()},

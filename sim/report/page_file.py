@@ -8,9 +8,11 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 from sim.core.errors import BadRequest
 from sim.support.atomic_file import write_atomically
+from sim.support.os_errors import refuse_os_errors
 from sim.support.printable import make_printable
 
 PAGES = (".html", ".htm")
+ELSEWHERE = "Choose a folder that exists and that you may write to."
 FOLDER = Path(__file__).parent
 
 
@@ -63,11 +65,5 @@ def write_page_file(text: str, target: Path, *, private: bool = False) -> None:
     Raises:
         BadRequest: the file cannot be written.
     """
-    try:
+    with refuse_os_errors("cannot be written", target, advice=ELSEWHERE):
         write_atomically(target, text, private=private)
-    except OSError as error:
-        raise BadRequest(
-            f"cannot be written ({error.strerror or error})",
-            where=str(target),
-            advice="Choose a folder that exists and that you may write to.",
-        ) from None

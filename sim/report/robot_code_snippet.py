@@ -1,46 +1,48 @@
-"""Robot code for a fit's gains: constants, and WPILib's feedforward object.
+"""Robot code with a fit's gains: WPILib's feedforward, or the settings of a motor controller.
 
     from sim.report.robot_code_snippet import write_robot_code
-    print(write_robot_code(found.in_log_units(), language="java", season=2026, name="left drive"))
+    print(write_robot_code(found.in_log_units(), target="java", name="left drive"))
+    print(write_robot_code(found, target="phoenix6", radius=0.0508))
 
-Differences between languages and seasons are data below; one function assembles the text.
-An arm's numbers are always per radian, because WPILib takes the cosine of the angle it is given.
+Each target has a template in ``robot_code/`` and a row in ``TARGETS``. It has its own unit of
+position, so the code converts kV and kA: a gain is written as in the fit, times a constant. WPILib
+takes the cosine of an arm's angle, which must be in radians.
+
+Sources: the documentation of ``Slot0Configs`` in Phoenix 6 26.3 and of ``FeedForwardConfig`` in
+REVLib 2026.0; for YAGSL, ``SwerveDrive.replaceSwerveModuleFeedforward``, which takes WPILib's
+class. WPILib 2026.2.2: Java's calculate(velocity, acceleration) is deprecated there, and Python's
+calculate has always taken the next velocity. WPILib 2027: allwpilib's development branch, where
+Java's calculate takes the next velocity and calculateWithVelocities no longer exists, and where
+RobotPy's own tests and examples import from wpimath itself. Its early alphas still had
+wpimath.controller. Neither was tested, because 2027 is not released.
 """
 
 import math
 import re
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from typing import NamedTuple
 
-from sim.core.errors import BadRequest
-from sim.core.units import Unit, find_unit
-from sim.feedback import PRESETS
+from sim.core.advice import Action
+from sim.core.errors import BadRequest, refuse_unknown
+from sim.core.units import TURN, find_unit
+from sim.feedback import PRESETS, Preset
 from sim.fit import Fit
 from sim.fit.feedback_trial import try_feedback_gains
+from sim.report.page_file import load_templates
 
-DIGITS = 5  # significant digits at most: errors of the model are larger than the next digit
-FINEST = 1e-3  # [1] relative error; no gain is really known better than this
-FEWEST = 3  # significant digits at least: a kA rounded to zero would be another model
-PERIOD = 1e3 * PRESETS["default"].period  # [ms] between the two velocities, WPILib's default
+MOST_DIGITS = 5  # significant digits: errors of the model are larger than the next digit
+LEAST_DIGITS = 3  # significant digits: a kA rounded to zero would be another model
+LEAST_ERROR = 1e-3  # [1] relative error; no gain is really known better than this
 
-
-@dataclass(frozen=True)
-class Language:
-    """Templates of one language; names in braces are replaced."""
-
-    comment: str
-    indent: str
-    imports: str
-    opens: str
-    constant: str
-    build: str
-    closes: str
-    linear: str  # feedforward class of a simple mechanism in units of length
-    angular: str  # feedforward class of a simple mechanism in units of angle
+ORDER = {  # order of the constructor's arguments
+    "simple": ("kS", "kV", "kA"),
+    "elevator": ("kS", "kG", "kV", "kA"),
+    "arm": ("kS", "kG", "kV", "kA"),
+}
 
 
-@dataclass(frozen=True)
-class Spelling:
+class Spelling(NamedTuple):
     """The names in one season's WPILib.
 
     Args:
@@ -54,99 +56,205 @@ class Spelling:
     notes: tuple[str, ...] = ()
 
 
-LANGUAGES = {
-    "java": Language(
-        comment="//",
-        indent="  ",
-        imports="import {module}.{cls};",
-        opens="public final class {name} {{\n  private {name}() {{}}",
-        constant="public static final double {name} = {value};",
-        build="public static final {cls} FEEDFORWARD = new {cls}({gains});",
-        closes="}\n",
-        linear="SimpleMotorFeedforward",
-        angular="SimpleMotorFeedforward",
-    ),
-    "python": Language(
-        comment="#",
-        indent="    ",
-        imports="from {module} import {cls}",
-        opens="class {name}:",
-        constant="{name} = {value}",
-        build="FEEDFORWARD = {cls}({gains})",
-        closes="",
-        linear="SimpleMotorFeedforwardMeters",
-        angular="SimpleMotorFeedforwardRadians",
-    ),
-}
-
-# Sources. 2026: WPILib 2026.2.2; Java's calculate(velocity, acceleration) is deprecated there, and
-# Python's calculate has always taken the next velocity. 2027: allwpilib's development branch, where
-# Java's calculate takes the next velocity and calculateWithVelocities no longer exists, and where
-# RobotPy's own tests and examples import from wpimath itself. Its early alphas still had
-# wpimath.controller. Neither was tested, because 2027 is not released.
-_ALPHA = "WPILib 2027 is not released: names as on its development branch."
+ALPHA = "WPILib 2027 is not released: names as on its development branch."
 SPELLINGS = {
     ("java", 2026): Spelling("edu.wpi.first.math.controller", "calculateWithVelocities"),
     ("java", 2027): Spelling(
         "org.wpilib.math.controller",
         "calculate",
-        notes=(_ALPHA, "Make sure that calculate's last argument is the next velocity."),
+        (ALPHA, "Make sure that calculate's last argument is the next velocity."),
     ),
     ("python", 2026): Spelling("wpimath.controller", "calculate"),
     ("python", 2027): Spelling(
-        "wpimath",
-        "calculate",
-        notes=(_ALPHA, "Its early alphas import from wpimath.controller."),
+        "wpimath", "calculate", (ALPHA, "Its early alphas import from wpimath.controller.")
     ),
 }
 SEASONS = tuple(sorted({season for _, season in SPELLINGS}))
-
-ORDER = {  # order of the constructor's arguments
-    "simple": ("kS", "kV", "kA"),
-    "elevator": ("kS", "kG", "kV", "kA"),
-    "arm": ("kS", "kG", "kV", "kA"),
-}
 CLASSES = {"elevator": "ElevatorFeedforward", "arm": "ArmFeedforward"}
+SIMPLE = "SimpleMotorFeedforward"
 
 
-def write_robot_code(found: Fit, *, language: str, season: int = 2026, name: str = "") -> str:
+@dataclass(frozen=True)
+class Target:
+    """WPILib in a language, a motor controller, or a library that takes gains.
+
+    Args:
+        name: its name, with the release it was checked against.
+        units: type of mechanism -> its unit of position; empty takes the fit's. It has no gains
+            for a type that is missing.
+        preset: loop times and units of its own feedback; None where it has no loop.
+        output: what one unit of its output is: ``V``, or ``1`` for a duty cycle.
+        language: the language of its code.
+        suffix: of WPILib's class for a simple mechanism that moves by a length, and by an angle.
+    """
+
+    name: str
+    units: Mapping[str, str]
+    preset: Preset | None = None
+    output: str = "V"
+    language: str = "java"
+    suffix: tuple[str, str] = ("", "")
+
+    @property
+    def is_wpilib(self) -> bool:
+        """Whether it is WPILib, where each loop has a controller of its own."""
+        return self.preset is PRESETS["default"]
+
+    def list_loops(self, type_: str) -> tuple[str, ...]:
+        """The loops that it has: a controller has one, of the position where a mechanism stays."""
+        if self.is_wpilib:
+            return "velocity", "position"
+        return ("velocity" if type_ == "simple" else "position",) if self.preset else ()
+
+
+# SysId's preset counts velocity per minute, as a Spark without conversion factors does. The code
+# asks for factors that make it count per second.
+SPARK = replace(PRESETS["rev-brushless"], velocity_time=1.0)
+WPILIB = {"simple": "", "elevator": "", "arm": "radians"}
+TARGETS = {
+    "java": Target("WPILib {season}", WPILIB, PRESETS["default"]),
+    "python": Target(
+        "WPILib {season}", WPILIB, PRESETS["default"],
+        language="python", suffix=("Meters", "Radians"),
+    ),
+    "phoenix6": Target(
+        "Phoenix 6 (26.3)", dict.fromkeys(ORDER, "rotations"), PRESETS["ctre-phoenix6"]
+    ),
+    "revlib": Target("REVLib (2026)", dict.fromkeys(ORDER, ""), SPARK, output="1"),
+    "yagsl": Target("YAGSL", {"simple": "meters"}),
+}  # fmt: skip
+
+
+class Conversion(NamedTuple):
+    """The factor from units of the fit to units of the target.
+
+    Args:
+        name: the constant that holds it.
+        factor: its value; 1 needs no constant.
+        unit: its unit.
+        per: symbol of the target's unit of position.
+    """
+
+    name: str
+    factor: float
+    unit: str
+    per: str
+
+    @property
+    def times(self) -> str:
+        """The end of a product that converts; empty if there is nothing to convert."""
+        return f" * {self.name}" if self.factor != 1.0 else ""
+
+
+class Constant(NamedTuple):
+    """A constant of the code; its comment begins with its unit."""
+
+    name: str
+    value: str
+    comment: str
+
+
+def write_robot_code(
+    found: Fit, *, target: str, season: int = 2026, radius: float | None = None, name: str = ""
+) -> str:
     """Robot code with the gains of a fit, rounded to the precision that their errors allow.
 
     Args:
-        found: the fit, in the unit for the code; gains of an arm are converted to radians.
-        language: ``java`` or ``python``.
-        season: 2026 or 2027.
+        found: the fit, in the unit of its log.
+        target: one of ``TARGETS``: ``java`` and ``python`` are WPILib's feedforward.
+        season: 2026 or 2027, where the code names a class of WPILib.
+        radius: radius of wheel or drum [m], to convert between a length and a rotation.
         name: name of the mechanism; empty takes its type.
 
     Returns:
         The text, with a line break at its end.
 
     Raises:
-        BadRequest: an unknown language or season, a name that does not begin with a letter, or
-            gains that are physically impossible.
+        BadRequest: an unknown target or season, a name that does not begin with a letter, a
+            missing radius, a mechanism that the target has no gains for, or gains that are
+            physically impossible.
     """
-    spelling = _find_spelling(language, season)
-    refuse_impossible_gains(found)
-    write = LANGUAGES[language]
-    class_ = make_class_name(name or found.type)
-    cls = CLASSES.get(found.type) or (
-        write.angular if find_unit(found.units).angular else write.linear
-    )
-    inside = (
-        *_constants(found, write),
-        *_feedforward(found, write, spelling, cls=cls),
-        *_feedback(found, write),
-    )
-    return "\n".join(
-        (
-            write.imports.format(module=spelling.module, cls=cls),
-            "",
-            *(f"{write.comment} {line}" for line in _heading(found, spelling, season=season)),
-            write.opens.format(name=class_),
-            *((write.indent + line).rstrip() for line in inside),
-            write.closes,
+    refuse_unknown("target", target, TARGETS)
+    refuse_unknown("season", season, SEASONS)
+    _refuse_impossible_gains(found)
+    chosen = TARGETS[target]
+    if found.type not in chosen.units:
+        raise BadRequest(
+            f"an {found.type} for {chosen.name}, which holds the gains of a drive motor",
+            advice="Fit the log of the drive motors with --type simple.",
         )
+    converted = convert_units(found, chosen.units[found.type], radius=radius)
+    feedback = tuple(_list_feedback(found, chosen, converted))
+    loops = [one for one in chosen.list_loops(found.type) if all(one != at for at, _ in feedback)]
+    simple = SIMPLE + chosen.suffix[find_unit(found.units).angular]
+    template = load_templates().overlay(autoescape=False).get_template(f"robot_code/{target}.jinja")
+    text = template.render(
+        heading=f"Measured gains of {'an' if found.type[0] in 'ae' else 'a'} {found.type} "
+        f"mechanism, for {chosen.name.format(season=season)}; ± is one standard error.",
+        warnings=len(found.doubts),
+        class_name=make_class_name(name or found.type),
+        type=found.type,
+        gains=ORDER[found.type],
+        feedback=tuple(constant.name for _, constant in feedback),
+        loops_without_gains=loops,
+        constants=[
+            *_list_gains(found, converted),
+            *_list_offset(found, chosen),
+            *(constant for _, constant in feedback),
+        ],
+        unit=converted.per,
+        rotations_per_unit=find_unit(found.units).si / TURN,
+        measured="measured" + converted.times.replace("*", "/"),
+        wpilib=SPELLINGS[chosen.language, season],
+        wpilib_class=CLASSES.get(found.type, simple),
+        period=f"{1e3 * PRESETS['default'].period:.0f}",  # between the two velocities
     )
+    return f"{text}\n"
+
+
+def _list_gains(found: Fit, converted: Conversion) -> Iterator[Constant]:
+    """The conversion, if one is needed, and the gains with their units and standard errors."""
+    if converted.times:
+        yield Constant(converted.name, repr(converted.factor), f"[{converted.unit}]")
+    units = {"kV": f"V·s/{converted.per}", "kA": f"V·s²/{converted.per}"}
+    for gain in ORDER[found.type]:
+        value, error = found.gains[gain], found.errors.get(gain, math.nan)
+        times, factor = (converted.times, converted.factor) if gain in units else ("", 1.0)
+        known = _format_error(value * factor, error * factor)
+        yield Constant(
+            gain, round_to_error(value, error) + times, f"[{units.get(gain, 'V')}]{known}"
+        )
+
+
+def _list_offset(found: Fit, chosen: Target) -> Iterator[Constant]:
+    """Where an arm is level: an angle for WPILib, the sensor's reading for a motor controller."""
+    if found.type != "arm":
+        return
+    offset, error = found.gains["offset_rad"], found.errors.get("offset_rad", math.nan)
+    if chosen.is_wpilib:
+        known = _format_error(offset, error)
+        yield Constant("kAngleOffset", round_to_error(offset, error), f"[rad]{known}")
+    else:
+        reading = f"{-offset / TURN:.6f}"
+        yield Constant("kLevelReading", reading, "[rot] of the sensor when the arm is level")
+
+
+def _list_feedback(
+    found: Fit, chosen: Target, converted: Conversion
+) -> Iterator[tuple[str, Constant]]:
+    """The loop and the constant of each suggested gain that is a good start and not zero."""
+    per = converted.per
+    for trial in try_feedback_gains(found, chosen.preset) if chosen.preset else ():
+        if not trial.is_good or trial.loop not in chosen.list_loops(found.type):
+            continue
+        held = per if trial.loop == "position" else f"({per}/s)"
+        rate = f"({per}/s)" if trial.preset.normalized else f"({per}/ms)"
+        prefix = f"k{trial.loop.capitalize() if chosen.is_wpilib else ''}"
+        for letter, value, unit in (("P", trial.gains.kp, held), ("D", trial.gains.kd, rate)):
+            if value:
+                start = round_to_error(float(f"{value:.{LEAST_DIGITS}g}"), math.nan)
+                comment = f"[{chosen.output}/{unit}] of the {trial.loop} loop, to start from"
+                yield trial.loop, Constant(prefix + letter, start + converted.times, comment)
 
 
 def round_to_error(value: float, error: float) -> str:
@@ -154,27 +262,24 @@ def round_to_error(value: float, error: float) -> str:
     if not value:
         return "0.0"
     first = math.floor(math.log10(abs(value)))
-    places = DIGITS - 1 - first
+    places = MOST_DIGITS - 1 - first
     if math.isfinite(error) and error > 0.0:
         second = 1 - math.floor(math.log10(error))
-        places = min(places, max(second, FEWEST - 1 - first))
+        places = min(places, max(second, LEAST_DIGITS - 1 - first))
     text = f"{round(value, places):.{max(places, 1)}f}"
     whole, _, fraction = text.partition(".")
     return f"{whole}.{fraction.rstrip('0') or '0'}"
 
 
-def _find_spelling(language: str, season: int) -> Spelling:
-    if language not in LANGUAGES:
-        raise BadRequest(
-            f"unknown language {language!r}", advice=f"Choose one of: {', '.join(LANGUAGES)}."
-        )
-    if (language, season) not in SPELLINGS:
-        seasons = ", ".join(str(known) for known in SEASONS)
-        raise BadRequest(f"unknown season {season!r}", advice=f"Choose one of: {seasons}.")
-    return SPELLINGS[language, season]
+def _format_error(value: float, error: float) -> str:
+    """One standard error as the end of a comment: `` ± 0.01``; empty if it is not known."""
+    if not math.isfinite(error):
+        return ""
+    small = error < LEAST_ERROR * abs(value)
+    return f" ± less than {LEAST_ERROR:.1%}" if small else f" ± {error:.2g}"
 
 
-def refuse_impossible_gains(found: Fit) -> None:
+def _refuse_impossible_gains(found: Fit) -> None:
     """Refuse gains that no robot should use.
 
     Raises:
@@ -209,96 +314,26 @@ def make_class_name(name: str) -> str:
     return joined
 
 
-def _heading(found: Fit, spelling: Spelling, *, season: int) -> Iterator[str]:
-    yield (
-        f"Measured gains of {'an' if found.type[0] in 'ae' else 'a'} {found.type} mechanism, for "
-        f"WPILib {season}; ± is one standard error."
-    )
-    yield from spelling.notes
-    if found.doubts:
-        yield f"Warnings of the fit, to be read first: {len(found.doubts)}."
+def convert_units(found: Fit, unit: str, *, radius: float | None) -> Conversion:
+    """The constant by which kV and kA of a fit are multiplied.
 
+    Args:
+        found: the fit.
+        unit: name of the target's unit of position, or empty for that of the fit.
+        radius: radius of wheel or drum [m], or None.
 
-def _constants(found: Fit, write: Language) -> Iterator[str]:
-    """The lines of the gains, and for an arm the offset from the sensor to the horizontal."""
+    Raises:
+        BadRequest: a radius is needed, and is missing or not a positive number.
+    """
     given = find_unit(found.units)
-    converted = found.type == "arm" and given.name != "radians"
-    if converted:
-        yield f"{write.comment} Gains per {given.symbol} in the fit, per radian here."
-    shown = found.in_units("radians") if found.type == "arm" else found
-    for gain in ORDER[found.type]:
-        error = shown.errors.get(gain, math.nan)
-        yield _line(write, gain, shown.gains[gain], error, shown.format_gain_unit(gain))
-    if found.type != "arm":
-        return
-    reading = "measured"
-    if converted:
-        yield write.constant.format(name="kRadiansPerUnit", value=repr(given.si)) + (
-            f"  {write.comment} [rad/{given.symbol}]"
-        )
-        reading = "measured * kRadiansPerUnit"
-    yield f"{write.comment} angle from horizontal [rad] = {reading} + kAngleOffset"
-    offset, error = shown.gains["offset_rad"], shown.errors.get("offset_rad", math.nan)
-    yield _line(write, "kAngleOffset", offset, error, "rad")
-
-
-def _feedforward(found: Fit, write: Language, spelling: Spelling, *, cls: str) -> Iterator[str]:
-    per = _code_unit(found)
-    angle = "angle, " if found.type == "arm" else ""
-    yield ""
-    yield f"{write.comment} Volts: FEEDFORWARD.{spelling.method}({angle}velocity, nextVelocity)"
-    yield (
-        f"{write.comment} with velocities in {per.symbol}/s, the next one {PERIOD:.0f} ms later "
-        "(not an acceleration)."
-    )
-    yield write.build.format(cls=cls, gains=", ".join(ORDER[found.type]))
-
-
-def _feedback(found: Fit, write: Language) -> Iterator[str]:
-    """The lines of the suggested feedback gains; those of an arm are converted to radians."""
-    per = _code_unit(found)
-    factor = per.si / find_unit(found.units).si
-    yield ""
-    loops = found.feedback()
-    if not loops:
-        yield f"{write.comment} The fit suggests no feedback gains."
-    tried = try_feedback_gains(found, PRESETS["default"])
-    bad = {trial.loop for trial in tried if not trial.is_good}
-    for loop, gains in loops.items():
-        held = f"({per.symbol}/s)" if loop == "velocity" else per.symbol
-        if min(gains.kp, gains.kd) < 0.0:
-            yield f"{write.comment} No gains for the {loop} loop: the delay is too long for them."
-            continue
-        if loop in bad:
-            yield (
-                f"{write.comment} No gains for the {loop} loop: SysId's suggestion is no good "
-                "start. sysid fit says why."
+    wanted = find_unit(unit or found.units)
+    name = f"k{given.name.capitalize()}Per{wanted.name.capitalize().removesuffix('s')}"
+    between = 1.0
+    if given.angular != wanted.angular:
+        if radius is None or not (math.isfinite(radius) and radius > 0.0):
+            raise BadRequest(
+                f"no radius between {given.name} and {wanted.name}", advice=Action("radius")
             )
-            continue
-        yield (
-            f"{write.comment} To start from, added to the feedforward: PIDController of the "
-            f"{loop} [{held.strip('()')}], {PERIOD:.0f} ms"
-        )
-        word = loop.capitalize()
-        for letter, value, top in (("P", gains.kp, "V"), ("D", gains.kd, "V·s")):
-            start = float(f"{value * factor:.{FEWEST}g}")
-            yield _line(write, f"k{word}{letter}", start, math.nan, f"{top}/{held}")
-
-
-def _code_unit(found: Fit) -> Unit:
-    """The unit of position in the code."""
-    return find_unit("radians" if found.type == "arm" else found.units)
-
-
-def format_code_error(value: float, error: float) -> str:
-    """One standard error as the end of a comment: `` ± 0.01``; empty if it is not known."""
-    if not math.isfinite(error):
-        return ""
-    return f" ± {error:.2g}" if error >= FINEST * abs(value) else f" ± less than {FINEST:.1%}"
-
-
-def _line(write: Language, name: str, value: float, error: float, per: str) -> str:
-    """The line of one constant, with its unit, and its standard error if it has one."""
-    known = format_code_error(value, error)
-    constant = write.constant.format(name=name, value=round_to_error(value, error))
-    return f"{constant}  {write.comment} [{per}]{known}"
+        between = radius if wanted.angular else 1.0 / radius  # [m/rad], or its inverse
+    factor = wanted.si * between / given.si
+    return Conversion(name, factor, f"{given.symbol}/{wanted.symbol}", wanted.symbol)

@@ -19,7 +19,7 @@ from sim.core.errors import BadRequest
 from sim.support.os_errors import refuse_os_errors
 
 VARIABLE = "SYSID_SECRET"  # environment variable with the secret itself
-FEWEST = 16  # [characters] a shorter secret could be guessed
+MIN_LENGTH = 16  # [characters] a shorter secret could be guessed
 TABLE = re.compile(rb"[\r\n,;\t]")  # a roster or a log has one of these, a secret does not
 SIZE = 32  # [bytes] of a new secret
 
@@ -44,13 +44,13 @@ class Secret:
 
     def derive_seed(self, *which: str | int) -> int:
         """The seed for the names and numbers ``which``."""
-        return int.from_bytes(self._code("seed", json.dumps(which).encode()), "big")
+        return int.from_bytes(self._compute_hmac("seed", json.dumps(which).encode()), "big")
 
     def seal(self, content: bytes) -> str:
         """The seal (HMAC) of a content, which can only be computed with the secret."""
-        return self._code("seal", content).hex()
+        return self._compute_hmac("seal", content).hex()
 
-    def _code(self, purpose: str, content: bytes) -> bytes:
+    def _compute_hmac(self, purpose: str, content: bytes) -> bytes:
         """The HMAC of a content, with a key of its own for each purpose."""
         key = hmac.digest(self.value, f"sysid dataset {purpose}".encode(), hashlib.sha256)
         return hmac.digest(key, content, hashlib.sha256)
@@ -94,9 +94,9 @@ def find_secret(path: Path | None, *, make: bool) -> Secret | None:
         )
     value = kept or around
     if value:
-        if len(value) < FEWEST:
+        if len(value) < MIN_LENGTH:
             raise BadRequest(
-                f"the secret has fewer than {FEWEST} characters",
+                f"the secret has fewer than {MIN_LENGTH} characters",
                 where=str(path) if kept else VARIABLE,
                 advice="Use a longer one: a short secret can be guessed.",
             )

@@ -3,13 +3,12 @@
 Commas, semicolons or tabs may separate the cells, and Canvas's gradebook can be read as it is.
 """
 
-import csv
-import io
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from sim.core.errors import BadRequest, refusals_at
+from sim.support.csv_rows import split_rows
 from sim.support.os_errors import refuse_os_errors
 from sim.support.student_names import check_student_name, normalize_name
 
@@ -89,13 +88,10 @@ def read_student_table(path: Path, *, what: str, advice: str) -> StudentTable:
     """
     with refuse_os_errors(f"{what} cannot be read", path, advice=advice):
         content = path.read_text(encoding="utf-8-sig")
-    first = content.partition("\n")[0]  # spreadsheets in some languages write a semicolon
-    delimiter = max(",;\t", key=first.count)
-    table = csv.reader(io.StringIO(content, newline=""), delimiter=delimiter)
-    header = tuple(next(table, []))
+    (_, header), *below = list(split_rows(content, where=str(path))) or [(1, [])]
     rows = []
-    for cells in table:
-        where = f"{path}, line {table.line_num}"
+    for line, cells in below:
+        where = f"{path}, line {line}"
         if any(cell.strip() for cell in cells[len(header) :]):
             raise BadRequest(
                 f"{len(cells)} cells, but the first line has {len(header)}",
@@ -104,7 +100,7 @@ def read_student_table(path: Path, *, what: str, advice: str) -> StudentTable:
             )
         if any(cell.strip() for cell in cells):
             rows.append((where, dict(zip(header, cells, strict=False))))
-    return StudentTable(path, header, tuple(rows))
+    return StudentTable(path, tuple(header), tuple(rows))
 
 
 def make_distinct_names(found: Iterable[tuple[str, str]]) -> tuple[str, ...]:

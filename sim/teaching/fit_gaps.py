@@ -105,5 +105,7 @@ def judge_gap(answer: Callable[[], object], expected: object, hint: str) -> str:
             return EMPTY
         same = np.allclose(np.asarray(found, dtype=float), np.asarray(expected), rtol=CLOSE)
     except Exception as error:  # noqa: BLE001 - a student's line may fail in any way
+        if "inhomogeneous" in str(error):
+            return f"not yet. A column needs a number for each row; one of yours has not. {hint}"
         return f"it stops with an error: {error}."
     return RIGHT if same else f"not yet. {hint}"

@@ -9,7 +9,7 @@ on a robot. The mechanism is a simulated one, with its hidden effects, battery a
 """
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,11 +19,11 @@ from sim.bench.simulate import make_power_path_array
 from sim.core.errors import BadRequest
 from sim.core.log import Array
 from sim.core.units import BATTERY
+from sim.physics.engine import NO_WIRES, simulate_run
 from sim.physics.engine import State as Body
-from sim.physics.engine import simulate_run
+from sim.physics.model import Model
 
 LOOP = 0.02  # [s] loop period of the robot program
-ONBOARD = 0.001  # [s] loop period inside Phoenix 6's motor controllers
 SETTLING = 0.5  # [s] simulated after the end of the profile
 MASSLESS = 1e-9  # [V·s²/unit] with a smaller kA, WPILib uses the next velocity alone
 
@@ -210,12 +210,41 @@ class FollowedMove:
         return float(np.abs(self.error).max())
 
 
-def follow_in_closed_loop(
-    mechanism: Mechanism,
-    profile: TrapezoidProfile,
-    volts: Callable[[LoopInput], object],
+def simulate_loop(
+    model: Model,
+    volts: Callable[[int, list[float], list[float]], float],
     *,
-    period: float = LOOP,
+    loops: int,
+    start: float = 0.0,
+    wires: Array = NO_WIRES,
+) -> Array:
+    """Position, velocity and voltage of a mechanism in a loop, from rest: (3, loops).
+
+    Args:
+        model: the mechanism.
+        volts: the program: number of the loop, positions and velocities until now -> voltage [V].
+        loops: how many loops of ``LOOP`` seconds.
+        start: initial position.
+        wires: battery and limits of the motors; by default, every voltage is there.
+    """
+    body, position, velocity = Body.cold_at(start), [start], [0.0]
+    asked: list[float] = []
+    for loop in range(loops):
+        asked.append(min(max(volts(loop, position, velocity), -BATTERY), BATTERY))
+        track = simulate_run(
+            model,
+            time=LOOP * np.array([loop, loop + 1.0]),
+            voltage=np.full(2, asked[-1]),
+            state=body,
+            wires=wires,
+        )
+        position.append(float(track.position[-1]))
+        velocity.append(float(track.seen[-1]))
+    return np.array([position[:-1], velocity[:-1], asked])
+
+
+def follow_in_closed_loop(
+    mechanism: Mechanism, profile: TrapezoidProfile, volts: Callable[[LoopInput], object]
 ) -> FollowedMove:
     """Simulate a mechanism that follows a profile from rest, and half a second more.
 
@@ -223,35 +252,31 @@ def follow_in_closed_loop(
         mechanism: a simulated mechanism, with its hidden effects.
         profile: the target motion.
         volts: the controller, called once each loop; its voltage [V] holds until the next.
-        period: loop period [s]: ``LOOP`` in a robot program, ``ONBOARD`` in a motor controller.
 
     Raises:
         BadRequest: the controller does not return a finite number.
     """
-    model, wires = mechanism.model, make_power_path_array(mechanism)
-    body = Body.cold_at(profile.start)
-    count = math.ceil((profile.duration + SETTLING) / period)
-    position, velocity, asked = [profile.start], [0.0], []
-    for loop in range(count):
-        now, after = profile.calculate(loop * period), profile.calculate((loop + 1) * period)
-        answer = volts(LoopInput(now, after, position[-1], velocity[-1]))
-        if not isinstance(answer, int | float | np.number) or not math.isfinite(answer):
+
+    def answer(loop: int, position: list[float], velocity: list[float]) -> float:
+        now, after = profile.calculate(loop * LOOP), profile.calculate((loop + 1) * LOOP)
+        found = volts(LoopInput(now, after, position[-1], velocity[-1]))
+        if not isinstance(found, int | float | np.number) or not math.isfinite(found):
             raise BadRequest(
-                f"the loop answers {answer!r} instead of volts", advice="Return one number."
+                f"the loop answers {found!r} instead of volts", advice="Return one number."
             )
-        asked.append(min(max(float(answer), -BATTERY), BATTERY))
-        track = simulate_run(
-            model,
-            time=period * np.array([loop, loop + 1.0]),
-            voltage=np.full(2, asked[-1]),
-            state=body,
-            wires=wires,
-        )
-        position.append(float(track.position[-1]))
-        velocity.append(float(track.seen[-1]))
-    time = period * np.arange(count, dtype=np.float64)
+        return float(found)
+
+    count = math.ceil((profile.duration + SETTLING) / LOOP)
+    position, _, asked = simulate_loop(
+        mechanism.model,
+        answer,
+        loops=count,
+        start=profile.start,
+        wires=make_power_path_array(mechanism),
+    )
+    time = LOOP * np.arange(count, dtype=np.float64)
     target = np.array([profile.calculate(t).position for t in time.tolist()])
-    return FollowedMove(time, target, np.array(position[:-1]), np.array(asked))
+    return FollowedMove(time, target, position, asked)
 
 
 Loop = Callable[[ElevatorFeedforward, PIDController, LoopInput], float]
@@ -361,24 +386,6 @@ def _wrong_loops() -> list[tuple[float, str]]:
             "This loop controls a position: pid.calculate needs positions.",
         ),
     ]
-
-
-def compute_phoenix_voltage(
-    gains: Mapping[str, float], one: LoopInput, *, meters_per_rotation: float
-) -> float:
-    """The output [V] of Motion Magic with the gains of ``Slot0Configs``, with period ``ONBOARD``.
-
-    Args:
-        gains: kS and kG [V], kV [V per rot/s], kA [V per rot/s²], kP [V per rot], all per rotation
-            of the mechanism.
-        one: setpoints and measurements in meters.
-        meters_per_rotation: distance per rotation of the mechanism [m].
-    """
-    velocity = one.now.velocity / meters_per_rotation
-    acceleration = (one.after.velocity - one.now.velocity) / ONBOARD / meters_per_rotation
-    error = (one.now.position - one.position) / meters_per_rotation
-    forward = gains["kS"] * _sign(velocity) + gains["kV"] * velocity + gains["kA"] * acceleration
-    return forward + gains["kG"] + gains["kP"] * error
 
 
 def _sign(value: float) -> float:

@@ -1,6 +1,5 @@
 """The robots and logs of lesson 9; what they hide stands in ``lesson_answers.toml``."""
 
-from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -13,6 +12,7 @@ from sim.bench.simulate import simulate
 from sim.core.log import Log, Run
 from sim.physics.model import Part
 from sim.teaching.answers import hide_effects
+from sim.teaching.logs import change_log
 
 FOUR = ("quasistatic", "dynamic")
 PRACTICE = Routine(0.5, 3.5, timeout=3.0, kinds=(*FOUR, "multistep"))
@@ -50,7 +50,7 @@ def record_suspects() -> dict[str, Log]:
         )
         for name in ("robot A", "robot B", "robot D")
     }
-    return dict(sorted({**logs, "robot C": _change_runs(sagging, _as_commanded)}.items()))
+    return dict(sorted({**logs, "robot C": change_log(sagging, commanded=True)}.items()))
 
 
 def record_limited_robot() -> dict[str, Log]:
@@ -67,18 +67,9 @@ def record_limited_robot() -> dict[str, Log]:
 
 def forget_position(log: Log) -> Log:
     """A log whose positions are the integral of its velocities: they say nothing of their own."""
-    return _change_runs(log, _integrate_velocity)
+    return replace(log, runs=tuple(map(_integrate_velocity, log.runs)))
 
 
 def _integrate_velocity(run: Run) -> Run:
     ways = 0.5 * (run.velocity[1:] + run.velocity[:-1]) * np.diff(run.time)
     return replace(run, position=np.concatenate(([0.0], np.cumsum(ways))))
-
-
-def _as_commanded(run: Run) -> Run:
-    """The run with the commanded voltage, not the applied one."""
-    return replace(run, voltage=12.0 * run.voltage / np.asarray(run.bus_voltage))
-
-
-def _change_runs(log: Log, change: Callable[[Run], Run]) -> Log:
-    return replace(log, runs=tuple(map(change, log.runs)))

@@ -81,6 +81,8 @@ MISTAKES = (
         "decision-shooter", "3 % too slow"),
     Mistake("always, without a reason that carries it", ANSWERS,
         make_wrong_answer("conveyor", '"always"'), "decision-conveyor", "do better"),
+    Mistake("always for a mechanism that feedback can help", ANSWERS,
+        make_wrong_answer("arm", '"always"'), "decision-arm", "But do gains that are 5 % off ruin"),
     Mistake("a word that is none", ANSWERS, make_wrong_answer("arm", '"maybe"'), "decision-arm",
         "Choose one of: always, recommended, optional, usually not"),
     Mistake("no reason", ANSWERS, make_wrong_answer("climber_reason", '""'), "reason-climber",

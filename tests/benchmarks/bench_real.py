@@ -30,7 +30,7 @@ import numpy as np
 
 import sim
 from sim.cli.log_reader import LogReader
-from sim.cli.reconcile import inspect_damage
+from sim.cli.open.reconcile_job import inspect_damage
 from sim.core.errors import Refusal
 from sim.core.log import Log, Run
 from sim.core.units import find_unit

@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import sim
-from sim.cli.reconcile import inspect_damage
+from sim.cli.open.reconcile_job import inspect_damage
 from sim.core.errors import BadRequest
 from sim.physics.effects import find_motion_class
 from sim.reconcile import reconcile

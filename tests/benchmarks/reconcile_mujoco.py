@@ -25,7 +25,7 @@ from reconcile_strangers import SHAKES
 from sim.bench.mechanism import Mechanism
 from sim.bench.routine import Routine
 from sim.bench.sensor_model import read_sensor
-from sim.bench.simulate import PAUSE, _begin, _end, _loop_times
+from sim.bench.simulate import PAUSE, _find_end, _find_start, _loop_times
 from sim.core.log import Array, Run
 from sim.core.units import find_unit
 from sim.physics.effect import HOOK_ARGUMENTS
@@ -181,7 +181,7 @@ class _Body:
     ) -> tuple[Array, Array]:
         """Position and velocity (n,) at the samples until someone ends the test."""
         mujoco.mj_resetData(self.model, self.data)
-        self.data.qpos[0] = _begin(self.mechanism, test, last)
+        self.data.qpos[0] = _find_start(self.mechanism, test, last)
         arrives = time + sum(self._ask("command_delay"))
         motion, kept = np.empty((time.size, 2)), []
         now, command = float(time[0]), -1
@@ -196,7 +196,7 @@ class _Body:
             kept.append(dict(self.memory))
             if sample % LOOKS == LOOKS - 1 or sample == time.size - 1:
                 track = SimpleNamespace(position=motion[: sample + 1, 0])
-                end = _end(track, self.mechanism, test=test)
+                end = _find_end(track, self.mechanism, test=test)
                 if end <= sample:
                     break
         self.memory = kept[end - 1]

@@ -13,7 +13,7 @@ from typing import Any
 from grader.robotcode.bench.button_run import Factory
 from grader.robotcode.bench.facts import Outcome
 from grader.robotcode.bench.simulation import walk_fields
-from grader.robotcode.bench.subject import Subject, list_choices, list_made, make_of_library
+from grader.robotcode.bench.subject import Subject, list_choices, list_made, make_library_object
 from grader.robotcode.java import type_names, values
 from grader.robotcode.java.classes import DECLARATIONS, JavaClass, Method
 from grader.robotcode.java.lang import Exited
@@ -139,7 +139,7 @@ class JavaSubject(Subject):
         if isinstance(found, JavaClass) and depth < DEEP:
             return self._make_one_of(found, depth)
         if isinstance(found, type):
-            return make_of_library(found)
+            return make_library_object(found)
         return Unknown(kind)
 
     def _make_one_of(self, java: JavaClass, depth: int) -> Any:

@@ -54,7 +54,7 @@ def list_choices(kind: Any) -> list[Any]:
     return [True, False] if kind is bool else []
 
 
-def make_of_library(cls: Any) -> Any:
+def make_library_object(cls: Any) -> Any:
     """An object of a library's class, which may want a number of its own."""
     for args in ((), (1,), (len(WORLD.devices) + 1,)):
         try:

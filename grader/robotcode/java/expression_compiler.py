@@ -236,7 +236,7 @@ class ExpressionCompiler(StaticTypes):
         return Code(lambda env: reach(env)[slot] if keys else env[slot], local.kind)
 
     def _field_code(self, keys: Sequence[str], owner: JavaClass, one: Field, node: Node) -> Code:
-        key, kind = one.key, self.seen_from_here(owner, one.kind)
+        key, kind = one.key, self.translate_type(owner, one.kind)
         if one.constant is not MISSING:
             return Code(lambda _env, value=one.constant: value, kind, one.constant)
         if one.static:
@@ -378,7 +378,7 @@ class ExpressionCompiler(StaticTypes):
             if there is not None and there[1].static:
                 return self._field_code((), *there, node)
             if there is not None:
-                key, kind = there[1].key, self.seen_from_here(there[0], there[1].kind)
+                key, kind = there[1].key, self.translate_type(there[0], there[1].kind)
 
                 def run_field(env: Env) -> Any:
                     one = run(env)
@@ -575,7 +575,7 @@ class ExpressionCompiler(StaticTypes):
         self._check_final(owner, one, node)
         if self.frame.field_rank < 0:
             self._field_code(keys, owner, one, node)  # which refuses what belongs to no object
-        key, kind, reach = one.key, self.seen_from_here(owner, one.kind), self._reach(keys)
+        key, kind, reach = one.key, self.translate_type(owner, one.kind), self._reach(keys)
         if one.static:
 
             def find_static(_env: Env) -> Any:
@@ -609,7 +609,7 @@ class ExpressionCompiler(StaticTypes):
         if object_.type == "this":
             self._check_final(*found, node)
         key = found[1].key[1:]
-        kind = self.seen_from_here(found[0], found[1].kind)
+        kind = self.translate_type(found[0], found[1].kind)
         return kind, lambda env: (value.run(env), key)
 
     def _assignment_expression(self, node: Node) -> Code:

@@ -305,12 +305,12 @@ class StatementCompiler(ExpressionCompiler):
         self.frame.pop()
         loop = self._loop(more, body, lambda _env: None, label)
 
-        def go_through(env: Env) -> Any:
+        def run_loop(env: Env) -> Any:
             STATE.at = at
             env[left] = iter(iterate(run(env)))
             return loop(env)
 
-        return go_through
+        return run_loop
 
     def _return_statement(self, node: Node) -> Run:
         value = next(named(node), None)

@@ -34,7 +34,7 @@ class StaticTypes:
         self.program = owner.unit.program
 
     def at(self, node: Node) -> At:
-        """Where a node stands."""
+        """The place of a node in the source, for messages."""
         return self.owner.unit.source.at(node)
 
     def resolve(self, name: str) -> Any:
@@ -60,8 +60,8 @@ class StaticTypes:
             frame = frame.outer
         return erased_in(self.owner, kind)
 
-    def seen_from_here(self, owner: JavaClass, kind: str) -> str:
-        """A type as the text of another class has it, if it means the same here; else empty."""
+    def translate_type(self, owner: JavaClass, kind: str) -> str:
+        """A type that another class names, by its name here; empty if that is another here."""
         kind = erased_in(owner, kind)
         name = kind.rstrip("[]")
         if owner is self.owner or name in PRIMITIVES or name in {"String", "void", ""}:
@@ -73,7 +73,7 @@ class StaticTypes:
         overloads = getattr(found, "overloads", None)
         if overloads is None or overloads.inherited is not None:
             return ""
-        results = {self.seen_from_here(one.owner, one.returns) for one in overloads.methods}
+        results = {self.translate_type(one.owner, one.returns) for one in overloads.methods}
         return results.pop() if len(results) == 1 else ""
 
     def unknown_field(self, cls: JavaClass, name: str) -> str:

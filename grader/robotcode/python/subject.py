@@ -21,7 +21,7 @@ from typing import Any
 from grader.robotcode.bench.button_run import Factory
 from grader.robotcode.bench.facts import Outcome
 from grader.robotcode.bench.simulation import walk_fields
-from grader.robotcode.bench.subject import Subject, list_choices, list_made, make_of_library
+from grader.robotcode.bench.subject import Subject, list_choices, list_made, make_library_object
 from grader.robotcode.library.base import NEARLY, Fake, Unknown
 from grader.robotcode.library.world import WORLD
 from grader.robotcode.python.imports import (
@@ -161,7 +161,7 @@ class PythonSubject(Subject):
         """An object of a class; its constructor gets what a robot's program would give it."""
         own = getattr(cls, "__module__", "") in {one.__name__ for one in self.modules}
         if not own:
-            return make_of_library(cls)
+            return make_library_object(cls)
         children = [one for one in cls.__subclasses__() if not inspect.isabstract(one)]
         if inspect.isabstract(cls) and children:
             return self.make(children[0], depth)

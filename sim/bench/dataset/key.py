@@ -45,7 +45,7 @@ def read_key(path: Path, *, secret: Secret) -> tuple[Entry, ...]:
                 return ()
             head = json.loads(path.read_bytes())
         seal, entries = head.pop("seal"), head.pop("logs")
-        whole = hmac.compare_digest(seal, _seal(head, map(encode, entries), secret))
+        whole = hmac.compare_digest(seal, _compute_seal(head, map(encode, entries), secret))
     except (ValueError, AttributeError, KeyError, TypeError):
         whole = False
     if not whole:
@@ -78,7 +78,7 @@ def write_key(path: Path, entries: Iterable[str], *, dataset: str, secret: Secre
     entries = list(entries)
     opening = json.dumps(head, ensure_ascii=False, indent=1).removesuffix("\n}")
     logs = ",\n  ".join(entries)
-    seal = _seal(head, entries, secret)
+    seal = _compute_seal(head, entries, secret)
     text = f'{opening},\n "logs": [\n  {logs}\n ],\n "seal": "{seal}"\n}}\n'
     advice = (
         "Make room there, or name another place with --key; then run the same command again: what "
@@ -88,6 +88,6 @@ def write_key(path: Path, entries: Iterable[str], *, dataset: str, secret: Secre
         write_atomically(path, text, private=True)
 
 
-def _seal(head: Mapping[str, str], entries: Iterable[str], secret: Secret) -> str:
+def _compute_seal(head: Mapping[str, str], entries: Iterable[str], secret: Secret) -> str:
     """The seal of a key's content."""
     return secret.seal("\n".join((encode(head), *entries)).encode())

@@ -3,7 +3,7 @@
 import sys
 
 from sim.bench.mechanism import Mechanism
-from sim.core.errors import BadRequest
+from sim.core.errors import refuse_unknown
 from sim.support.catalogue import load_catalogue
 
 MECHANISMS = load_catalogue(sys.modules[__name__], Mechanism)
@@ -15,8 +15,5 @@ def find_mechanism(name: str) -> Mechanism:
     Raises:
         BadRequest: no such mechanism; the message lists those there are.
     """
-    if name not in MECHANISMS:
-        raise BadRequest(
-            f"unknown mechanism {name!r}", advice=f"Choose one of: {', '.join(MECHANISMS)}."
-        )
+    refuse_unknown("mechanism", name, MECHANISMS)
     return MECHANISMS[name]

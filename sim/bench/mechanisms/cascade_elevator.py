@@ -28,8 +28,6 @@ MECHANISM = Mechanism(
     load=INERTIA,
     lift=9.81 * WEIGHT / INERTIA,
     friction=0.30,
-    drag=0.0,
-    spin=0.0,
     lowest=0.0,
     travel=1.6,
     sensor=Sensor(resolution=8e-5, velocity_noise=0.006, noise_speed=0.03, jitter=0.0004),

@@ -17,8 +17,6 @@ MECHANISM = Mechanism(
     radius=0.0508,
     load=60.0,
     friction=0.15,
-    drag=0.0,
-    spin=0.0,
     travel=10.0,  # [m] 0.5 V/s for 10 s needs 9.3 m
     sensor=Sensor(resolution=2.3e-5, velocity_noise=0.0075, noise_speed=0.05, jitter=0.0004),
     spread={

@@ -19,8 +19,6 @@ MECHANISM = Mechanism(
     load=20.0,
     lift=9.81,
     friction=0.25,
-    drag=0.0,
-    spin=0.0,
     lowest=0.0,
     travel=1.3,
     sensor=Sensor(resolution=4e-5, velocity_noise=0.006, noise_speed=0.03, jitter=0.0004),

@@ -15,11 +15,8 @@ MECHANISM = Mechanism(
     motor=find_motor("krakenX60"),
     motor_count=2,
     ratio=1.0,
-    radius=1.0,
     load=0.006,
     friction=0.12,
-    drag=0.0,
-    spin=0.0,
     travel=None,
     sensor=Sensor(
         resolution=TURN / 2048, velocity_noise=0.3 * TURN, noise_speed=2.0 * TURN, jitter=0.0004

@@ -1,16 +1,13 @@
 """``sysid fit --straight``: the moment of inertia, from turning on the spot and going straight."""
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import partial, wraps
+from functools import partial
 from pathlib import Path
-from typing import Any
 
 import click
 
 from sim.cli.fit.parts import fit_parts
 from sim.cli.log_reader import LogReader
-from sim.cli.options import FILE, combine_options
 from sim.core.errors import BadRequest
 from sim.core.log import Log
 from sim.fit import Fit
@@ -36,40 +33,7 @@ class Turning:
     lever: float | None
 
 
-def turning_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """The options for a robot that turns on the spot; the command gets them as ``turning``."""
-    options = combine_options(
-        click.option(
-            "--straight",
-            type=FILE,
-            help="If FILES show a robot turning on the spot: a log of this robot driving straight. "
-            "The command then prints the moment of inertia.",
-        ),
-        click.option("--mass", type=float, help="Mass of the robot [kg], for --straight."),
-        click.option(
-            "--lever",
-            type=float,
-            help="Distance from the middle of the robot to the line along which a wheel pushes "
-            "[m], for --straight: trackwidth/√2 for a square swerve drive, trackwidth/2 for a "
-            "tank drive.  [default: computed from the speeds]",
-        ),
-    )
-
-    @wraps(command)
-    def with_turning(
-        *args: object,
-        straight: Path | None,
-        mass: float | None,
-        lever: float | None,
-        **others: object,
-    ) -> object:
-        turning = _read_turning(straight, mass=mass, lever=lever)
-        return command(*args, turning=turning, **others)
-
-    return options(with_turning)
-
-
-def _read_turning(
+def read_turning(
     straight: Path | None, *, mass: float | None, lever: float | None
 ) -> Turning | None:
     """The three options as one object; None without --straight.
@@ -89,18 +53,17 @@ def _read_turning(
     return Turning(straight, mass, lever)
 
 
-def find_inertia(
-    found: Fit, log: Log, turning: Turning | None, *, method: str
-) -> MomentOfInertia | None:
-    """The moment of inertia, from a turning fit and a straight log; None without ``turning``.
+def add_inertia(
+    found: Fit, notes: tuple[str, ...], log: Log, turning: Turning | None, *, method: str
+) -> tuple[Fit, tuple[str, ...], MomentOfInertia | None]:
+    """A fit with the doubts about its moment of inertia, its notes, and that moment or None.
 
     Raises:
         Refusal: the log of going straight cannot be read or fitted, or no inertia follows from the
             two.
     """
     if turning is None:
-        return None
-
+        return found, notes, None
     if any(doubt.code == "rate-as-voltage" for doubt in log.doubts):
         raise BadRequest(
             "the log of turning has a rate where its voltage should be",
@@ -111,22 +74,9 @@ def find_inertia(
     find = partial(find_gains, type="simple", method=method)
     straight = fit_parts(parts, find).found
     wheels = any(doubt.code == "turning-drivetrain" for doubt in log.doubts)
-    return compute_moment_of_inertia(
+    turned = compute_moment_of_inertia(
         found, straight, mass=turning.mass, lever=turning.lever, by_wheels=wheels
     )
-
-
-def add_inertia(
-    found: Fit, notes: tuple[str, ...], log: Log, turning: Turning | None, *, method: str
-) -> tuple[Fit, tuple[str, ...], MomentOfInertia | None]:
-    """A fit with the doubts about its moment of inertia, its notes, and that moment or None.
-
-    Raises:
-        Refusal: as ``find_inertia``.
-    """
-    turned = find_inertia(found, log, turning, method=method)
-    if turned is None:
-        return found, notes, None
     doubted = replace(found, doubts=(*turned.doubts, *found.doubts))
     return doubted, (describe_inertia(turned), *notes), turned
 

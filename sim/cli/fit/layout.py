@@ -12,8 +12,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from sim.core.errors import BadRequest
-from sim.support.atomic_file import write_atomically
+from sim.report.page_file import write_page_file
 
 SUFFIX = ".layout.json"  # in place of the log's .wpilog
 VERSION = "26.0.0"
@@ -59,15 +58,7 @@ def write_layout(log: Path, tops: Sequence[str]) -> None:
     }
     hub = {"x": 100, "y": 100, "width": 1100, "height": 650, "state": state}
     content = {"hubs": [hub], "satellites": [], "version": VERSION}
-    path = choose_layout_path(log)
-    try:
-        write_atomically(path, json.dumps(content, indent=2))
-    except OSError as error:
-        raise BadRequest(
-            f"cannot be written ({error.strerror or error})",
-            where=str(path),
-            advice="Choose a folder that exists and that you may write to.",
-        ) from None
+    write_page_file(json.dumps(content, indent=2), choose_layout_path(log))
 
 
 def _tab(title: str, kind: int, controller: dict[str, Any] | None) -> dict[str, Any]:

@@ -2,29 +2,8 @@
 
 import click
 
-from sim.cli.options import combine_options
 from sim.fit import Fit
-from sim.report.controller_snippet import write_controller_code
 from sim.report.robot_code_snippet import write_robot_code
-
-LANGUAGES = ("java", "python")  # WPILib's feedforward, in the robot program
-SEASONS = ("2026", "2027")
-CONTROLLERS = ("phoenix6", "revlib", "yagsl")  # gains in a vendor's units, in Java
-
-paste_options = combine_options(
-    click.option(
-        "--paste",
-        type=click.Choice((*LANGUAGES, *CONTROLLERS)),
-        help="Print only code: WPILib's feedforward, or the settings of a motor controller.",
-    ),
-    click.option(
-        "--season",
-        type=click.Choice(SEASONS),
-        default="2026",
-        show_default=True,
-        help="WPILib season, for --paste.",
-    ),
-)
 
 
 def make_paste_text(found: Fit, target: str, *, season: int) -> str:
@@ -34,7 +13,7 @@ def make_paste_text(found: Fit, target: str, *, season: int) -> str:
 
     Args:
         found: the fit, in the unit of its log.
-        target: one of ``LANGUAGES`` or ``CONTROLLERS``.
+        target: one of ``TARGETS``.
         season: 2026 or 2027.
 
     Raises:
@@ -42,24 +21,5 @@ def make_paste_text(found: Fit, target: str, *, season: int) -> str:
     """
     ctx = click.get_current_context()
     given = ctx.get_parameter_source("radius") is not click.core.ParameterSource.DEFAULT
-    return write_snippet(
-        found, target, season=season, radius=ctx.params["radius"] if given else None
-    )
-
-
-def write_snippet(found: Fit, target: str, *, season: int, radius: float | None) -> str:
-    """The code for one of ``LANGUAGES`` or ``CONTROLLERS``.
-
-    Args:
-        found: the fit, in the unit of its log.
-        target: one of ``LANGUAGES`` or ``CONTROLLERS``.
-        season: 2026 or 2027.
-        radius: radius of wheel or drum [m], which some controllers need.
-
-    Raises:
-        BadRequest: no code can be written for these gains.
-    """
-    if target in LANGUAGES:
-        return write_robot_code(found, language=target, season=season)
-
-    return write_controller_code(found, target=target, radius=radius, season=season)
+    radius = ctx.params["radius"] if given else None
+    return write_robot_code(found, target=target, season=season, radius=radius)

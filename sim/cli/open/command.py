@@ -10,8 +10,7 @@ from pathlib import Path
 
 import click
 
-from sim.cli.open.server import PageServer
-from sim.cli.open.session import Session
+from sim.cli import open as work
 from sim.cli.open.view import PageView
 from sim.cli.options import FILE, combine_options
 from sim.support.command_line import DONE
@@ -60,8 +59,8 @@ def serve_page(
         BadRequest: the port is taken, or there are too many files.
     """
     with tempfile.TemporaryDirectory(prefix="sysid-open-", ignore_cleanup_errors=True) as folder:
-        session = Session(Path(folder), files, view=view)
-        with PageServer(session, port=port) as server:
+        session = work.session.Session(Path(folder), files, view=view)
+        with work.server.PageServer(session, port=port) as server:
             click.echo(f"The page is at {server.address}\nCtrl-C here ends it.")
             sys.stdout.flush()
             threading.Thread(target=session.warm_up, daemon=True).start()

@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 
 from sim.cli.entries import describe_entry
-from sim.cli.fit.paste import SEASONS, write_snippet
 from sim.cli.fit.plausibility import compare_directions_alone
 from sim.cli.open.session import OpenLog, Reading, Session
 from sim.core.doubt import Doubt
@@ -29,6 +28,7 @@ from sim.physics.model import Part
 from sim.reconcile.model_variant import ModelVariant
 from sim.reconcile.story import ParameterEstimate
 from sim.report.gain_verdicts import judge_gains, write_gain_verdict
+from sim.report.robot_code_snippet import write_robot_code
 
 SIGNALS = ("time", "voltage", "position", "velocity")
 MOST_ENTRIES = 400  # entries listed to choose from
@@ -225,7 +225,7 @@ def write_code(
         Refusal: the log cannot be fitted, or its gains cannot be written as code.
     """
     language, season = query.get("language", "java"), query.get("season", "2026")
-    if season not in SEASONS:
+    if not season.isdecimal():
         raise BadRequest("there is no such season", advice="Choose 2026.")
     found = _apply_model(one.fit(reading).found.in_log_units(), chosen)
     moved = {name: float(query[name]) for name in found.gains if _is_number(query.get(name, ""))}
@@ -233,7 +233,7 @@ def write_code(
     # A value set by hand has no standard error
     found = replace(found, gains={**found.gains, **moved}, errors=errors)
     radius = float(query["radius"]) if _is_number(query.get("radius", "")) else None
-    code = write_snippet(found, language, season=int(season), radius=radius)
+    code = write_robot_code(found, target=language, season=int(season), radius=radius)
     if moved:
         comment = "#" if language == "python" else "//"
         code = f"{comment} Moved by hand, not measured: {', '.join(moved)}\n{code}"

@@ -2,14 +2,16 @@
 
 import math
 import threading
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any
 
 from sim.core.errors import BadRequest, Refusal
+from sim.core.leave_out import LeftOutPart
 from sim.core.log import Log
 from sim.inspect.detect_faults import inspect
 from sim.inspect.dropout_intervals import find_dropout_intervals
 from sim.reconcile import DamagedInterval, Story, reconcile
+from sim.reconcile.damage import LEFT_OUT
 from sim.reconcile.model_variant import ModelVariant
 from sim.reconcile.story_text import (
     format_gap,
@@ -33,6 +35,7 @@ class ReconcileJob:
         name: name of its file, as the page shows it.
         type: type of the mechanism; None takes the one in the file.
         effort: [1] as of ``reconcile``.
+        left_out: parts of the log that are not used.
     """
 
     def __init__(
@@ -42,8 +45,10 @@ class ReconcileJob:
         name: str,
         type: str | None,  # noqa: A002 - the field's own word
         effort: float,
+        left_out: Sequence[LeftOutPart] = (),
     ) -> None:
         self._read, self._name, self._type, self._effort = read, name, type, effort
+        self._left_out = left_out
         self._words, self._share = "looking for damage", 0.0
         self._said: set[str] = set()  # warnings about the logs, which the page shows anyhow
         self._stopped = threading.Event()
@@ -81,18 +86,10 @@ class ReconcileJob:
         try:
             logs = self._read()
             self._said = {doubt.text for log in logs.values() for doubt in log.doubts}
-            damages = {name: inspect_damage(log) for name, log in logs.items()}
-            log = logs["log"]
-            self.story = reconcile(
-                log,
-                validation=logs.get("validation"),
-                held_out=logs.get("held_out"),
-                type=self._type or log.type or "simple",
-                damages=damages,
-                effort=self._effort,
-                progress=self._note,
-                is_stopped=self._stopped.is_set,
-            )
+            self.story = search_effects(
+                logs, type=self._type, effort=self._effort, progress=self._note,
+                is_stopped=self._stopped.is_set, left_out=self._left_out,
+            )  # fmt: skip
         except Refusal as refusal:
             self._refusal = refusal
         except Exception as error:  # noqa: BLE001 - a bug must not leave the page waiting
@@ -153,6 +150,50 @@ def describe_story(story: Story, said: Collection[str] = ()) -> dict[str, Any]:
         "remarks": [one for one in remarks if one not in said],
         "how": story.how,
     }
+
+
+def search_effects(
+    logs: Mapping[str, Log],
+    *,
+    type: str | None,  # noqa: A002 - the field's own word
+    effort: float,
+    progress: Callable[[str, float], None],
+    left_out: Sequence[LeftOutPart] = (),
+    **more: Any,  # noqa: ANN401 - passed on
+) -> Story:
+    """The story of these logs; damage is excluded, and what the user left out.
+
+    Args:
+        logs: ``log``, and ``validation`` and ``held_out`` if they are given.
+        type: type of the mechanism; None takes the one in the file.
+        effort: [1] as of ``reconcile``.
+        progress: called with words and with the share that is done.
+        left_out: parts of the log that are not used.
+        more: further arguments of ``reconcile``.
+
+    Raises:
+        Refusal: the log cannot be reconciled.
+    """
+    progress("looking for damage", 0.0)
+    log, *_ = logs.values()
+    damages = {name: inspect_damage(some) for name, some in logs.items()}
+    gone = [
+        DamagedInterval(k, float(time[0]), float(time[-1]), LEFT_OUT, 1.0, "", "")
+        for part in left_out
+        for k, run in enumerate(log.runs)
+        if (time := run.time[part.find(run)]).size
+    ]
+    rest = [one for one in damages["log"] if not any(map(one.is_within, gone))]
+    return reconcile(
+        log,
+        validation=logs.get("validation"),
+        held_out=logs.get("held_out"),
+        type=type or log.type or "simple",
+        effort=effort,
+        progress=progress,
+        damages=damages | {"log": (*rest, *gone)},
+        **more,
+    )
 
 
 def inspect_damage(log: Log) -> tuple[DamagedInterval, ...]:

@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import urlencode
 
-from sim.cli.fit.paste import CONTROLLERS, LANGUAGES, SEASONS
 from sim.cli.open import page_data
 from sim.cli.open.reconcile_job import describe_story
 from sim.cli.open.session import OpenLog, Reading
@@ -19,9 +18,12 @@ from sim.core.errors import Refusal
 from sim.reconcile.model_variant import ModelVariant
 from sim.reconcile.story import Story
 from sim.report.page_file import choose_page_path, write_page_file
+from sim.report.robot_code_snippet import SEASONS, TARGETS
 
 PAGE = Path(__file__).with_name("page")
-ENGINE = Path(__file__).parents[2] / "physics" / "engine" / "simulate.js"  # the page uses it, too
+SIM = Path(__file__).parents[2]
+# Modules of others that the page uses, too
+SHARED = (SIM / "physics" / "engine" / "simulate.js", SIM / "plot" / "animation" / "ticks.js")
 MOST_SWITCHED = 3  # effects of which each combination is fitted; of more, only all together
 POLICY = """<meta http-equiv="Content-Security-Policy" content="default-src 'none';
 script-src 'unsafe-inline' data:; style-src 'unsafe-inline'; img-src data:">"""
@@ -57,7 +59,7 @@ def render_saved_page(one: OpenLog, reading: Reading, story: Story | None = None
         (PAGE / "style.css").read_text(encoding="utf-8"),
     )
     answers = json.dumps(_collect_answers(one, reading, story), allow_nan=False)
-    modules = {path.name: _make_address(path) for path in (*PAGE.glob("*.js"), ENGINE)}
+    modules = {path.name: _make_address(path) for path in (*PAGE.glob("*.js"), *SHARED)}
     return (
         text.replace("<head>", f"<head>{POLICY}")
         .replace("mark.svg", _make_address(PAGE / "mark.svg"))
@@ -108,7 +110,7 @@ def _collect_model(
     address = f"logs/{one.number}/"
     what = "?".join(filter(None, ("fit", urlencode(of_model))))
     answers = {address + what: _answer(one, page_data.describe_fit, one, reading, chosen)}
-    for language, season in product((*LANGUAGES, *CONTROLLERS), SEASONS):
+    for language, season in product(TARGETS, map(str, SEASONS)):
         query = of_model | {"language": language, "season": season}
         answers[f"{address}code?{urlencode(query)}"] = _answer(
             one, page_data.write_code, one, reading, query, chosen

@@ -10,7 +10,7 @@ Python's own ``http.server`` is enough for one person's browser, and adds nothin
 import json
 import secrets
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, replace
+from dataclasses import asdict
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
@@ -19,7 +19,7 @@ from urllib.parse import parse_qs, urlsplit
 
 from sim.cli.open import page_data
 from sim.cli.open.reconcile_job import ReconcileJob
-from sim.cli.open.saved_page import ENGINE, PAGE, render_saved_page
+from sim.cli.open.saved_page import PAGE, SHARED, render_saved_page
 from sim.cli.open.session import OpenLog, Reading, Session
 from sim.core.errors import BadRequest, Refusal
 from sim.io.format import LARGEST_FILE
@@ -238,8 +238,7 @@ class PageRequest(BaseHTTPRequestHandler):
         """The search that a request names; it begins if there is none yet."""
         others = {role: self._log(query[role]) for role in ROLES if query.get(role)}
         effort = 5.0 if query.get("longer") else 1.0
-        reading = replace(Reading.from_query(query), left_out=())  # it excludes damage itself
-        return one.reconcile(reading, others, effort)
+        return one.reconcile(Reading.from_query(query), others, effort)
 
     def _choose_model(self, one: OpenLog, query: Mapping[str, str]) -> ModelVariant | None:
         """The model with the effects that a request names; None for the fit, which has none."""
@@ -283,7 +282,7 @@ class PageRequest(BaseHTTPRequestHandler):
 
     def _send_file(self, name: str) -> None:
         """Send a file of the page; only names of files in its folder are accepted."""
-        files = {path.name: path for path in [*PAGE.iterdir(), ENGINE] if path.suffix in KINDS}
+        files = {path.name: path for path in [*PAGE.iterdir(), *SHARED] if path.suffix in KINDS}
         if name in files:
             self._send(files[name].read_bytes(), KINDS[files[name].suffix])
         else:

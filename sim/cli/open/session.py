@@ -102,6 +102,7 @@ class OpenLog:
         Raises:
             Refusal: the file cannot be read with these options.
         """
+        reading = replace(reading, left_out=())
 
         def read() -> dict[str, Log]:
             if self.finished is not None and reading == Reading():
@@ -118,6 +119,7 @@ class OpenLog:
         Raises:
             Refusal: as ``read_parts``.
         """
+        reading = replace(reading, left_out=())
         return self._compute_once(("log", reading), lambda: join_parts(self.read_parts(reading)))
 
     def read_mechanism(self, reading: Reading) -> Log:
@@ -157,8 +159,7 @@ class OpenLog:
 
         def find() -> PooledParts:
 
-            logs = self.read_parts(replace(reading, left_out=()))
-            logs = leave_out(logs, map(LeftOutPart.parse, reading.left_out))
+            logs = leave_out(self.read_parts(reading), map(LeftOutPart.parse, reading.left_out))
             return fit_parts(logs, partial(fit, type=reading.type or ""))
 
         return self._compute_once(("fit", reading), find)
@@ -183,10 +184,13 @@ class OpenLog:
             more = {role: one.read_mechanism(alike) for role, one in others.items()}
             return {"log": self.read_mechanism(reading), **more}
 
+        left_out = tuple(map(LeftOutPart.parse, reading.left_out))
         numbers = tuple((role, one.number, one.revision) for role, one in others.items())
         return self._compute_once(
             ("reconcile", reading, numbers, effort),
-            lambda: ReconcileJob(read_logs, name=self.name, type=reading.type, effort=effort),
+            lambda: ReconcileJob(
+                read_logs, name=self.name, type=reading.type, effort=effort, left_out=left_out
+            ),
         )
 
     def renew(self, finished: Mapping[str, Log], path: Path) -> None:

@@ -12,11 +12,11 @@ from pathlib import Path
 import click
 
 from sim.cli.fit.plausibility import check_against_physics, compare_directions_alone
-from sim.cli.log_reader import LogReader, reading_options
+from sim.cli.log_reader import LogReader
 from sim.cli.open.command import open_browser, page_options
 from sim.cli.open.server import PageServer
 from sim.cli.open.session import LiveView, Session
-from sim.cli.options import FILE, as_json
+from sim.cli.options import FILE, as_json, reading_options
 from sim.cli.watch.live_fit import LiveFit, WatchUpdate
 from sim.cli.watch.network_tables import NetworkTablesSource
 from sim.cli.watch.recordings import FileSource, Source

@@ -22,6 +22,7 @@ from sim.io.entries.names import find_test_name
 from sim.io.entries.state import FILLERS
 from sim.io.formats.wpilog.signals import SignalRecorder
 from sim.support.extras import format_install_command
+from sim.support.os_errors import refuse_os_errors
 
 TYPES = {"double": "double", "float": "float", "int": "int64", "boolean": "boolean", STRING: STRING}
 """Type of a topic -> type of its log entry; arrays and structures hold no signal."""
@@ -50,7 +51,9 @@ class NetworkTablesSource:
     def __init__(self, address: str, *, folder: Path, state: str | None = None) -> None:
         self._ntcore = _import_ntcore()
         self._server = _split_address(address)
-        _make_folder(folder)
+        advice = "Choose another folder for --save."
+        with refuse_os_errors("this folder cannot be made", folder, advice=advice):
+            folder.mkdir(parents=True, exist_ok=True)
         self._address, self._folder, self._state = address, folder, state
         self._recordings: list[Recording] = []
         self._recorder: _TopicRecorder | None = None
@@ -228,17 +231,6 @@ def _split_address(address: str) -> tuple[str, int]:
             f"there is no team {host}", advice="Give localhost, or the number of your team."
         )
     return host, int(port or PORT)
-
-
-def _make_folder(folder: Path) -> None:
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise BadRequest(
-            f"this folder cannot be made ({error.strerror or error})",
-            where=str(folder),
-            advice="Choose another folder for --save.",
-        ) from None
 
 
 def _find_unused_path(folder: Path) -> Path:

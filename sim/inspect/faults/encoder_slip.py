@@ -151,7 +151,7 @@ def _search_spans(anomaly: Anomaly, *, fading: bool, margin: int) -> tuple[float
 def _loss(
     anomaly: Anomaly, span: tuple[int, int], *, fading: bool
 ) -> tuple[float, float, int, int]:
-    """Share explained, share of the speed lost, and the span.
+    """How well a loss of speed over a span explains an anomaly: share, loss [share], the span.
 
     ``fading`` is a loss that grows and fades; otherwise it is constant over the span.
     """

@@ -85,7 +85,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
 
 
 def _find_stop(index: int, run: Run, *, fast: float, still: float, period: float) -> Damage | None:
-    """A stop after a motion ``fast`` times the threshold of standstill; None if there is none."""
+    """The first stop after motion above ``fast`` times the speed at rest; None if there is none."""
     impact = _find_impact(run, speed=fast * still, still=still)
     if impact is None:
         return None

@@ -61,7 +61,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
             last = int(first + length - 1)
             if run.time[min(last + 1, len(run) - 1)] - run.time[first] < SHORTEST:
                 continue
-            hidden = _hidden(run, int(first), last, step=features.position_step)
+            hidden = _compute_hidden_distance(run, int(first), last, step=features.position_step)
             if hidden > 0.0:
                 yield _damage(index, run, int(first), last, hidden)
 
@@ -81,7 +81,7 @@ def _median_hold(starts: Counts, lengths: Counts, moving: Counts) -> float:
     return float(np.median(judged)) if judged.size else 1.0
 
 
-def _hidden(run: Run, first: int, last: int, *, step: float) -> float:
+def _compute_hidden_distance(run: Run, first: int, last: int, *, step: float) -> float:
     """[m or rad] distance during a freeze; 0 if the mechanism may have been at rest."""
     lasted = float(run.time[last] - run.time[first])
     frozen = abs(float(run.velocity[first]))

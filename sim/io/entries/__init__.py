@@ -16,9 +16,9 @@ from sim.core.errors import BadRequest, MissingSignal, Refusal
 from sim.core.log import Log
 from sim.core.units import UNITS
 from sim.io.entries.discovery import find_devices, find_driven_interval
-from sim.io.entries.entry import Entry, find_missing_motion
+from sim.io.entries.entry import Entry, MotorEntries, find_missing_motion
 from sim.io.entries.mirrored import turn_mirrored_motors
-from sim.io.entries.motors import EXPORT, MotorEntries, find_motors, make_no_motor_error
+from sim.io.entries.motors import EXPORT, find_motors, make_no_motor_error
 from sim.io.entries.names import (
     find_test_name,
     find_type_in_name,
@@ -37,10 +37,13 @@ from sim.io.entries.state import (
 from sim.io.format import ReadOptions, refuse_pick
 
 
-def assemble_log(
+def assemble_logs(
     entries: Sequence[Entry], *, options: ReadOptions, where: str
-) -> tuple[Log, tuple[RunInterval, ...]]:
-    """The log of one mechanism, with the mean of several motors, and the times of its runs.
+) -> tuple[dict[str, Log], tuple[RunInterval, ...]]:
+    """The log of one mechanism, or of each of its motors by name, and the times of the runs.
+
+    One log (``""``) has the mean of the motors. In logs of their own, the signs of a motor that is
+    mounted the other way round are reversed.
 
     Args:
         entries: all entries of the file.
@@ -53,25 +56,8 @@ def assemble_log(
         BadSample: the file holds a number that cannot be a measurement.
     """
     found = _find_mechanism(entries, options=options, where=where)
-    return _make_log(found, found.motors, where=where), found.intervals
-
-
-def assemble_motor_logs(
-    entries: Sequence[Entry], *, options: ReadOptions, where: str
-) -> tuple[dict[str, Log], tuple[RunInterval, ...]]:
-    """The log of each motor of one mechanism by its name, and the times of the runs.
-
-    The signs of a motor that is mounted the other way round are reversed.
-
-    Args:
-        entries: all entries of the file.
-        options: the user's choices: units, type, motor, and the names of entries.
-        where: the file, for messages.
-
-    Raises:
-        MissingSignal, BadRequest, BadSample: as ``assemble_log``.
-    """
-    found = _find_mechanism(entries, options=options, where=where)
+    if not options.each_motor:
+        return {"": _make_log(found, found.motors, where=where)}, found.intervals
     logs = {motor.name: _make_log(found, (motor,), where=where) for motor in found.motors}
     return turn_mirrored_motors(logs), found.intervals
 

@@ -10,13 +10,20 @@ the mechanism's motors.
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
 
 from sim.core.log import Array
-from sim.io.entries.entry import NEEDED, NUMBERS, OPTIONAL, Entry, ValuesEntry, can_be_fitted
+from sim.io.entries.entry import (
+    NEEDED,
+    NUMBERS,
+    OPTIONAL,
+    Entry,
+    MotorEntries,
+    ValuesEntry,
+    can_be_fitted,
+)
 from sim.io.entries.names import split_unit, split_words
 from sim.io.entries.state import RunInterval
 from sim.io.entries.units import find_unit_in_metadata, parse_signal_unit
@@ -31,20 +38,8 @@ ROLES: Mapping[str, frozenset[str]] = {  # signal -> words; an entry's name hold
 DUTY = frozenset({"output", "duty", "percent"})
 """Words for a duty cycle, if no word in the name means volts."""
 FILLERS = frozenset(
-    {
-        "motor",
-        "applied",
-        "output",
-        "measured",
-        "actual",
-        "per",
-        "value",
-        "cycle",
-        "stator",
-        "sensor",
-        "encoder",
-        "primary",
-    }
+    {"motor", "applied", "output", "measured", "actual", "per", "value", "cycle"}
+    | {"stator", "sensor", "encoder", "primary"}
 )
 OTHERS = frozenset(
     {"setpoint", "reference", "target", "goal", "desired", "closed", "error", "feedforward"}
@@ -61,28 +56,12 @@ ZERO = 0.02  # [V] smaller voltages count as zero
 PAUSE = 500_000  # [µs] a longer time without voltage ends a test
 
 
-@dataclass(frozen=True, eq=False)
-class Device:
-    """One motor in a log without SysId's names.
-
-    Args:
-        name: the common part of its entries' names.
-        signals: ``voltage``, ``position``, … -> the entry that holds it.
-    """
-
-    name: str
-    signals: Mapping[str, Entry]
-
-    @property
-    def is_complete(self) -> bool:
-        """Whether it has voltage, position and velocity."""
-        return all(signal in self.signals for signal in NEEDED)
+MotorGroup: TypeAlias = tuple[
+    list[MotorEntries], list[RunInterval]
+]  # motors of a mechanism, its tests
 
 
-DeviceGroup: TypeAlias = tuple[list[Device], list[RunInterval]]  # motors of a mechanism, its tests
-
-
-def find_devices(entries: Sequence[Entry]) -> list[Device]:
+def find_devices(entries: Sequence[Entry]) -> list[MotorEntries]:
     """The devices of a log, with the signals found by the names and units of their entries."""
     found: dict[str, dict[str, Entry]] = {}
     for entry in entries:
@@ -92,11 +71,11 @@ def find_devices(entries: Sequence[Entry]) -> list[Device]:
             if signal not in own or len(entry) > len(own[signal]):
                 own[signal] = entry
     return _add_shared_motion(
-        [Device(name, _compute_voltage(signals)) for name, signals in found.items()]
+        [MotorEntries(name, _compute_voltage(signals)) for name, signals in found.items()]
     )
 
 
-def _add_shared_motion(devices: Sequence[Device]) -> list[Device]:
+def _add_shared_motion(devices: Sequence[MotorEntries]) -> list[MotorEntries]:
     """The devices; one with only a voltage gets the position and velocity logged near it.
 
     Two motors of an elevator have a voltage each, and one position: ``Lift/LeftVolts``,
@@ -117,7 +96,7 @@ def _add_shared_motion(devices: Sequence[Device]) -> list[Device]:
                 or [one for one in motions if re.split(r"[/:](?!.*[/:])", one.name)[0] == folder]
             )
             if len(near) == 1:
-                completed.append(Device(device.name, {**near[0].signals, **device.signals}))
+                completed.append(MotorEntries(device.name, {**near[0].signals, **device.signals}))
                 continue
         completed.append(device)
     return completed
@@ -156,7 +135,9 @@ def may_be_signal(name: str, metadata: str) -> bool:
     )
 
 
-def select_driven_devices(devices: Sequence[Device], tests: Sequence[RunInterval]) -> list[Device]:
+def select_driven_devices(
+    devices: Sequence[MotorEntries], tests: Sequence[RunInterval]
+) -> list[MotorEntries]:
     """The devices with a voltage during the tests whose velocity matches their position.
 
     Devices without a position or without a velocity count only if no device has both.
@@ -168,11 +149,13 @@ def select_driven_devices(devices: Sequence[Device], tests: Sequence[RunInterval
     return [
         device
         for device, level in levels
-        if most > ZERO and level >= DRIVEN * most and _moves(device, tests)
+        if most > ZERO and level >= DRIVEN * most and _follows_position(device, tests)
     ]
 
 
-def group_by_tests(devices: Sequence[Device], tests: Sequence[RunInterval]) -> list[DeviceGroup]:
+def group_by_tests(
+    devices: Sequence[MotorEntries], tests: Sequence[RunInterval]
+) -> list[MotorGroup]:
     """Groups of devices that are driven in the same tests, with these tests: the mechanisms.
 
     Some robot programs name the tests of all mechanisms in one entry and test one mechanism after
@@ -180,7 +163,7 @@ def group_by_tests(devices: Sequence[Device], tests: Sequence[RunInterval]) -> l
     """
     levels = np.array([[_rms_voltage(one, [test]) for test in tests] for one in devices])
     driven = (levels >= DRIVEN * levels.max(axis=0)) & (levels > ZERO)
-    groups: list[tuple[list[Device], set[int]]] = []
+    groups: list[tuple[list[MotorEntries], set[int]]] = []
     for device, own in zip(devices, driven, strict=True):
         mine = ([device], set(np.flatnonzero(own).tolist()))
         for group in [one for one in groups if one[1] & mine[1]]:
@@ -190,7 +173,7 @@ def group_by_tests(devices: Sequence[Device], tests: Sequence[RunInterval]) -> l
     return [(some, [tests[n] for n in sorted(own)]) for some, own in groups]
 
 
-def find_driven_interval(test: str, devices: Sequence[Device]) -> RunInterval | None:
+def find_driven_interval(test: str, devices: Sequence[MotorEntries]) -> RunInterval | None:
     """The longest interval in which a device is driven, as the interval of a test; None if none."""
     intervals = [
         interval
@@ -244,7 +227,7 @@ def _samples_between(entry: Entry, tests: Sequence[RunInterval]) -> list[slice]:
     return [slice(*np.searchsorted(entry.time, (test.begin, test.end))) for test in tests]
 
 
-def _rms_voltage(device: Device, tests: Sequence[RunInterval]) -> float:
+def _rms_voltage(device: MotorEntries, tests: Sequence[RunInterval]) -> float:
     """The RMS voltage [V] of a device during tests.
 
     If only changes were logged, a test may have no sample: then the last value before it holds.
@@ -259,7 +242,7 @@ def _rms_voltage(device: Device, tests: Sequence[RunInterval]) -> float:
     return float(np.sqrt(np.mean(np.square(every)))) if every.size else 0.0
 
 
-def _moves(device: Device, tests: Sequence[RunInterval]) -> bool:
+def _follows_position(device: MotorEntries, tests: Sequence[RunInterval]) -> bool:
     """Whether the velocity of a device correlates with the slope of its position during tests.
 
     A position that was logged as the velocity passes, too: a fit uses its slope. Of a device with
@@ -267,7 +250,7 @@ def _moves(device: Device, tests: Sequence[RunInterval]) -> bool:
     """
     position, velocity = (device.signals.get(name) for name in ("position", "velocity"))
     if position is None or velocity is None:
-        return _changes(next(one for one in (position, velocity) if one is not None), tests)
+        return _has_changes(next(one for one in (position, velocity) if one is not None), tests)
     x, v = position.numbers(), velocity.numbers()
     parts = _samples_between(velocity, tests)
     if any(
@@ -287,7 +270,7 @@ def _moves(device: Device, tests: Sequence[RunInterval]) -> bool:
     return size > 0.0 and float(slope @ speed) > MOVES * size
 
 
-def _changes(entry: Entry, tests: Sequence[RunInterval]) -> bool:
+def _has_changes(entry: Entry, tests: Sequence[RunInterval]) -> bool:
     """Whether the values of an entry change during tests."""
     values = entry.numbers()
     return any(np.any(np.diff(values[part])) for part in _samples_between(entry, tests))

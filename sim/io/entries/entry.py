@@ -1,6 +1,6 @@
 """An entry of a log: a named series of values of one type, each with its time."""
 
-from collections.abc import Container
+from collections.abc import Container, Mapping
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -53,6 +53,24 @@ class Entry:
     def texts(self) -> list[str]:
         """The values of an entry of type string."""
         raise NotImplementedError
+
+
+@dataclass(frozen=True, eq=False)
+class MotorEntries:
+    """The entries of one motor's signals.
+
+    Args:
+        name: its name, or the common part of its entries' names; empty if the user named them.
+        signals: ``voltage``, ``position``, … -> the entry that holds it.
+    """
+
+    name: str
+    signals: Mapping[str, Entry]
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether it has voltage, position and velocity."""
+        return all(signal in self.signals for signal in NEEDED)
 
 
 @dataclass(frozen=True, eq=False)

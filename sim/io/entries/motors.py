@@ -6,7 +6,7 @@ Names of motors and mechanisms may contain dashes themselves: only the mechanism
 where to split.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -16,7 +16,7 @@ from sim.core.advice import Action
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, MissingSignal
 from sim.io.entries.discovery import (
-    DeviceGroup,
+    MotorGroup,
     find_devices,
     group_by_tests,
     identify_signal,
@@ -27,6 +27,7 @@ from sim.io.entries.entry import (
     NUMBERS,
     OPTIONAL,
     Entry,
+    MotorEntries,
     can_be_fitted,
     find_missing_motion,
 )
@@ -54,24 +55,6 @@ CALLS = {
     "position": "angularPosition(...) or linearPosition(...), in Python position(...)",
     "velocity": "angularVelocity(...) or linearVelocity(...), in Python velocity(...)",
 }
-
-
-@dataclass(frozen=True, eq=False)
-class MotorEntries:
-    """The entries of one motor's signals.
-
-    Args:
-        name: its name in its entries; empty if the user named the entries.
-        signals: ``voltage``, ``position``, … -> the entry that holds it.
-    """
-
-    name: str
-    signals: Mapping[str, Entry]
-
-    @property
-    def is_complete(self) -> bool:
-        """Whether it has voltage, position and velocity."""
-        return all(signal in self.signals for signal in NEEDED)
 
 
 @dataclass(frozen=True, eq=False)
@@ -175,10 +158,10 @@ def _discover_motors(
     if search.options.motor is None and some:
         groups = group_by_tests(some, tests)
         some, tests = groups[0] if len(groups) == 1 else _choose_group(groups, search)
-    return [MotorEntries(one.name, one.signals) for one in some], tests
+    return some, tests
 
 
-def _choose_group(groups: Sequence[DeviceGroup], search: _Search) -> DeviceGroup:
+def _choose_group(groups: Sequence[MotorGroup], search: _Search) -> MotorGroup:
     """The mechanism with the chosen number.
 
     Raises:

@@ -21,14 +21,13 @@ from sim.io.entries.clock import (
     logs_only_changes,
     select_covered_times,
 )
-from sim.io.entries.entry import NEEDED, OPTIONAL, Numbers
-from sim.io.entries.motors import MotorEntries
+from sim.io.entries.entry import NEEDED, OPTIONAL, MotorEntries, Numbers
 from sim.io.entries.state import RunInterval
 from sim.io.entries.units import EntryScale, choose_scale, is_from_network_tables
 from sim.io.format import ReadOptions, make_run
 
 SECOND = 1e6  # [µs]
-ENOUGH = 2  # samples of a run at least
+MIN_SAMPLES = 2  # samples of a run at least
 ENDS = 2  # samples that a run may lose without a doubt, one at each end
 OPPOSED = -0.5  # [1] cosine similarity; motors that work against each other are near -1
 
@@ -92,7 +91,7 @@ def cut_runs(
         (_sample_held if held else _sample_interpolated)(signals, interval)
         for interval in intervals
     ]
-    whole = [run for run in sampled if run.time.size >= ENOUGH]
+    whole = [run for run in sampled if run.time.size >= MIN_SAMPLES]
     doubts += _doubt_short_runs(sampled, where)
     doubts += _doubt_combined_motors(motors, whole, where)
     runs = []
@@ -172,7 +171,7 @@ def _sample_interpolated(signals: Signals, interval: RunInterval) -> _Sampled:
     usable = {
         name: several
         for name, several in parts.items()
-        if all(part.time_count >= ENOUGH for part in several)
+        if all(part.time_count >= MIN_SAMPLES for part in several)
     }
     every = parts["voltage"][0].time
     if not usable.keys() >= set(_list_needed(signals)):
@@ -196,10 +195,10 @@ def _average_motors(run: _Sampled) -> dict[str, Array]:
 
 def _doubt_short_runs(runs: Sequence[_Sampled], where: str) -> Iterator[Doubt]:
     for run in runs:
-        if run.time.size < ENOUGH:
+        if run.time.size < MIN_SAMPLES:
             yield Doubt(
                 "short-run",
-                f"{where}: a run of {run.test} holds fewer than {ENOUGH} samples of voltage, "
+                f"{where}: a run of {run.test} holds fewer than {MIN_SAMPLES} samples of voltage, "
                 "position and velocity and was left out. Run that test again.",
             )
         elif run.lost > ENDS:

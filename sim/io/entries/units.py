@@ -8,6 +8,7 @@ rotations``), or into the name of the entry (``DriveVelocityRadPerSec``).
 """
 
 import json
+import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -36,10 +37,11 @@ LENGTHS = {word: (unit, 1.0) for unit, words in _WORDS.items() for word in words
     "millimeters": ("meters", 0.001),
     "mm": ("meters", 0.001),
 }
-RATES = {  # unit of time -> factor to convert "per unit of time" to "per second"
-    **dict.fromkeys(("second", "seconds", "sec", "s"), 1.0),
-    **dict.fromkeys(("minute", "minutes", "min"), 1.0 / 60.0),
-    **dict.fromkeys(("millisecond", "milliseconds", "ms"), 1000.0),
+SECONDS = {  # unit of time -> [s] its size
+    **dict.fromkeys(("minute", "minutes", "min"), 60.0),
+    **dict.fromkeys(("s", "sec", "second", "seconds"), 1.0),
+    **dict.fromkeys(("ms", "msec", "millisecond", "milliseconds"), 1e-3),
+    **dict.fromkeys(("us", "µs", "usec", "microsecond", "microseconds"), 1e-6),
 }
 VOLTS = "volts"
 VOLTAGES = {
@@ -119,13 +121,19 @@ def _parse_metadata(text: str) -> dict[str, object]:
 
 
 def parse_signal_unit(text: str, signal: str) -> StatedUnit | None:
-    """Parse the unit of a signal; None if it is not known."""
-    read = {
-        "voltage": parse_voltage_unit,
-        "position": parse_position_unit,
-        "velocity": parse_velocity_unit,
-    }
-    return read[signal](text) if signal in read else None
+    """Parse the unit of a voltage, position or velocity; None if it is not known."""
+    plain = text.lower()
+    if signal == "voltage":
+        return StatedUnit(VOLTS, VOLTAGES[plain]) if plain in VOLTAGES else None
+    rate = 1.0
+    if signal == "velocity":
+        plain = re.sub(r"[_\s]+", " ", plain.replace("/", " per "))
+        plain, _, time = SHORT.get(plain, plain).partition(" per ")
+        plain, rate = plain.strip(), 1.0 / SECONDS.get(time.strip(), math.inf)
+    elif signal != "position":
+        return None
+    found = LENGTHS.get(plain)
+    return StatedUnit(found[0], found[1] * rate) if found and rate else None
 
 
 def find_unit_text(entry: Entry, signal: str) -> str:
@@ -142,26 +150,6 @@ def find_unit_text(entry: Entry, signal: str) -> str:
     if _PIGEON.search(entry.name):
         return found or PIGEON.get(signal, "")
     return found or (PHOENIX.get(signal, "") if _PHOENIX.search(entry.name) else "")
-
-
-def parse_voltage_unit(text: str) -> StatedUnit | None:
-    """Parse the unit of a voltage; None if it is not known."""
-    factor = VOLTAGES.get(text.lower())
-    return StatedUnit(VOLTS, factor) if factor else None
-
-
-def parse_position_unit(text: str) -> StatedUnit | None:
-    """Parse the unit of a position; None if it is not known."""
-    found = LENGTHS.get(text.lower())
-    return StatedUnit(*found) if found else None
-
-
-def parse_velocity_unit(text: str) -> StatedUnit | None:
-    """Parse the unit of a velocity; None if it is not known."""
-    plain = re.sub(r"[_\s]+", " ", text.lower().replace("/", " per "))
-    length, _, per = SHORT.get(plain, plain).partition(" per ")
-    found, rate = LENGTHS.get(length.strip()), RATES.get(per.strip())
-    return StatedUnit(found[0], found[1] * rate) if found and rate else None
 
 
 def choose_scale(signals: Mapping[str, Entry], *, options: ReadOptions, where: str) -> EntryScale:
@@ -184,8 +172,8 @@ def choose_scale(signals: Mapping[str, Entry], *, options: ReadOptions, where: s
     factors, doubts = {}, []
     for signal, text in texts.items():
         wanted = VOLTS if signal == "voltage" else units
-        factors[signal] = _factor(parsed[signal], wanted, ordered=options.units is not None)
-        problem = _problem(text, parsed[signal], wanted, ordered=options.units is not None)
+        factors[signal] = _choose_factor(parsed[signal], wanted, ordered=options.units is not None)
+        problem = _describe_problem(text, parsed[signal], wanted, ordered=options.units is not None)
         if problem:
             code, what = problem
             name = signals[signal].name
@@ -221,14 +209,14 @@ def _rate_doubt(name: str, where: str) -> Doubt:
     )
 
 
-def _factor(stated_unit: StatedUnit | None, units: str, *, ordered: bool) -> float:
+def _choose_factor(stated_unit: StatedUnit | None, units: str, *, ordered: bool) -> float:
     """The factor to ``units``; a unit that the user chose (``ordered``) replaces the file's."""
     if stated_unit is None or stated_unit.units == units:
         return stated_unit.factor if stated_unit else 1.0
     return 1.0 if ordered else stated_unit.factor * (UNITS[stated_unit.units].si / UNITS[units].si)
 
 
-def _problem(
+def _describe_problem(
     text: str, stated_unit: StatedUnit | None, units: str, *, ordered: bool
 ) -> tuple[str, str] | None:
     """Code and text of the doubt about a unit; None if there is none."""

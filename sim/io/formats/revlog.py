@@ -19,7 +19,7 @@ from sim.core.advice import Action
 from sim.core.doubt import Doubt
 from sim.core.errors import UnreadableFile
 from sim.core.log import Log
-from sim.io.entries import assemble_log, assemble_motor_logs
+from sim.io.entries import assemble_logs
 from sim.io.entries.entry import ValuesEntry
 from sim.io.format import ReadOptions
 
@@ -61,11 +61,11 @@ def entries(path: Path) -> list[ValuesEntry]:
     Raises:
         UnreadableFile: the file holds no periodic frame.
     """
-    return _make_entries(_load(path).frames, default_units=True)
+    return _make_entries(_load_frames(path).frames, default_units=True)
 
 
-def read(path: Path, options: ReadOptions) -> Log:
-    """Read the test of a file; the file name names the test.
+def read(path: Path, options: ReadOptions) -> dict[str, Log]:
+    """Read the test of a file, for each motor if asked; the file name names the test.
 
     Args:
         path: the file.
@@ -73,28 +73,12 @@ def read(path: Path, options: ReadOptions) -> Log:
 
     Raises:
         Refusal: the file holds no periodic frame, or its name names no test; or as
-            ``assemble_log``.
+            ``assemble_logs``.
     """
-    found = _load(path)
+    found = _load_frames(path)
     made = _make_entries(found.frames, default_units=options.units is None)
-    log, _ = assemble_log(made, options=options, where=str(path))
-    return log.add_doubts(*_doubts(found, options, path))
-
-
-def read_motors(path: Path, options: ReadOptions) -> dict[str, Log]:
-    """Read the test of a file as a log for each motor.
-
-    Args:
-        path: the file.
-        options: the user's choices: units, motor, and the names of entries.
-
-    Raises:
-        Refusal: as ``read``.
-    """
-    found = _load(path)
-    made = _make_entries(found.frames, default_units=options.units is None)
-    logs, _ = assemble_motor_logs(made, options=options, where=str(path))
-    return {name: log.add_doubts(*_doubts(found, options, path)) for name, log in logs.items()}
+    logs, _ = assemble_logs(made, options=options, where=str(path))
+    return {name: log.add_doubts(*_make_doubts(found, options, path)) for name, log in logs.items()}
 
 
 def _follow_records(content: bytes, *, whole: bool = True) -> Iterator[tuple[int, bytes, int]]:
@@ -113,7 +97,7 @@ def _follow_records(content: bytes, *, whole: bool = True) -> Iterator[tuple[int
         at = end
 
 
-def _load(path: Path) -> _Frames:
+def _load_frames(path: Path) -> _Frames:
     """The periodic frames of a file.
 
     Raises:
@@ -151,13 +135,13 @@ def _make_entries(frames: NDArray[np.void], *, default_units: bool) -> list[Valu
         own = frames[ours & (number & 0x3F == device)]
         own = own[np.argsort(own["time"], kind="stable")]
         index = own["id"] >> 6 & 0xF
-        made += _decode(
+        made += _decode_frames(
             device, own[index == STATUS_0], own[index == STATUS_2], default_units=default_units
         )
     return made
 
 
-def _decode(
+def _decode_frames(
     device: int, general: NDArray[np.void], motion: NDArray[np.void], *, default_units: bool
 ) -> Iterator[ValuesEntry]:
     """The signals in the frames ``STATUS_0`` and ``STATUS_2`` of a SPARK."""
@@ -178,7 +162,7 @@ def _decode(
     yield entry("PRIMARY_ENCODER_POSITION", units[1], motion, floats[:, 1])
 
 
-def _doubts(found: _Frames, options: ReadOptions, path: Path) -> Iterator[Doubt]:
+def _make_doubts(found: _Frames, options: ReadOptions, path: Path) -> Iterator[Doubt]:
     """Doubts about assumed units, and about bytes that were not read."""
     if options.units is None:
         yield Doubt(

@@ -2,7 +2,7 @@
 
 import sys
 
-from sim.core.errors import BadRequest
+from sim.core.errors import refuse_unknown
 from sim.physics.effect import Effect
 from sim.support.catalogue import load_catalogue
 
@@ -23,6 +23,12 @@ def find_motion_class(name: str) -> str:
     return known.same_in_motion or name if known else name
 
 
+def list_look_alikes(name: str) -> dict[str, str]:
+    """Similar effect -> the test that tells the two apart, from either file."""
+    own = dict(find_effect(name).apart)
+    return own | {other: one.apart[name] for other, one in EFFECTS.items() if name in one.apart}
+
+
 def find_effect(name: str) -> Effect:
     """Look up an effect.
 
@@ -33,6 +39,5 @@ def find_effect(name: str) -> Effect:
         >>> find_effect("drag").names
         ('drag',)
     """
-    if name not in EFFECTS:
-        raise BadRequest(f"unknown effect {name!r}", advice=f"Choose one of: {', '.join(EFFECTS)}.")
+    refuse_unknown("effect", name, EFFECTS)
     return EFFECTS[name]

@@ -55,10 +55,6 @@ EFFECT = Effect(
             "Let the mechanism go at rest. A load moves it, friction does not. While the "
             "mechanism moves, the two look the same."
         ),
-        "asymmetric-back-emf": (
-            "Run at two speeds. A difference in back-EMF grows with the speed, a difference in "
-            "friction does not."
-        ),
     },
     example=ordinary_parameters,
     start_values=find_start_values,

@@ -10,16 +10,16 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
+from sim.core.units import BATTERY
 from sim.physics.effect import Effect, Parameter, Scale
 from sim.physics.voltage_residual import VoltageResidual
 
 EVERYDAY = 0.1  # [1] share of a battery in good order
-NOMINAL = 12.0  # [V] command of a duty cycle of one
 
 
 def transform_voltage(u: float, v: float, kv: float, share: float) -> float:
     """[V] voltage at the motor for a command ``u``."""
-    duty = min(abs(u) / NOMINAL, 1.0)
+    duty = min(abs(u) / BATTERY, 1.0)
     emf = kv * v
     return emf + (u - emf) / (1.0 + share * duty * duty)
 
@@ -31,7 +31,7 @@ def ordinary_parameters(_: Scale, size: float) -> Mapping[str, float]:
 
 def find_start_values(residual: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """Start values: regression of the voltage residual on (u - kV·v)·d², and two more sizes."""
-    duty = np.minimum(np.abs(residual.voltage) / NOMINAL, 1.0)
+    duty = np.minimum(np.abs(residual.voltage) / BATTERY, 1.0)
     torque = residual.voltage - residual.gains["kV"] * residual.velocity
     (share,) = residual.fit_columns(torque * duty**2)
     yield {"share": float(np.clip(share, 0.05, 30.0))}

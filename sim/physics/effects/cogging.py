@@ -15,8 +15,8 @@ from sim.physics.voltage_residual import VoltageResidual
 
 EVERYDAY = 0.06  # [V] amplitude in any mechanism, from gear teeth and magnets
 
-FEWEST, MOST, FINER = 4.0, 80.0, 0.25  # [periods along the travel] first, last, and step
-ENOUGH = 1500  # samples of which a spectrum is computed
+MIN_PERIODS, MAX_PERIODS, FINER = 4.0, 80.0, 0.25  # [periods along the travel] and step
+MAX_SAMPLES = 1500  # samples of which a spectrum is computed
 PEAKS = 3  # peaks of the spectrum that become start values
 
 
@@ -55,8 +55,8 @@ def find_start_values(residual: VoltageResidual) -> Iterator[Mapping[str, float]
     length = float(np.ptp(residual.position)) if residual.position.size else 0.0
     if length <= 0.0:
         return
-    tried = 2.0 * math.pi * np.arange(FEWEST, MOST, FINER) / length
-    some = slice(None, None, max(residual.position.size // ENOUGH, 1))
+    tried = 2.0 * math.pi * np.arange(MIN_PERIODS, MAX_PERIODS, FINER) / length
+    some = slice(None, None, max(residual.position.size // MAX_SAMPLES, 1))
     few = residual.select_samples(some)
     turned = np.exp(1j * (tried[1] - tried[0]) * few.position)  # from one wave to the next
     waves = np.repeat(turned[:, None], tried.size, axis=1)

@@ -73,16 +73,6 @@ EFFECT = Effect(
     ),
     inspect="Check belts, chains and long shafts: hold the motor, push the load, and watch whether "
     "it springs back.",
-    apart={
-        "backlash": (
-            "Change direction with two sizes of step, and log every 5 ms. Free play stays the "
-            "same, but a spring bends further with the larger step."
-        ),
-        "cogging": (
-            "Run at another speed. Cogging stays at the same positions, a vibration keeps its "
-            "frequency."
-        ),
-    },
     example=ordinary_parameters,
     start_values=find_start_values,
     hooks={

@@ -51,10 +51,6 @@ EFFECT = Effect(
     inspect="Check whether an elevator was fitted as simple, whether a constant-force spring "
     "pulls, and whether the field slopes.",
     apart={
-        "asymmetric-friction": (
-            "Let the mechanism go at rest. A load moves it, friction does not. While the "
-            "mechanism moves, the two look the same."
-        ),
         "spring": (
             "Use the full travel. The force of a spring changes with the position, a constant "
             "load does not."

@@ -50,10 +50,6 @@ EFFECT = Effect(
     "from the start.",
     inspect="Check the stator and supply limits in the motor controller's configuration.",
     apart={
-        "battery-sag": (
-            "Run a step with another voltage. A limit cuts off at one current, battery sag grows "
-            "gradually."
-        ),
         "delay": (
             "Log every 5 ms, or run a step with another voltage. A delay is the same for both "
             "steps."

@@ -57,14 +57,6 @@ EFFECT = Effect(
         "velocity-filter": (
             "Look at the position. A delay also shifts the position, a filter does not."
         ),
-        "current-limit": (
-            "Log every 5 ms, or run a step with another voltage. A delay is the same for both "
-            "steps."
-        ),
-        "deadband": (
-            "Run two ramps. With a deadband the motion starts at the same voltage, with a delay "
-            "it starts after the same time."
-        ),
     },
     example=ordinary_parameters,
     start_values=find_start_values,

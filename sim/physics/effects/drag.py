@@ -10,11 +10,11 @@ https://github.com/wpilibsuite/frc-docs/blob/250e32128d9a93f27d58bc3cd1d0b3ab5ee
 
 from collections.abc import Iterator, Mapping
 
+from sim.core.units import BATTERY
 from sim.physics.effect import Effect, Parameter, Scale
 from sim.physics.voltage_residual import VoltageResidual
 
 EVERYDAY = 0.9  # [V] at the free speed of 12 V without drag
-BATTERY = 12.0  # [V]
 
 
 def force(v: float, drag: float) -> float:

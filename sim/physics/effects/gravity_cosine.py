@@ -67,10 +67,6 @@ EFFECT = Effect(
             "Use the full travel, or start at another position. The voltage for gravity follows a"
             " cosine, the voltage for a spring follows a straight line."
         ),
-        "constant-load": (
-            "Use the full travel. Gravity on an arm changes with the angle, a constant load does "
-            "not."
-        ),
     },
     example=ordinary_parameters,
     start_values=find_start_values,

@@ -12,6 +12,7 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
+from sim.core.units import ROBUST
 from sim.physics.effect import LATER, MOMENT, Effect, Parameter, Scale
 from sim.physics.voltage_residual import VoltageResidual, list_run_start_times
 
@@ -19,12 +20,12 @@ RAMP = 0.5  # [V/s] of an ordinary quasistatic test
 PARTS = 12  # onsets that are tried in each run
 PER_RUN = 2  # best onsets of a run that are compared with those of other runs
 PER_LOG = 2  # best onsets of a log that become start values
-FEWEST = 20  # samples of a run in which a drop of velocity is looked for
+MIN_SAMPLES = 20  # samples of a run in which a drop of velocity is looked for
 DROPS = 4  # sharpest drops that become start values: breakaway gives sharp ones, too
 SHARP = 6.0  # [robust standard deviations] from which a change of velocity is a drop
 REMAINING = 0.3  # [share of the speed] that is left after a drop, at least
 EARLY = 0.25  # [samples] after the last one before a drop: the onset of the start values
-ROBUST, TINY = 1.4826, 1e-12  # standard deviations in a median absolute deviation; [unit/s] none
+TINY = 1e-12  # [unit/s] none
 
 
 def added_inertia(clock: float, extra: float, onset: float, until: float) -> float:
@@ -79,7 +80,7 @@ def _find_drops(residual: VoltageResidual) -> Iterator[Mapping[str, float]]:
     for number, (began, ended) in enumerate(_list_runs(residual)):
         run = residual.log.runs[number]
         change = np.diff(run.velocity) * np.sign(run.velocity[1:])
-        if change.size < FEWEST:
+        if change.size < MIN_SAMPLES:
             continue
         usual = float(np.median(change))
         spread = ROBUST * float(np.median(np.abs(change - usual)))
@@ -152,10 +153,6 @@ EFFECT = Effect(
     apart={
         "velocity-filter": (
             "Look at the position. A filter does not change it, another inertia does."
-        ),
-        "heating": (
-            "Repeat the first test at the end. A motor gets warm slowly, a load changes at one "
-            "moment."
         ),
     },
     example=ordinary_parameters,

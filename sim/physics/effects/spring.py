@@ -60,16 +60,6 @@ EFFECT = Effect(
     fingerprint="The missing voltage is a straight line over position, at every speed.",
     inspect="Check for tubing or gas springs that hold up an arm, for a cable chain, and for a "
     "hose that winds up.",
-    apart={
-        "gravity-cosine": (
-            "Use the full travel, or start at another position. The voltage for gravity follows a"
-            " cosine, the voltage for a spring follows a straight line."
-        ),
-        "constant-load": (
-            "Use the full travel. The force of a spring changes with the position, a constant "
-            "load does not."
-        ),
-    },
     example=ordinary_parameters,
     start_values=find_start_values,
     hooks={"force": force},

@@ -66,16 +66,6 @@ EFFECT = Effect(
     ),
     inspect="Check whether a bearing is dry, whether a gasket rubs, whether a chain is too tight, "
     "and whether grease has become stiff.",
-    apart={
-        "deadband": (
-            "Let the voltage fall slowly (triangle test). Below one voltage a deadband gives no "
-            "voltage at all, friction only slows the mechanism."
-        ),
-        "drag": (
-            "Run a faster ramp or a larger step. Drag keeps growing with the speed, Stribeck "
-            "friction stays small."
-        ),
-    },
     example=ordinary_parameters,
     start_values=find_start_values,
     hooks={"coulomb_friction": coulomb_friction},

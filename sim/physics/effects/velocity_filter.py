@@ -71,12 +71,6 @@ EFFECT = Effect(
     fingerprint="The velocity follows the slope of the position with a delay; steps look rounded.",
     inspect="Check the velocity filter and the measurement period of the motor controller's "
     "encoder.",
-    apart={
-        "delay": "Look at the position. A delay also shifts the position, a filter does not.",
-        "inertia-change": (
-            "Look at the position. A filter does not change it, another inertia does."
-        ),
-    },
     example=ordinary_parameters,
     start_values=find_start_values,
     inertia_shares=(0.3, 0.1),

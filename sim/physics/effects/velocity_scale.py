@@ -8,8 +8,7 @@ that is wrong in one place.
 
 from collections.abc import Iterator, Mapping
 
-import numpy as np
-
+from sim.core.log import integrate_velocity
 from sim.physics.effect import Effect, Parameter, Scale
 from sim.physics.voltage_residual import VoltageResidual
 
@@ -28,7 +27,7 @@ def find_start_values(residual: VoltageResidual) -> Iterator[Mapping[str, float]
     """Start values: regression of the integrated velocity on the change of position, and ± 5 %."""
     product = square = 0.0
     for run in residual.log.runs:
-        integral = float(np.sum(0.5 * (run.velocity[1:] + run.velocity[:-1]) * np.diff(run.time)))
+        integral = float(integrate_velocity(run.time, run.velocity)[-1])
         moved = float(run.position[-1] - run.position[0])
         product, square = product + integral * moved, square + moved * moved
     if square > 0.0 and product > 0.0:

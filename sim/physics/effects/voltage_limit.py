@@ -44,10 +44,6 @@ EFFECT = Effect(
     inspect="Check the peak output and the voltage compensation in the motor controller's "
     "configuration.",
     apart={
-        "drag": (
-            "Record a coast. Drag slows the mechanism while no voltage is applied, a voltage "
-            "limit does not."
-        ),
         "current-limit": (
             "Run a ramp. With a current limit the mechanism still reaches its full speed, but "
             "later."

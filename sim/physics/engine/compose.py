@@ -170,7 +170,7 @@ def _engine_lines(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[
         for hook, act in effect.hooks.items():
             yield f"import {act.__module__}"
             makes = "step" if compiled else "use_ieee_math"
-            yield f"{_alias(effect, hook)} = {makes}({act.__module__}.{act.__name__})"
+            yield f"{_format_alias(effect, hook)} = {makes}({act.__module__}.{act.__name__})"
     at = make_parameter_slices(effects)
     for hook in HOOKS:
         yield from _hook_lines(hook, effects, at)
@@ -193,7 +193,7 @@ def _hook_lines(hook: str, effects: Mapping[str, Effect], at: Mapping[str, slice
     for name in sorted(effects, key=lambda name: effects[name].order):
         effect = effects[name]
         if hook in effect.hooks:
-            answer = _call(effect, hook, at[name], order.index(name))
+            answer = _make_call(effect, hook, at[name], order.index(name))
             yield f"    if on[{order.index(name)}] != 0.0:"
             yield f"        {running} = {joins.format(running, answer)}"
     yield f"    return {running}"
@@ -207,8 +207,9 @@ def _memory_lines(effects: Mapping[str, Effect], at: Mapping[str, slice]) -> Ite
     yield "        return"
     for place, (name, effect) in enumerate(effects.items()):
         if "update_memory" in effect.hooks:
+            answer = _make_call(effect, "update_memory", at[name], place)
             yield f"    if on[{place}] != 0.0:"
-            yield f"        memory[{place}] = {_call(effect, 'update_memory', at[name], place)}"
+            yield f"        memory[{place}] = {answer}"
 
 
 def _entry_lines(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[str]:
@@ -221,7 +222,8 @@ def _entry_lines(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[s
         "p": sum(len(effect.parameters) for effect in effects.values()),
     }
     given = {
-        name: _tuple(f"{name}[{place}]" for place in range(size)) for name, size in sizes.items()
+        name: _format_tuple(f"{name}[{place}]" for place in range(size))
+        for name, size in sizes.items()
     }
     if compiled:  # as SIGNATURE in kernel.py: four lengths, then the arguments of `step_runs`
         shapes = {**SHAPES, "memory": f"({len(effects)},)"}
@@ -232,7 +234,11 @@ def _entry_lines(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[s
         yield f"called = types.void({lengths}, {', '.join(pointers)})"
         yield "@cfunc(called, error_model='numpy', cache='__file__' in globals())"
         yield f"def move(count, n, rows, gains, {', '.join(names)}):"
-        base = {**given, "w": _tuple(["0.0"] * WIRES), "on": _tuple(_delay_flags(effects))}
+        base = {
+            **given,
+            "w": _format_tuple(["0.0"] * WIRES),
+            "on": _format_tuple(_delay_flags(effects)),
+        }
         base["base_only"], given["base_only"] = "True", "False"
         yield "    if base_only != 0:  # LLVM removes the code that these constants exclude"
         yield f"        step_runs({', '.join(base.get(name, name) for name in names)})"
@@ -243,7 +249,7 @@ def _entry_lines(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[s
     yield f"    step_runs({', '.join(given.get(name, name) for name in names)})"
 
 
-def _tuple(items: Iterable[str]) -> str:
+def _format_tuple(items: Iterable[str]) -> str:
     return f"({', '.join(items)},)"
 
 
@@ -255,15 +261,17 @@ def _delay_flags(effects: Mapping[str, Effect]) -> Iterator[str]:
     return (f"on[{place}]" if one else "0.0" for place, one in enumerate(delays))
 
 
-def _call(effect: Effect, hook: str, at: slice, place: int) -> str:
+def _make_call(effect: Effect, hook: str, at: slice, place: int) -> str:
     """The call of an effect's hook, with the arguments that it names."""
     given = {name: f"p[{at.start + n}]" for n, name in enumerate(effect.names)}
     given["memory"] = f"memory[{place}]"
     arguments = inspect.signature(effect.hooks[hook]).parameters
-    return f"{_alias(effect, hook)}({', '.join(given.get(name, name) for name in arguments)})"
+    return (
+        f"{_format_alias(effect, hook)}({', '.join(given.get(name, name) for name in arguments)})"
+    )
 
 
-def _alias(effect: Effect, hook: str) -> str:
+def _format_alias(effect: Effect, hook: str) -> str:
     return f"_{effect.name.replace('-', '_')}_{hook}"
 
 

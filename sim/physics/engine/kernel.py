@@ -129,7 +129,7 @@ def load_kernel(text: str, kept: Path) -> Kernel:
         made = _compile_file(text, kept)
     else:
         made = _compile_text(text)
-        _store(extract_code(made), kept)
+        _store_code(extract_code(made), kept)
     return Kernel(made.address, made)
 
 
@@ -163,18 +163,18 @@ def _write_source(path: Path, text: str) -> Path:
     return path
 
 
-def _store(code: ObjectCode, kept: Path) -> None:
+def _store_code(code: ObjectCode, kept: Path) -> None:
     """Cache the object code, or an empty file if another process cannot use it."""
     try:
         cache.write_cached(kept, code.to_bytes())
-        if not _works(kept):
+        if not _works_in_child(kept):
             cache.write_cached(kept, NO_USE)
         _remove_old(kept.parent)
     except OSError:  # a home that cannot be written to: compiled anew each time
         return
 
 
-def _works(kept: Path) -> bool:
+def _works_in_child(kept: Path) -> bool:
     """Whether a child process can load and call it: LLVM ends a process that cannot link it."""
     try:
         done = subprocess.run(  # noqa: S603 - the running Python, with our own program
@@ -203,20 +203,8 @@ def try_kernel_file(kept: Path) -> None:
     if found is None:
         sys.exit(1)
     none, some = np.zeros((0, 2)), np.zeros(ROOM)
-    runs = dict.fromkeys(
-        (
-            "time",
-            "commanded",
-            "slides",
-            "low",
-            "high",
-            "frictions",
-            "run_lags",
-            "memory_groups",
-            "start_times",
-        ),
-        none[:, 0],
-    )
+    of_runs = ("low", "high", "frictions", "run_lags", "memory_groups", "start_times")
+    runs = dict.fromkeys(("time", "commanded", "slides", *of_runs), none[:, 0])
     model = dict.fromkeys(("c", "w", "on", "p", "memory", "tables", "steps"), some)
     Kernel(*found).move(
         edges=np.zeros(1), bodies=np.zeros((0, 5)), **runs, **model, base_only=True,

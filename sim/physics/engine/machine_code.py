@@ -32,7 +32,7 @@ class ObjectCode:
 
     def to_bytes(self) -> bytes:
         """Serialize the object code for a file."""
-        head = {"symbol": self.symbol, "needs": self.needs, "sha256": _hash(self.content)}
+        head = {"symbol": self.symbol, "needs": self.needs, "sha256": _compute_hash(self.content)}
         return json.dumps(head).encode() + b"\n" + self.content
 
     @classmethod
@@ -42,12 +42,12 @@ class ObjectCode:
         try:
             fields = json.loads(head)
             code = cls(fields["symbol"], tuple(fields["needs"]), content)
-            return code if fields["sha256"] == _hash(content) else None
+            return code if fields["sha256"] == _compute_hash(content) else None
         except (ValueError, KeyError, TypeError):
             return None
 
 
-def _hash(content: bytes) -> str:
+def _compute_hash(content: bytes) -> str:
     return hashlib.sha256(content).hexdigest()
 
 
@@ -64,17 +64,17 @@ def extract_code(made: Any) -> ObjectCode:  # noqa: ANN401 - Numba has no types
     llvm.initialize_native_asmprinter()
     module = llvm.parse_assembly(made.inspect_llvm())
     symbol = next(one.name for one in module.functions if one.name.startswith("cfunc."))
-    if stubs := "\n".join(_stubs(module)):
+    if stubs := "\n".join(_make_stubs(module)):
         module.link_in(llvm.parse_assembly(stubs))
     every = [*module.functions, *module.global_variables]
     named = [one.name for one in every if one.is_declaration]
     intrinsic = [found[1] for one in named if (found := re.match(r"llvm\.(\w+)\.f64", one))]
     needs = [one for one in named if not one.startswith("llvm.")]
     needs += [one for one in intrinsic if _find_symbol(one)]  # it may be a call, or an instruction
-    return ObjectCode(symbol, tuple(needs), _target().emit_object(module))
+    return ObjectCode(symbol, tuple(needs), _make_target_machine().emit_object(module))
 
 
-def _stubs(module: Any) -> Iterator[str]:  # noqa: ANN401 - llvmlite has no types
+def _make_stubs(module: Any) -> Iterator[str]:  # noqa: ANN401 - llvmlite has no types
     """LLVM bodies for functions of Numba's library, which is missing when the code is loaded."""
     for one in module.functions:
         if one.is_declaration and one.name.startswith(OF_NUMBA):
@@ -83,7 +83,7 @@ def _stubs(module: Any) -> Iterator[str]:  # noqa: ANN401 - llvmlite has no type
                 yield f"define {found[1]} {{ unreachable }}"
 
 
-def _target() -> Any:  # noqa: ANN401 - llvmlite has no types
+def _make_target_machine() -> Any:  # noqa: ANN401 - llvmlite has no types
     """LLVM's target machine for this processor, with Numba's settings."""
     triple = llvm.get_process_triple()
     return llvm.Target.from_triple(triple).create_target_machine(
@@ -108,7 +108,7 @@ def link_code(code: ObjectCode) -> tuple[int, object] | None:
         if not address:
             return None
         llvm.add_symbol(name, address)
-    engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), _target())
+    engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), _make_target_machine())
     engine.add_object_file(llvm.ObjectFileRef.from_data(code.content))
     engine.finalize_object()
     address = engine.get_function_address(code.symbol)

@@ -103,15 +103,9 @@ def compute_gravity_voltage(c: Numbers, x: float) -> float:
 
 
 def compute_motor_voltage(
-    c: Numbers,
-    w: Numbers,
-    on: Numbers,
-    p: Numbers,
-    memory: Array,
-    commanded: float,
-    v: float,
+    c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array, commanded: float, v: float,
     off: bool,
-) -> float:
+) -> float:  # fmt: skip
     """[V] voltage at the motor, after limits, wiring and the effects on the voltage."""
     u = limit_voltage(w, 0.0 if off else commanded, v)
     return transform_voltage(on, p, memory, u, v, c[KV])

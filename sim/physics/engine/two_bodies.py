@@ -82,22 +82,9 @@ def step_two_bodies(
             push = compute_joint_force(play, stiff, damp, state[X] - state[Y], state[V] - state[W])
             if play == 0.0 or push != 0.0:
                 one = step_in_contact(
-                    state,
-                    c,
-                    w,
-                    on,
-                    p,
-                    memory,
-                    tables,
-                    commanded,
-                    off,
-                    ka,
-                    dt,
-                    level,
-                    play,
-                    stiff,
+                    state, c, w, on, p, memory, tables, commanded, off, ka, dt, level, play, stiff,
                     damp,
-                )
+                )  # fmt: skip
             else:
                 one = step_in_backlash(
                     state, c, w, on, p, memory, commanded, off, ka, take, play, stiff, damp

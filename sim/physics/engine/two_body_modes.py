@@ -58,13 +58,8 @@ def prepare_series(
         way = 1.0 if row == 3 else 0.0  # the derivative of the load's way is w
         for term in range(TERMS + 1):
             to = at + POWERS + term * TABLE + row * ROW
-            tables[to], tables[to + 1], tables[to + 2], tables[to + 3], tables[to + 4] = (
-                d,
-                v,
-                w,
-                b,
-                r,
-            )
+            tables[to], tables[to + 1], tables[to + 2] = d, v, w
+            tables[to + 3], tables[to + 4] = b, r
             part = 1.0 / (term + 1)
             apart = v / own - w / other  # acceleration of d by a force between the two
             b, r = part * v / own, part * w / other
@@ -119,13 +114,8 @@ def sum_series(tables: Array, powers: int, span: float, to: int) -> None:
 def make_doubled_table(tables: Array, at: int, to: int) -> None:
     """Make the table of twice the time of a table; ``to`` may be ``at``."""
     d0, v0, w0, b0, r0 = tables[at], tables[at + 1], tables[at + 2], tables[at + 3], tables[at + 4]
-    d1, v1, w1, b1, r1 = (
-        tables[at + 5],
-        tables[at + 6],
-        tables[at + 7],
-        tables[at + 8],
-        tables[at + 9],
-    )
+    d1, v1, w1 = tables[at + 5], tables[at + 6], tables[at + 7]
+    b1, r1 = tables[at + 8], tables[at + 9]
     d2, v2, w2 = tables[at + 10], tables[at + 11], tables[at + 12]
     b2, r2 = tables[at + 13], tables[at + 14]
     for row in range(4):

@@ -8,6 +8,7 @@ so that a slider has an effect at once.
 
 animation.js   clock, controls and plots
 stages.js      drawings of the mechanisms
+ticks.js       round numbers on an axis
 animation.css  styles, for light and dark pages
 """
 
@@ -55,11 +56,7 @@ __all__ = [
 
 FOLDER = Path(__file__).parent
 KINDS = ("drivetrain", "elevator", "arm", "flywheel", "swerve")
-FLOORS = ("drivetrain", "swerve")  # kinds that drive on a floor
-# Length of a robot with bumpers [m]; largest share of the floor drawn behind its start [1]
-LONG, BEHIND = 0.9, 0.16
 DIGITS = 5  # significant digits of what is drawn
-MARGIN = 0.08  # [1] margin of the axes, relative to the range of the values
 DASHES = {"-": "", "--": "7 4", "-.": "8 3 2 3", ":": "2 3"}  # matplotlib's line styles in SVG
 
 
@@ -124,9 +121,10 @@ def _write_palette() -> str:
 
 @cache
 def read_script() -> str:
-    """The script of every animation: three files as one JavaScript module."""
+    """The script of every animation: its files as one JavaScript module."""
     files = (
         Path(engine.__file__).with_name("simulate.js"),
+        FOLDER / "ticks.js",
         FOLDER / "stages.js",
         FOLDER / "animation.js",
     )
@@ -171,13 +169,10 @@ def animate_mechanism(
     """
     _check_kind(kind)
     every = _by_options(scenes, choices)
-    start = {knob.name: knob.value for knob in knobs}
-    low, high = span or _limits(_curves("position", every, start))
-    if span is None and kind in FLOORS:
-        low -= min(LONG, BEHIND * (high - low))  # a position is that of the front bumper
+    low, high = span or (None, None)
     stage = {
-        "low": _round(low),
-        "high": _round(high),
+        "low": low,
+        "high": high,
         "wall": _describe_value(wall),
         "marks": [{"label": n, "at": _describe_value(at)} for n, at in (marks or {}).items()],
         "slow": slow,
@@ -190,7 +185,7 @@ def animate_mechanism(
         "knobs": [vars(knob) for knob in knobs],
         "score": None if score is None else vars(score),
         "rules": [vars(rule) | {"at_most": _describe_value(rule.at_most)} for rule in rules],
-        "panels": [_describe_panel(panel, every, start) for panel in panels],
+        "panels": [vars(panel) for panel in panels],
         "scenes": {"|".join(key): _describe_scene(scene) for key, scene in every.items()},
     }
     return Animation(data, alt)
@@ -273,7 +268,7 @@ def _describe_scene(scene: Scene) -> dict[str, Any]:
                 "velocity": _numbers(motion.velocity),
                 "position": None
                 if motion.gains is not None
-                else _numbers(motion.curve("position", scene, {})),
+                else _numbers(motion.find_position(scene)),
                 "heading": _numbers(motion.heading),
             }
         )
@@ -302,31 +297,6 @@ def _describe_plan(plan: TestPlan | None) -> dict[str, Any] | None:
     return (
         None if plan is None else {name: _describe_value(one) for name, one in vars(plan).items()}
     )
-
-
-def _describe_panel(
-    panel: Panel, scenes: Mapping[tuple[str, ...], Scene], knobs: Mapping[str, float]
-) -> dict[str, Any]:
-    found = _limits([panel.scale * one for one in _curves(panel.signal, scenes, knobs)])
-    low = found[0] if panel.low is None else panel.low
-    high = found[1] if panel.high is None else panel.high
-    return {**vars(panel), "low": _round(low), "high": _round(high)}
-
-
-def _curves(
-    signal: str, scenes: Mapping[tuple[str, ...], Scene], knobs: Mapping[str, float]
-) -> list[Array]:
-    """The signal of every motion that has it."""
-    found = [one.curve(signal, scene, knobs) for scene in scenes.values() for one in scene.motions]
-    return [curve for curve in found if curve is not None]
-
-
-def _limits(curves: Sequence[Array]) -> tuple[float, float]:
-    """Lower and upper limit of an axis for some curves, with zero and a margin."""
-    values = np.concatenate([np.zeros(1), *curves])
-    low, high = float(values.min()), float(values.max())
-    margin = MARGIN * ((high - low) or 1.0)
-    return (low - margin if low < 0.0 else low), high + margin
 
 
 def _numbers(values: Array | None) -> list[float] | None:

@@ -4,13 +4,17 @@
 // copy of this script starts every such figure that was not started yet, so that it works in an
 // output of JupyterLab and in a page without a server.
 
-import { makeModel, simulateRun } from "./simulate.js";
+import { makeModel, rms, simulateRun } from "./simulate.js";
 import { STAGES, draw } from "./stages.js";
+import { roundTicks, short } from "./ticks.js";
 
 const SHORTEST = 3; // [s] least duration of a play: shorter scenes are shown in slow motion
 const LONGEST = 12; // [s] largest duration of a play
 const HIGH = { one: 170, many: 120 }; // [px] height of a single panel or one with areas, and of one of several
 const EDGE = { left: 46, right: 14, top: 6, bottom: 22 };
+const MARGIN = 0.08; // [1] margin of an axis, relative to the range of its values
+const FLOORS = ["drivetrain", "swerve"]; // kinds that drive on a floor
+const LONG = 0.9, BEHIND = 0.16; // [m] a robot with bumpers; [1] most of the floor drawn behind its start
 const MOVES = 0.02; // [m/s] slower counts as standing
 const TERMS = [["kS·sgn(v)", 0], ["kV·v", 1], ["kA·a", 2]]; // a term and its color
 
@@ -66,10 +70,6 @@ function addErrors(motions) {
   }));
 }
 
-/** Root of the mean square of the difference of two curves. */
-const typicalError = (one, other) =>
-  Math.sqrt(one.reduce((sum, value, k) => sum + (value - other[k]) ** 2, 0) / one.length);
-
 const rounded = (value, digits = 2) => value.toFixed(digits).replace(/^-(?=0\.?0*$)/, "").replace("-", "−");
 
 const create = (parent, name, properties = {}) => {
@@ -89,6 +89,7 @@ class Animation {
     this.pictures = 0;
     this.tries = 0;
     figure.querySelector(".motion-still").hidden = true;
+    this.fitAxes();
     this.build();
     this.compute();
     new ResizeObserver(() => this.fit()).observe(figure);
@@ -172,11 +173,33 @@ class Animation {
     this.fit(true);
   }
 
-  /** Simulate the selected scene with the current values of the knobs. */
+  /** Fit the axes that are not given to all scenes as first shown, with zero and a margin. */
+  fitAxes() {
+    const { stage, panels, scenes } = this.data;
+    const motions = Object.values(scenes).flatMap((scene) => this.simulate(scene).motions);
+    const fit = (axis, signal, scale = 1) => {
+      let [low, high] = [0, 0];
+      for (const value of motions.flatMap((motion) => motion[signal] ?? [])) {
+        low = Math.min(low, scale * value);
+        high = Math.max(high, scale * value);
+      }
+      axis.low ??= low - (low < 0 ? MARGIN * (high - low || 1) : 0);
+      axis.high ??= high + MARGIN * (high - low || 1);
+    };
+    for (const panel of panels) fit(panel, panel.signal, panel.scale);
+    const behind = stage.low === null && FLOORS.includes(stage.kind); // a position is that of the front bumper
+    fit(stage, "position");
+    if (behind) stage.low -= Math.min(LONG, BEHIND * (stage.high - stage.low));
+  }
+
+  /** A scene with its motions, simulated with the current values of the knobs. */
+  simulate(scene) {
+    return { ...scene, motions: addErrors(scene.motions.map((motion) => moveMotion(motion, scene, this.knobs))) };
+  }
+
+  /** Simulate the selected scene. */
   compute() {
-    const scene = this.data.scenes[this.picked.join("|")];
-    const motions = scene.motions.map((motion) => moveMotion(motion, scene, this.knobs));
-    this.scene = { ...scene, motions: addErrors(motions) };
+    const scene = this.scene = this.simulate(this.data.scenes[this.picked.join("|")]);
     this.duration = scene.time.at(-1) - scene.time[0];
     this.rate = this.duration / Math.min(Math.max(this.duration, SHORTEST), LONGEST);
     this.cursor.max = this.duration;
@@ -217,7 +240,7 @@ class Animation {
   rank() {
     const { motion, unit, seconds } = this.data.score;
     const { motions, target } = this.scene;
-    const error = typicalError(motions.find((one) => one.name === motion).velocity, target);
+    const error = rms(motions.find((one) => one.name === motion).velocity, target);
     const spent = this.began === undefined ? 0 : (performance.now() - this.began) / 1000;
     const counts = this.tries > 0 && !(seconds && spent > seconds);
     if (counts && !(this.best?.error <= error)) this.best = { error, knobs: { ...this.knobs } };
@@ -239,7 +262,7 @@ class Animation {
     if (!width || (width === this.width && !changed)) return;
     this.width = width;
     const { stage } = this.data;
-    const upright = !["drivetrain", "swerve"].includes(stage.kind);
+    const upright = !FLOORS.includes(stage.kind);
     const crowd = this.scene.motions.filter(({ ghost }) => !ghost).length;
     const beside = upright && width >= 600 && crowd <= 2;
     this.both.classList.toggle("stacked", !beside);
@@ -311,19 +334,14 @@ class Animation {
   }
 
   drawAxes(svg, panel, { toX, toY, left, right, bottom }) {
-    const span = panel.high - panel.low;
-    const step = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200].find((one) => span / one <= 5) ?? span;
-    for (let k = Math.ceil(panel.low / step - 1e-9); k * step <= panel.high + 1e-9; k++) {
-      const y = toY(k * step);
-      draw(svg, "line", { x1: left, x2: right, y1: y, y2: y, stroke: "currentColor", opacity: k ? 0.18 : 0.6 });
-      draw(svg, "text", { x: left - 6, y: y + 4, "text-anchor": "end" }, `${+(k * step).toFixed(2)}`.replace("-", "−"));
+    for (const value of roundTicks(panel.low, panel.high, 4)) {
+      const y = toY(value);
+      draw(svg, "line", { x1: left, x2: right, y1: y, y2: y, stroke: "currentColor", opacity: value ? 0.18 : 0.6 });
+      draw(svg, "text", { x: left - 6, y: y + 4, "text-anchor": "end" }, short(value));
     }
-    const count = right - left > 340 ? 8 : 4;
-    const every = [0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10].find((one) => this.duration / one <= count) ?? 20;
-    for (let k = 0; k * every <= this.duration + 1e-9; k++) {
-      const x = toX(this.scene.time[0] + k * every);
-      const unit = k ? "" : " s";
-      draw(svg, "text", { x, y: bottom + 17, "text-anchor": k ? "middle" : "start" }, `${+(k * every).toFixed(2)}${unit}`);
+    for (const [k, time] of roundTicks(0, this.duration, right - left > 340 ? 6 : 3).entries()) {
+      const x = toX(this.scene.time[0] + time);
+      draw(svg, "text", { x, y: bottom + 17, "text-anchor": k ? "middle" : "start" }, `${short(time)}${k ? "" : " s"}`);
     }
   }
 
@@ -339,28 +357,20 @@ class Animation {
     for (const term of takes) term.push(term.at(-1)); // hold the last value to the end
     const [above, below] = [takes[0].map(() => 0), takes[0].map(() => 0)];
     for (const [name, color] of TERMS) {
-      let best = null;
       for (const [edge, part] of [[above, Math.max], [below, Math.min]]) {
         const next = edge.map((value, k) => value + part(takes[color][k], 0));
         const there = edge.map((value, k) => `${toX(time[k]).toFixed(1)},${toY(value).toFixed(1)}`);
         const back = next.map((value, k) => `${toX(time[k]).toFixed(1)},${toY(value).toFixed(1)}`).reverse();
         draw(svg, "polygon", { points: [...there, ...back].join(" "), fill: this.data.colors[color], opacity: 0.55 });
-        next.forEach((value, k) => {
-          const tall = Math.abs(toY(value) - toY(edge[k]));
-          const inside = k > next.length * 0.06 && k < next.length * 0.9;
-          if (inside && tall > 16 && !(best?.tall >= tall)) best = { tall, x: toX(time[k]), y: (toY(value) + toY(edge[k])) / 2 };
-        });
         next.forEach((value, k) => { edge[k] = value; });
       }
-      if (best) draw(svg, "text", { x: best.x, y: best.y + 4 }, name);
       const item = create(now, "li");
       const swatch = draw(item, "svg", { width: 14, height: 14, "aria-hidden": true });
       draw(swatch, "rect", { width: 14, height: 14, fill: this.data.colors[color], opacity: 0.55 });
       create(item, "span", { textContent: name });
       takes[color].shown = create(item, "b");
     }
-    const item = create(now, "li", { textContent: "black line: applied" });
-    item.firstChild.textContent = "line: applied";
+    create(now, "li", { textContent: "line: applied" });
     this.takes = takes;
   }
 

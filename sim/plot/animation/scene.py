@@ -1,14 +1,12 @@
 """The content of an animation as plain data: motions over time, sliders, menus and plots."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from sim.core.log import Array
-from sim.physics.engine import State, Track, simulate_run
-from sim.physics.model import Model
 
 
 @dataclass(frozen=True)
@@ -24,10 +22,6 @@ class Gain:
     knob: str
     times: float = 1.0
     plus: float = 0.0
-
-    def at(self, knobs: Mapping[str, float]) -> float:
-        """The gain's value at these knob positions."""
-        return self.plus + self.times * knobs[self.knob]
 
 
 @dataclass(frozen=True)
@@ -49,24 +43,6 @@ class TestPlan:
     mark: float | Gain = math.inf
     reaction: float | Gain = 0.0
     timeout: float = math.inf
-
-    def voltage(
-        self, time: Array, knobs: Mapping[str, float], move: Callable[[Array], Array]
-    ) -> Array:
-        """The voltage of the test, (n,) [V].
-
-        Args:
-            time: (n,) [s].
-            knobs: name -> value.
-            move: simulates the position (n,) under a voltage (n,) [V].
-        """
-        volts = find_value(self.step, knobs) + find_value(self.ramp, knobs) * time
-        volts = np.where(time < self.timeout, volts, 0.0)
-        passed = move(volts) > find_value(self.mark, knobs)
-        if not passed.any():
-            return volts
-        reaction = find_value(self.reaction, knobs)
-        return np.where(time < time[int(np.argmax(passed))] + reaction, volts, 0.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,74 +79,13 @@ class Motion:
     start: float = 0.0
     turns: bool = False
 
-    def curve(self, signal: str, scene: "Scene", knobs: Mapping[str, float]) -> Array | None:
-        """One signal of the motion (n,), simulated if it has gains; None if it lacks the signal.
-
-        Args:
-            signal: ``position``, ``velocity``, ``voltage`` or ``error``.
-            scene: the scene that the motion belongs to.
-            knobs: name -> value.
-        """
-        if signal == "error":
-            return self._error(scene, knobs)
-        if self.gains is None:
-            own = {"position": self._own_position(scene), "velocity": self.velocity}
-            return own.get(signal, None if isinstance(self.voltage, Gain) else self.voltage)
-        voltage = self._volts(scene, knobs)
-        if signal == "voltage":
-            return voltage
-        moved = self._move(scene.time, voltage, knobs)
-        return moved.position if signal == "position" else moved.velocity
-
-    def _error(self, scene: "Scene", knobs: Mapping[str, float]) -> Array | None:
-        """Position minus target position, (n,) [m or rad]; None for the target, or without one."""
-        asked = next((one for one in scene.motions if one.asked), None)
-        if asked is None or asked is self:
-            return None
-        here, there = (one.curve("position", scene, knobs) for one in (self, asked))
-        return None if here is None or there is None else here - there
-
-    def _own_position(self, scene: "Scene") -> Array:
+    def find_position(self, scene: "Scene") -> Array:
         """The positions given, or the integral of the velocities given, (n,) [m or rad]."""
         if self.position is not None:
             return np.asarray(self.position)
         velocity = np.zeros(scene.time.size) if self.velocity is None else np.asarray(self.velocity)
         ways = np.diff(scene.time) * (velocity[:-1] + velocity[1:]) / 2
         return np.asarray(self.start + np.concatenate([[0.0], np.cumsum(ways)]))
-
-    def _move(self, time: Array, voltage: Array, knobs: Mapping[str, float]) -> Track:
-        gains = {name: find_value(gain, knobs) for name, gain in (self.gains or {}).items()}
-        return simulate_run(
-            Model(self.type, gains), time=time, voltage=voltage, state=State.cold_at(self.start)
-        )
-
-    def _volts(self, scene: "Scene", knobs: Mapping[str, float]) -> Array:
-        """The voltage (n,) [V] of its plan, of its program, or the one given, in this order."""
-        if self.plan is not None:
-            return self.plan.voltage(
-                scene.time, knobs, lambda volts: self._move(scene.time, volts, knobs).position
-            )
-        if self.program is not None and scene.target is not None:
-            gains = {name: find_value(gain, knobs) for name, gain in self.program.items()}
-            return follow_target(scene.time, scene.target, gains)
-        if self.voltage is None or isinstance(self.voltage, Gain):
-            held = 0.0 if self.voltage is None else self.voltage.at(knobs)
-            return np.full(scene.time.size, held)
-        return np.asarray(self.voltage)
-
-
-def follow_target(time: Array, target: Array, gains: Mapping[str, float]) -> Array:
-    """The voltage (n,) [V] of a feedforward for a target velocity, each held until the next time.
-
-    Args:
-        time: (n,) [s].
-        target: (n,) target velocity [m/s or rad/s].
-        gains: kS, kV, kA and, if there is one, kG.
-    """
-    velocity = (target[:-1] + target[1:]) / 2
-    acceleration = np.diff(target) / np.diff(time)
-    volts = gains["kS"] * np.sign(velocity) + gains["kV"] * velocity
-    return np.append(volts + gains["kA"] * acceleration + gains.get("kG", 0.0), 0.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -284,8 +199,3 @@ class Rule:
     motion: str = ""
     at_most: float | Gain | None = None
     at_least: float | None = None
-
-
-def find_value(value: float | Gain, knobs: Mapping[str, float]) -> float:
-    """The value of a number or of a gain, at the knobs' positions."""
-    return value.at(knobs) if isinstance(value, Gain) else float(value)

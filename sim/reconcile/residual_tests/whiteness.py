@@ -11,8 +11,8 @@ from itertools import pairwise
 import numpy as np
 
 from sim.core.log import Array
+from sim.core.units import ROBUST
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
-from sim.estimation.measurements import ROBUST
 from sim.estimation.run_records import RunRecord
 from sim.reconcile.thresholds import FEWEST_SAMPLES, SHORTEST_WINDOW, STEP_VOLTAGE
 

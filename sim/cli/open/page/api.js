@@ -2,28 +2,14 @@
 
 /** An error of the server: what is wrong, where, and what to do next. */
 export class Refused extends Error {
-  constructor({ what, where, advice, kind, columns }) {
-    super(what);
-    this.what = what.replace(/\.$/, "");
-    this.where = where;
-    this.advice = advice;
-    this.kind = kind;
-    this.columns = columns;
+  constructor(refusal) {
+    super(refusal.what);
+    Object.assign(this, refusal, { what: refusal.what.replace(/\.$/, "") });
   }
 }
 
 /** The answers of a page that was saved as one file: address -> answer; null if a server answers. */
 export const saved = JSON.parse(document.getElementById("saved")?.textContent ?? "null");
-
-/** Open a dropped file; returns its number and its name. */
-export function openFile(file) {
-  return ask(`logs?name=${encodeURIComponent(file.name)}`, { method: "POST", body: file });
-}
-
-/** Let a search for missing effects end with what it has. */
-export function stopSearch(id, query) {
-  return ask(addressOf(id, "reconcile", query), { method: "DELETE" });
-}
 
 /** Data about a log: summary, faults, fit, directions or code. */
 export function askLog(id, what, query = {}) {
@@ -49,23 +35,15 @@ export async function ask(address, options) {
 
 async function fetchOrRefuse(address, options) {
   if (saved) return readSaved(address);
-  let answer;
-  try {
-    answer = await fetch(address, options);
-  } catch {
-    throw new Refused({
-      what: "the program that serves this page has ended",
-      where: "",
-      advice: "Start it again: sysid open, or sysid watch",
-    });
-  }
+  const ended = { what: "the program that serves this page has ended", advice: "Start it again: sysid open, or sysid watch" };
+  const answer = await fetch(address, options).catch(() => { throw new Refused(ended); });
   if (!answer.ok) throw new Refused((await answer.json()).refusal);
   return answer;
 }
 
 function readSaved(address) {
   const answer = saved[address];
-  if (answer === undefined) throw new Refused({ what: "this page was saved, and computes nothing new", where: "", advice: "Open the log itself with `sysid open`." });
+  if (answer === undefined) throw new Refused({ what: "this page was saved, and computes nothing new", advice: "Open the log itself with `sysid open`." });
   if (answer.refusal) throw new Refused(answer.refusal);
   return new Response(typeof answer === "string" ? Uint8Array.from(atob(answer), (one) => one.charCodeAt(0)) : JSON.stringify(answer));
 }

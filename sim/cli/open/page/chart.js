@@ -1,14 +1,13 @@
 // The chart: measured and simulated velocity, the residual, and the voltage; or the signals of the
-// log alone (signals.js), in which spans can be marked.
+// log alone, in which spans can be marked (curves.js).
 //
 // There are two canvases. The lower one holds what does not depend on the gains; the upper one holds
 // the simulated curve and the cursor, and is drawn once per frame.
 
-import { rangeOf, widen } from "./drawing.js";
-import { FIT_PANELS, drawFit, drawMeasured, drawOther, errorRange, fitCurves, fitMarks } from "./fit_panels.js";
-import { AXIS, TOP, drawCursor, drawFaults, drawGrid, drawOverview, drawRuns, drawSpans, drawTimes } from "./frame.js";
+import { VIEWS, deriveSignals } from "./curves.js";
+import { draw, rangeOf, widen } from "./drawing.js";
+import { AXIS, TOP, drawCursor, drawFaults, drawGrid, drawNoise, drawOthers, drawOverview, drawRuns, drawSpans, drawTimes } from "./frame.js";
 import { listen } from "./hands.js";
-import { SIGNAL_PANELS, deriveSignals, drawSignals, signalCurves, signalMarks, stepRange } from "./signals.js";
 import { Timeline, firstNotBefore } from "./timeline.js";
 
 const GAP = 26, OVERVIEW = 34; // [px]
@@ -28,6 +27,7 @@ export class Chart {
     this.runs = [];
     this.faults = [];
     this.others = [];
+    this.ranges = {};
     this.simulated = this.without = [];
     this.noise = null;
     this.cursor = null;
@@ -46,41 +46,36 @@ export class Chart {
     this.timeline = new Timeline(runs);
     this.wholeRange = widen(rangeOf(runs.map((run) => run.velocity)));
     this.spans = new Map();
-    this.derived = null;
-    this.prepareSignals();
+    this.signals = null;
     this.showAll();
   }
 
   /** Show the signals of the log alone, or the measured signals with the simulated ones. */
   showSignals(on) {
     this.showsSignals = on;
-    this.prepareSignals();
     this.resize();
   }
 
   /** Time steps and slopes, computed when they are needed. */
-  prepareSignals() {
-    if (this.showsSignals && this.timeline) this.derived ??= deriveSignals(this.runs);
+  get derived() {
+    return (this.signals ??= deriveSignals(this.runs));
   }
 
-  get panelsShown() {
-    return this.showsSignals ? SIGNAL_PANELS : FIT_PANELS;
+  /** The panels and curves of the view. */
+  get shown() {
+    return VIEWS[this.showsSignals ? "signals" : "fit"];
   }
 
-  /** The lowest and the highest value that a panel shows: those of its curves in the visible part. */
-  rangeOfPanel(name) {
-    return name === "error" ? errorRange(this) : this.ranges[name];
-  }
-
-  /** Fit the panels to what is visible of their curves. */
-  fitHeights() {
-    const shown = Object.fromEntries(this.panelsShown.map(({ name }) => [name, []]));
-    for (const { panel, run, first, values } of this.showsSignals ? signalCurves(this) : fitCurves(this)) {
-      const [from, end] = this.samplesInView(run, first, values.length);
-      shown[panel].push(values.subarray(from - first, end - first));
-    }
-    this.ranges = Object.fromEntries(Object.entries(shown).map(([name, arrays]) => [name, widen(rangeOf(arrays))]));
-    if (this.showsSignals) this.ranges.step = stepRange(this);
+  /** Fit a panel to what is visible of its curves. */
+  fitHeight(name) {
+    const { range } = this.shown.panels[name];
+    const inView = this.shown.curves.filter(({ panel }) => panel === name).flatMap(({ of, fitted = of }) => this.runs.map((_, k) => {
+      const one = fitted(this, k);
+      if (!one) return [];
+      const [from, end] = this.samplesInView(k, one.first, one.values.length);
+      return one.values.subarray(from - one.first, end - one.first);
+    }));
+    this.ranges[name] = range ? range(this, inView) : widen(rangeOf(inView));
   }
 
   /** The first sample of a run that is visible, and the one after the last, of a curve's samples. */
@@ -101,15 +96,9 @@ export class Chart {
     this.requestMoving();
   }
 
-  /** Mark faults: {run, start, end, name}. */
-  setFaults(faults) {
-    this.faults = faults;
-    this.redraw();
-  }
-
-  /** Draw runs of another log over those of the same test: {color, run, time, velocity}. */
-  setOthers(others) {
-    this.others = others;
+  /** Mark faults, {run, start, end, name}, or lay runs of other logs over: {color, run, time, velocity}. */
+  mark(what) {
+    Object.assign(this, what);
     this.redraw();
   }
 
@@ -118,9 +107,11 @@ export class Chart {
    * A model with effects is drawn over the one without them.
    */
   setSimulation(simulated, noise, without = []) {
-    this.simulated = simulated;
-    this.without = without;
+    const addError = (one, k) => one && { ...one, error: one.velocity.map((value, i) => this.runs[k].velocity[one.first + i] - value) };
+    this.simulated = simulated.map(addError);
+    this.without = without.map(addError);
     this.noise = noise;
+    if (!this.showsSignals) this.fitHeight("error");
     this.requestMoving();
   }
 
@@ -164,7 +155,7 @@ export class Chart {
   }
 
   redraw() {
-    if (this.view) this.fitHeights();
+    if (this.view) for (const name of Object.keys(this.shown.panels)) this.fitHeight(name);
     this.stillIsOld = true;
     this.requestMoving();
   }
@@ -195,9 +186,9 @@ export class Chart {
     this.left = clientWidth < 560 ? 44 : 54;
     this.right = clientWidth - (clientWidth < 560 ? 8 : 14);
     let y = TOP;
-    const room = clientHeight - TOP - AXIS - OVERVIEW - GAP * (this.panelsShown.length - 1) - 10;
+    const room = clientHeight - TOP - AXIS - OVERVIEW - GAP * (Object.keys(this.shown.panels).length - 1) - 10;
     this.panels = {};
-    for (const { name, share } of this.panelsShown) {
+    for (const [name, { share }] of Object.entries(this.shown.panels)) {
       this.panels[name] = { top: y, bottom: y + share * room };
       y += share * room + GAP;
     }
@@ -226,7 +217,7 @@ export class Chart {
   /** A function from a value to a height in a panel. */
   heights(name) {
     const { top, bottom } = this.panels[name];
-    const [low, high] = this.rangeOfPanel(name);
+    const [low, high] = this.ranges[name];
     return (value) => bottom - ((value - low) / (high - low)) * (bottom - top);
   }
 
@@ -238,12 +229,9 @@ export class Chart {
     to.font = this.font;
     drawRuns(this, to);
     drawFaults(this, to);
-    for (const { name } of this.panelsShown) if (name !== "error") drawGrid(this, to, name);
-    if (this.showsSignals) drawSignals(this, to);
-    this.clip(to, () => {
-      if (!this.showsSignals) for (const run of this.runs.keys()) drawMeasured(this, to, run);
-      for (const other of this.others) drawOther(this, to, other);
-    });
+    for (const [name, { moves }] of Object.entries(this.shown.panels)) if (!moves) drawGrid(this, to, name);
+    this.drawCurves(to, false);
+    this.clip(to, () => drawOthers(this, to), "velocity");
     drawTimes(this, to);
     drawOverview(this, to);
   }
@@ -259,49 +247,48 @@ export class Chart {
     to.restore();
   }
 
+  /** Draw the curves that move with the gains, or the others. */
+  drawCurves(to, moving) {
+    for (const { panel, of, moves = false, ...style } of this.shown.curves) {
+      if (!panel || moves !== moving) continue;
+      const y = this.heights(panel);
+      this.clip(to, () => {
+        for (const run of this.runs.keys()) this.drawCurve(to, run, of(this, run), y, { ...style, color: this.colors[style.color] });
+      }, panel);
+    }
+  }
+
   /** Draw one curve of a run; if samples are closer than pixels, from the lowest to the highest. */
-  curve(to, run, first, values, y, { color, width, alpha = 1, dots = false, steps = false }) {
+  drawCurve(to, run, samples, y, style) {
+    if (!samples) return;
+    const { first, values } = samples;
     const { time } = this.runs[run];
     const begins = this.timeline.offsets[run] - time[0];
     const [from, end] = this.samplesInView(run, first, values.length);
     if (end - from < 1) return;
-    const apart = (this.xOf(begins + time[end - 1]) - this.xOf(begins + time[from])) / Math.max(end - from - 1, 1);
-    to.globalAlpha = alpha;
-    to.strokeStyle = to.fillStyle = color;
-    to.lineWidth = width;
-    to.lineJoin = "round";
-    to.beginPath();
-    if (apart >= 0.5) {
+    const x = (k) => this.xOf(begins + time[k]);
+    const apart = (x(end - 1) - x(from)) / Math.max(end - from - 1, 1);
+    draw(to, style, () => {
       let last = 0;
-      for (let k = from; k < end; k++) {
-        const [x, height] = [this.xOf(begins + time[k]), y(values[k - first])];
-        if (steps && k > from) to.lineTo(x, last);
-        to.lineTo(x, height);
-        last = height;
+      for (let k = from; apart >= 0.5 && k < end; k++) {
+        if (style.steps && k > from) to.lineTo(x(k), last);
+        last = y(values[k - first]);
+        to.lineTo(x(k), last);
       }
-      to.stroke();
-      if (dots && apart >= DOTS) {
-        to.globalAlpha = 1;
-        for (let k = from; k < end; k++) {
-          to.beginPath();
-          to.arc(this.xOf(begins + time[k]), y(values[k - first]), 2.4, 0, 7);
-          to.fill();
-        }
-      }
-    } else {
-      for (let k = from; k < end; ) {
-        const x = Math.round(this.xOf(begins + time[k]));
+      for (let k = from; apart < 0.5 && k < end; ) {
+        const column = Math.round(x(k));
         let [low, high] = [Infinity, -Infinity];
-        for (; k < end && Math.round(this.xOf(begins + time[k])) === x; k++) {
+        for (; k < end && Math.round(x(k)) === column; k++) {
           low = Math.min(low, values[k - first]);
           high = Math.max(high, values[k - first]);
         }
-        to.lineTo(x, y(low));
-        to.lineTo(x, y(high));
+        to.lineTo(column, y(low));
+        to.lineTo(column, y(high));
       }
-      to.stroke();
+    });
+    for (let k = from; style.dots && apart >= DOTS && k < end; k++) {
+      draw(to, { color: style.color, fill: true }, () => to.arc(x(k), y(values[k - first]), 2.4, 0, 7));
     }
-    to.globalAlpha = 1;
   }
 
   drawMoving() {
@@ -309,8 +296,12 @@ export class Chart {
     to.clearRect(0, 0, this.width, this.height);
     to.font = this.font;
     if (this.showsSignals) this.clip(to, () => drawSpans(this, to));
-    else drawFit(this, to);
-    if (this.cursor) drawCursor(this, to, (this.showsSignals ? signalMarks : fitMarks)(this, this.cursor));
+    else {
+      drawGrid(this, to, "error");
+      if (this.noise) this.clip(to, () => drawNoise(this, to), "error");
+    }
+    this.drawCurves(to, true);
+    if (this.cursor) drawCursor(this, to);
   }
 
   // ---- moving and zooming

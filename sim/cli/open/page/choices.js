@@ -1,6 +1,6 @@
 // The wizard: which entries are the signals that were not found by name.
 
-import { button, drawing, figure, text } from "./elements.js";
+import { button, drawing, figure, make } from "./elements.js";
 import { activate, load, shownLog } from "./logs.js";
 import { at, guarded, pressOne } from "./page.js";
 
@@ -20,12 +20,8 @@ export function showChoice() {
   const { name, runs, choice: { why, columns } } = shownLog();
   at("choose-why").textContent = `${name}: ${why}`;
   at("choose-back").hidden = !runs;
-  at("roles").replaceChildren(...ROLES.filter(([one]) => one !== "time" || columns).map(([one, words]) => {
-    const made = button("", words, () => { role = one; showCandidates(); });
-    made.value = one;
-    made.append(text("span", ""));
-    return made;
-  }));
+  at("roles").replaceChildren(...ROLES.filter(([one]) => one !== "time" || columns).map(([one, words]) =>
+    button("", [words, make("span")], () => { role = one; showCandidates(); }, { value: one })));
   at("entry-filter").value = "";
   role = "voltage";
   showCandidates();
@@ -53,13 +49,12 @@ function rank({ name, signal }, chosen) {
 }
 
 function candidate(words, { name, unit, signal, text: isText, values, picture }, chosen) {
-  const label = text("label", "", "candidate");
-  const box = Object.assign(document.createElement("input"), { type: "radio", name: "entry", checked: (chosen[role] ?? "") === name });
-  box.addEventListener("change", () => { chosen[role] = name; showChosen(); });
-  label.append(box, text("span", words, "name"), text("span", unit ?? "", "quiet"));
-  if (name && signal === role) label.append(text("span", "likely", "badge"));
-  if (name) label.append(isText ? text("span", `${values} times`, "spark") : sparkline(picture));
-  return label;
+  const box = make("input", {
+    type: "radio", name: "entry", checked: (chosen[role] ?? "") === name, onchange: () => { chosen[role] = name; showChosen(); },
+  });
+  return make("label", "candidate", box, make("span", "name", words), make("span", "quiet", unit),
+    name && signal === role && make("span", "badge", "likely"),
+    name && (isText ? make("span", "spark", `${values} times`) : sparkline(picture)));
 }
 
 function showChosen() {

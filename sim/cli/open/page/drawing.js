@@ -1,10 +1,22 @@
-// Drawing functions that the chart and its panels share.
+// Drawing functions that the chart and its frame share.
 
-export function line(to, x, y, toX, toY) {
+/** Stroke a path, or with `fill` fill it; colors, widths and the like hold for it alone. */
+export function draw(to, { color, width = 1, alpha = 1, dash = [], fill = false }, path) {
+  Object.assign(to, { strokeStyle: color, fillStyle: color, lineWidth: width, globalAlpha: alpha, lineJoin: "round" });
+  to.setLineDash(dash);
   to.beginPath();
-  to.moveTo(x, y);
-  to.lineTo(toX, toY);
-  to.stroke();
+  path(to);
+  if (fill) to.fill();
+  else to.stroke();
+  to.globalAlpha = 1;
+}
+
+export function drawLine(to, style, x, y, toX, toY) {
+  draw(to, style, () => { to.moveTo(x, y); to.lineTo(toX, toY); });
+}
+
+export function fillBox(to, color, alpha, ...box) {
+  draw(to, { color, alpha, fill: true }, () => to.rect(...box));
 }
 
 /** The lowest and the highest number of several arrays. */
@@ -17,11 +29,6 @@ export function rangeOf(arrays) {
     }
   }
   return low <= high ? [low, high] : [-1, 1];
-}
-
-/** The text of a tick, without rounding errors, with a minus sign (−). */
-export function short(value) {
-  return String(Number(value.toPrecision(6))).replace("-", "−");
 }
 
 const MARGIN = 0.07, NEAR_ZERO = 1; // [ranges] room above and below; distance within which zero is shown too

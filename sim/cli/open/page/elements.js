@@ -1,45 +1,31 @@
 // Functions that make elements of the page.
 
-/** A sentence as nodes: code is marked, and a number stays with its unit. */
-export function prose(words) {
-  const here = words.replaceAll("± ", "±\u00a0").replaceAll(" %", "\u00a0%").replace(/(\d) (V|rad)\b/g, "$1\u00a0$2");
-  return here.split("`").map((part, k) => (k % 2 ? text("code", part) : part));
-}
-
-export function text(tag, words, kind = "") {
+/** An element with a class or properties and attributes, and with children: elements and texts. */
+export function make(tag, given = {}, ...children) {
   const made = document.createElement(tag);
-  made.textContent = words;
-  if (kind) made.className = kind;
+  for (const [name, value] of Object.entries(typeof given === "string" ? { className: given } : given)) {
+    if (name in made) made[name] = value;
+    else made.setAttribute(name, value);
+  }
+  made.append(...children.flat().filter(Boolean));
   return made;
 }
 
-export function item(kind, words = "") {
-  return text("li", words, kind);
+export function button(kind, words, onclick, more = {}) {
+  return make("button", { type: "button", className: kind, onclick, ...more }, words);
+}
+
+/** A sentence as nodes: code is marked, and a number stays with its unit. */
+export function prose(words) {
+  const here = words.replaceAll("± ", "±\u00a0").replaceAll(" %", "\u00a0%").replace(/(\d) (V|rad|m?s)\b/g, "$1\u00a0$2");
+  return here.split("`").map((part, k) => (k % 2 ? make("code", "", part) : part));
 }
 
 /** An item of which only the first sentence is seen until it is opened. */
-export function foldedItem(kind, title, words) {
-  const made = item(kind);
-  const folded = document.createElement("details");
+export function foldedItem(kind, title, words, ...more) {
   const [, first, rest] = words.trim().match(/^(.*?[.!?](?=\s+[A-Z`]|$)|.*)\s*(.*)$/s);
-  const head = text("summary", "");
-  head.append(text("b", title), " ", ...prose(first));
-  folded.append(head, ...(rest ? [paragraph(rest)] : []));
-  made.append(folded);
-  return made;
-}
-
-function paragraph(words) {
-  const made = text("p", "");
-  made.append(...prose(words));
-  return made;
-}
-
-export function button(kind, words, press) {
-  const made = text("button", words, kind);
-  made.type = "button";
-  made.addEventListener("click", press);
-  return made;
+  const head = make("summary", "", make("b", "", title), " ", prose(first));
+  return make("li", kind, make("details", "", head, rest && make("p", "", prose(rest)), more));
 }
 
 /** A path as a picture; without words it is decoration. */
@@ -54,6 +40,7 @@ export function drawing(box, path, words = "") {
 }
 
 export function figure(value) {
+  if (value === 0) return "0";
   const size = Math.abs(value);
   const digits = size >= 100 ? 0 : size >= 10 ? 2 : size >= 1 ? 3 : size >= 0.001 ? 4 : 5;
   return value.toFixed(digits).replace("-", "−");
@@ -61,8 +48,4 @@ export function figure(value) {
 
 export function sentence(problem) {
   return `${problem.what ?? problem.message}. ${problem.advice ?? ""}`;
-}
-
-export function capital(words) {
-  return words[0].toUpperCase() + words.slice(1);
 }

@@ -1,41 +1,33 @@
 // Parts of every view of the chart: runs, faults, grids, times, overview, marked spans, cursor.
 
-import { line, short } from "./drawing.js";
-import { stepTitle } from "./signals.js";
-import { roundTicks } from "./timeline.js";
+import { draw, drawLine, fillBox } from "./drawing.js";
+import { roundTicks, short } from "./ticks.js";
 
 const WHOLE = 0.6; // [share of the visible part of a run] a longer fault is marked above the run alone
+const APART = 22; // [px] least distance of two lines of a grid
 export const TOP = 44, AXIS = 24; // [px] height above the panels, and of the times below them
-const TITLES = {
-  velocity: ({ symbol }) => `velocity, ${symbol}/s`,
-  error: ({ symbol }) => `measured − simulated, ${symbol}/s`,
-  voltage: () => "voltage, V",
-  position: ({ symbol }) => `position, ${symbol}`,
-  step: stepTitle,
-};
+
+/** The name of a run for people: its part, its kind and the way it goes. */
+export function nameOfRun({ part, test }, letters) {
+  return `${part ? `${part} ` : ""}${test.replace(/-\w+$/, "").slice(0, letters)}${letters ? "." : ""} ${arrowOf(test)}`;
+}
+
+const arrowOf = (test) => (test.endsWith("forward") ? "→" : "←");
 
 /** Draw a stripe and a name for each run. */
 export function drawRuns(chart, to) {
   const { stripe, ink, quiet } = chart.colors;
-  const { bottom } = chart;
   chart.clip(to, () => {
     for (const [k, run] of chart.runs.entries()) {
       const [from, end] = chart.timeline.spanOf(k).map((place) => chart.xOf(place));
       if (end < chart.left || from > chart.right) continue;
-      to.fillStyle = stripe;
-      to.beginPath();
-      to.roundRect(from - 3, TOP - 22, Math.max(end - from + 6, 3), bottom - TOP + 26, 6);
-      to.fill();
+      draw(to, { color: stripe, fill: true }, () => to.roundRect(from - 3, TOP - 22, Math.max(end - from + 6, 3), chart.bottom - TOP + 26, 6));
       const begins = Math.max(from, chart.left) + 2;
       const room = Math.min(end, chart.right) - begins;
-      const [kind, way] = [run.test.replace(/-\w+$/, ""), run.test.endsWith("forward") ? "→" : "←"];
+      const name = [nameOfRun(run), nameOfRun({ test: run.test }, 4), arrowOf(run.test)].find((one) => to.measureText(one).width <= room);
       to.textBaseline = "alphabetic";
-      for (const text of [`${run.part ? `${run.part} ` : ""}${kind} ${way}`, `${kind.slice(0, 4)}. ${way}`, way]) {
-        if (to.measureText(text).width > room) continue;
-        to.fillStyle = k === chart.cursor?.run ? ink : quiet;
-        to.fillText(text, begins, TOP - 30);
-        break;
-      }
+      to.fillStyle = k === chart.cursor?.run ? ink : quiet;
+      if (name) to.fillText(name, begins, TOP - 30);
     }
   });
 }
@@ -50,13 +42,8 @@ export function drawFaults(chart, to) {
       const end = Math.max(chart.xOf(chart.timeline.placeOf(one.run, one.end)), from + 2);
       const run = chart.timeline.spanOf(one.run).map((place) => chart.xOf(place));
       const within = ([first, last]) => Math.min(last, chart.right) - Math.max(first, chart.left);
-      to.fillStyle = fault;
-      if (within([from, end]) < WHOLE * within(run)) {
-        to.globalAlpha = 0.14;
-        to.fillRect(from, TOP - 22, end - from, chart.bottom - TOP + 26);
-        to.globalAlpha = 1;
-      }
-      to.fillRect(from, TOP - 22, end - from, 3);
+      if (within([from, end]) < WHOLE * within(run)) fillBox(to, fault, 0.14, from, TOP - 22, end - from, chart.bottom - TOP + 26);
+      fillBox(to, fault, 1, from, TOP - 22, end - from, 3);
       const width = to.measureText(one.name).width;
       const at = Math.max(Math.min(from, chart.right - width - 6), chart.left);
       if (from < chart.right && end > chart.left && at > free) {
@@ -69,32 +56,49 @@ export function drawFaults(chart, to) {
 
 export function drawGrid(chart, to, name) {
   const { rule, quiet } = chart.colors;
-  const title = TITLES[name](chart);
+  const { title, apart = APART, dashed } = chart.shown.panels[name];
   const y = chart.heights(name);
-  const [low, high] = chart.rangeOfPanel(name);
-  to.textBaseline = "middle";
-  to.fillStyle = quiet;
+  const [low, high] = chart.ranges[name];
   const { top, bottom } = chart.panels[name];
-  const apart = name === "velocity" && !chart.showsSignals ? 38 : 22; // [px]
-  const count = Math.max(2, Math.floor((bottom - top) / apart));
-  for (const tick of roundTicks(low, high, count)) {
-    const at = Math.round(y(tick)) + 0.5;
-    to.strokeStyle = rule;
-    to.lineWidth = Math.abs(tick) < 1e-9 * (high - low) ? 1.6 : 0.8;
-    line(to, chart.left, at, chart.right, at);
-    to.textAlign = "right";
-    to.fillText(short(tick), chart.left - 7, at);
+  const across = (style, value) => drawLine(to, style, chart.left, Math.round(y(value)) + 0.5, chart.right, Math.round(y(value)) + 0.5);
+  to.textBaseline = "middle";
+  to.textAlign = "right";
+  for (const tick of roundTicks(low, high, Math.max(2, Math.floor((bottom - top) / apart)))) {
+    across({ color: rule, width: Math.abs(tick) < 1e-9 * (high - low) ? 1.6 : 0.8 }, tick);
+    to.fillStyle = quiet;
+    to.fillText(short(tick), chart.left - 7, Math.round(y(tick)) + 0.5);
   }
+  if (dashed) across({ color: quiet, dash: [5, 4] }, dashed(chart));
   to.textAlign = "left";
   to.textBaseline = "alphabetic";
-  to.fillText(title, chart.left + 5, name === chart.panelsShown[0].name ? top + 13 : top - 6);
+  to.fillStyle = quiet;
+  to.fillText(title(chart), chart.left + 5, name === Object.keys(chart.panels)[0] ? top + 13 : top - 6);
+}
+
+/** Draw runs of other logs over the velocity. */
+export function drawOthers(chart, to) {
+  const y = chart.heights("velocity");
+  for (const { color, run, time, velocity } of chart.others) {
+    const stride = Math.max(1, Math.floor(time.length / 4000));
+    const [begins, end] = chart.timeline.spanOf(run); // a longer run of another log is cut off
+    draw(to, { color, width: 1.3, alpha: 0.75 }, () => {
+      for (let k = 0; k < time.length && begins + time[k] - time[0] <= end; k += stride) {
+        to.lineTo(chart.xOf(begins + time[k] - time[0]), y(velocity[k]));
+      }
+    });
+  }
+}
+
+/** Draw the band in which the residual is noise. */
+export function drawNoise(chart, to) {
+  const y = chart.heights("error");
+  const high = y(2 * chart.noise);
+  fillBox(to, chart.colors.band, 1, chart.left, high, chart.right - chart.left, y(-2 * chart.noise) - high);
 }
 
 /** Draw times below the runs: those of the log, or in the view of the signals since each test began. */
 export function drawTimes(chart, to) {
   const { quiet, rule } = chart.colors;
-  const at = chart.bottom + 17;
-  to.fillStyle = quiet;
   to.textAlign = "center";
   const apart = (70 / (chart.right - chart.left)) * (chart.view[1] - chart.view[0]);
   let free = chart.left;
@@ -107,9 +111,9 @@ export function drawTimes(chart, to) {
       const text = `${short(tick)} s`;
       const half = to.measureText(text).width / 2;
       if (x - half < free || x + half > chart.right + 6) continue;
-      to.fillText(text, x, at);
-      to.strokeStyle = rule;
-      line(to, x, chart.bottom + 3, x, chart.bottom + 6);
+      drawLine(to, { color: rule }, x, chart.bottom + 3, x, chart.bottom + 6);
+      to.fillStyle = quiet;
+      to.fillText(text, x, chart.bottom + 17);
       free = x + half + 10;
     }
   }
@@ -123,76 +127,52 @@ export function drawOverview(chart, to) {
   const x = (place) => chart.left + (place / chart.timeline.end) * (chart.right - chart.left);
   const [low, high] = chart.wholeRange;
   const y = (value) => bottom - ((value - low) / (high - low)) * (bottom - top);
-  to.strokeStyle = measured;
-  to.globalAlpha = 0.85;
-  to.lineWidth = 1.2;
   for (const [k, run] of chart.runs.entries()) {
     const [from, end] = chart.timeline.spanOf(k).map(x);
-    to.fillStyle = stripe;
-    to.fillRect(from, top, Math.max(end - from, 1), bottom - top);
     const stride = Math.max(1, Math.floor(run.time.length / 400));
-    to.beginPath();
-    for (let i = 0; i < run.time.length; i += stride) {
-      to.lineTo(x(chart.timeline.placeOf(k, run.time[i])), y(run.velocity[i]));
-    }
-    to.stroke();
+    fillBox(to, stripe, 0.85, from, top, Math.max(end - from, 1), bottom - top);
+    draw(to, { color: measured, width: 1.2, alpha: 0.85 }, () => {
+      for (let i = 0; i < run.time.length; i += stride) to.lineTo(x(chart.timeline.placeOf(k, run.time[i])), y(run.velocity[i]));
+    });
   }
-  to.globalAlpha = 1;
-  to.fillStyle = fault;
   for (const one of chart.faults) {
     const from = x(chart.timeline.placeOf(one.run, one.start));
-    to.fillRect(from, top, Math.max(x(chart.timeline.placeOf(one.run, one.end)) - from, 2), 3);
+    fillBox(to, fault, 1, from, top, Math.max(x(chart.timeline.placeOf(one.run, one.end)) - from, 2), 3);
   }
-  const seen = chart.view.map((place) => Math.min(Math.max(x(place), chart.left), chart.right));
-  to.strokeStyle = rule;
-  to.lineWidth = 1;
-  to.strokeRect(chart.left + 0.5, top + 0.5, chart.right - chart.left - 1, bottom - top - 1);
-  if (seen[1] - seen[0] < chart.right - chart.left - 2) {
-    to.globalAlpha = 0.12;
-    to.fillStyle = simulated;
-    to.fillRect(seen[0], top, seen[1] - seen[0], bottom - top);
-    to.globalAlpha = 1;
-    to.strokeStyle = simulated;
-    to.lineWidth = 1.5;
-    to.strokeRect(seen[0] + 0.5, top + 0.5, seen[1] - seen[0] - 1, bottom - top - 1);
-  }
+  const [from, end] = chart.view.map((place) => Math.min(Math.max(x(place), chart.left), chart.right));
+  draw(to, { color: rule }, () => to.rect(chart.left + 0.5, top + 0.5, chart.right - chart.left - 1, bottom - top - 1));
+  if (end - from >= chart.right - chart.left - 2) return;
+  fillBox(to, simulated, 0.12, from, top, end - from, bottom - top);
+  draw(to, { color: simulated, width: 1.5 }, () => to.rect(from + 0.5, top + 0.5, end - from - 1, bottom - top - 1));
 }
 
 /** Draw the spans that the user marked, each with two edges to drag. */
 export function drawSpans(chart, to) {
   const { mark } = chart.colors;
+  const [top, high] = [TOP - 22, chart.bottom - TOP + 26];
   for (const [run, span] of chart.spans) {
     const [from, end] = span.map((sample) => chart.xOf(chart.timeline.placeOf(run, chart.runs[run].time[sample])));
-    to.fillStyle = mark;
-    to.globalAlpha = 0.2;
-    to.fillRect(from, TOP - 22, Math.max(end - from, 1), chart.bottom - TOP + 26);
-    to.globalAlpha = 1;
+    fillBox(to, mark, 0.2, from, top, Math.max(end - from, 1), high);
     for (const x of [from, end]) {
-      to.fillRect(x - 0.75, TOP - 22, 1.5, chart.bottom - TOP + 26);
-      to.beginPath();
-      to.roundRect(x - 3, TOP + 2, 6, 22, 3);
-      to.fill();
+      draw(to, { color: mark, fill: true }, () => { to.rect(x - 0.75, top, 1.5, high); to.roundRect(x - 3, TOP + 2, 6, 22, 3); });
     }
   }
 }
 
-export function drawCursor(chart, to, marks) {
+/** Draw a line at the cursor, and a dot on each curve. */
+export function drawCursor(chart, to) {
   const { run, sample } = chart.cursor;
   const x = chart.xOf(chart.timeline.placeOf(run, chart.runs[run].time[sample]));
   if (x < chart.left - 1 || x > chart.right + 1) return;
   const { ink, card } = chart.colors;
-  to.strokeStyle = ink;
-  to.globalAlpha = 0.55;
-  to.lineWidth = 1;
-  line(to, Math.round(x) + 0.5, TOP - 22, Math.round(x) + 0.5, chart.bottom + 4);
-  to.globalAlpha = 1;
-  for (const [at, color] of marks) {
-    to.beginPath();
-    to.arc(x, at, 4, 0, 7);
-    to.fillStyle = color;
-    to.fill();
-    to.lineWidth = 1.5;
-    to.strokeStyle = card;
-    to.stroke();
+  drawLine(to, { color: ink, alpha: 0.55 }, Math.round(x) + 0.5, TOP - 22, Math.round(x) + 0.5, chart.bottom + 4);
+  for (const { panel, label, of, color } of chart.shown.curves) {
+    const one = panel && label && of(chart, run);
+    const value = one && one.values[sample - one.first];
+    if (!Number.isFinite(value)) continue;
+    const { top, bottom } = chart.panels[panel];
+    const dot = () => to.arc(x, Math.min(Math.max(chart.heights(panel)(value), top), bottom), 4, 0, 7);
+    draw(to, { color: chart.colors[color], fill: true }, dot);
+    draw(to, { color: card, width: 1.5 }, dot);
   }
 }

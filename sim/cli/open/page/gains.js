@@ -1,7 +1,7 @@
 // The gains: sliders, simulation error, feedback, robot code.
 
 import { addressOf, askLog } from "./api.js";
-import { capital, figure, prose, sentence, text } from "./elements.js";
+import { figure, make, prose, sentence } from "./elements.js";
 import { modelQuery, shownLog } from "./logs.js";
 import { at, copy } from "./page.js";
 import { simulate } from "./simulation.js";
@@ -22,7 +22,7 @@ export function showFit() {
   showDoubts();
   if (!fit) {
     for (const id of ["sliders", "meter", "feedback"]) at(id).replaceChildren();
-    at("verdict").textContent = fitRefused ? capital(sentence(fitRefused)) : log.summary.compiles
+    at("verdict").textContent = fitRefused ? sentence(fitRefused).replace(/^./, (one) => one.toUpperCase()) : log.summary.compiles
       ? "The simulation is compiled first. That is done once, and takes about twenty seconds." : "";
     return;
   }
@@ -38,12 +38,8 @@ export function showFit() {
 
 /** Feedback gains to start with, as SysId suggests them. */
 function showFeedback({ feedback }) {
-  const rows = Object.entries(feedback).map(([loop, { kP, kD }]) => {
-    const pair = document.createElement("div");
-    const gains = [`kP ${figure(kP)}`, ...(kD ? [`kD ${figure(kD)}`] : [])];
-    pair.append(text("dt", `${loop} loop`), text("dd", gains.join("  ")));
-    return pair;
-  });
+  const rows = Object.entries(feedback).map(([loop, { kP, kD }]) =>
+    make("div", "", make("dt", "", `${loop} loop`), make("dd", "", `kP ${figure(kP)}${kD ? `  kD ${figure(kD)}` : ""}`)));
   at("feedback").replaceChildren(...rows);
 }
 
@@ -74,19 +70,18 @@ function showMeter(log, error) {
     const why = log.fit.tracks
       ? "The search took the mean of several motors, so the curves of this model are not drawn."
       : "Nothing moves with these gains: kV and kA have to be above zero.";
-    at("meter").replaceChildren(text("p", why, "quiet"));
+    at("meter").replaceChildren(make("p", "quiet", why));
     return;
   }
   const { si, symbol } = log.summary.units;
   const floors = (error * si) / log.fit.noise;
-  const gap = text("p", "", "gap");
-  gap.append(text("b", floors.toPrecision(floors < 10 ? 2 : 3)), " × sensor noise, ", text("b", (100 * error / log.top).toPrecision(2)), "\u00a0% of top speed");
+  const gap = make("p", "gap", make("b", "", floors.toPrecision(floors < 10 ? 2 : 3)), " × sensor noise, ",
+    make("b", "", (100 * error / log.top).toPrecision(2)), "\u00a0% of top speed");
   const ratio = error / log.fitError;
   const moved = log.moved ? `, ${ratio >= 10 ? Math.round(ratio) : ratio.toFixed(2)} × that of the fit` : "";
-  const bar = text("div", "", "bar-of-error");
+  const bar = make("div", `bar-of-error${floors > 2 ? " far" : ""}`);
   bar.style.setProperty("--share", Math.min(1, Math.max(0.04, 1 / floors)));
-  bar.classList.toggle("far", floors > 2);
-  at("meter").replaceChildren(gap, text("p", `simulation error ${figure(error)} ${symbol}/s${moved}`, "quiet"), bar);
+  at("meter").replaceChildren(gap, make("p", "quiet", `simulation error ${figure(error)} ${symbol}/s${moved}`), bar);
 }
 
 /** Robot code with the gains; those that the user moved replace those of the fit. */

@@ -1,7 +1,7 @@
 // The logs of sysid watch, which grow.
 
 import { ask } from "./api.js";
-import { item, prose } from "./elements.js";
+import { make, prose } from "./elements.js";
 import { begin, load, logs } from "./logs.js";
 import { at, guarded } from "./page.js";
 
@@ -29,11 +29,9 @@ function showLive({ status, counts, next }) {
   at("empty-title").textContent = "Waiting for the first test.";
   at("empty-lead").textContent = "Run the four tests in any order. The log appears here when one has ended.";
   at("live-status").textContent = status;
-  const words = Object.entries(counts).map(([test, count]) => {
-    const one = item(count ? "done" : "", `${test}${count > 1 ? ` (${count})` : ""}`);
-    one.setAttribute("aria-label", `${test}: ${count ? `${count} recorded` : "missing"}`);
-    return one;
-  });
+  const words = Object.entries(counts).map(([test, count]) => make("li", {
+    className: count ? "done" : "", "aria-label": `${test}: ${count ? `${count} recorded` : "missing"}`,
+  }, `${test}${count > 1 ? ` (${count})` : ""}`));
   at("live-tests").replaceChildren(...words);
   const said = at("live-next");
   if (said.dataset.said !== next) said.replaceChildren(...prose(next)); // only when it has changed

@@ -1,6 +1,6 @@
 // The open logs, and what is known of each: its runs, faults, gains and missing effects.
 
-import { Refused, ask, askLog, askSamples, openFile, saved, stopSearch } from "./api.js";
+import { Refused, addressOf, ask, askLog, askSamples, saved } from "./api.js";
 import { sentence } from "./elements.js";
 import { guarded, keep, recall } from "./page.js";
 import { simulate } from "./simulation.js";
@@ -38,7 +38,8 @@ export function activate(id) {
 
 /** Open dropped files, and show the first of them. */
 export async function openAll(files) {
-  await Promise.all([...files].map((file, k) => guarded(file.name, async () => begin(await openFile(file), { show: k === 0 }))));
+  await Promise.all([...files].map((file, k) => guarded(file.name, async () =>
+    begin(await ask(`logs?name=${encodeURIComponent(file.name)}`, { method: "POST", body: file }), { show: k === 0 }))));
 }
 
 /** Add a log that the server opened: read it, show it, then request faults and gains.
@@ -179,10 +180,9 @@ function takeFit(log, fit) {
 
 /** Fit again without these parts: {test, start, end}, in the log's time. */
 export function leaveOut(log, parts) {
-  Object.assign(log, { leftOut: parts, effects: [], fit: null, fitRefused: null, asked: {} });
+  Object.assign(log, { leftOut: parts, effects: [], search: null, fit: null, fitRefused: null, asked: {} });
   setBusy(log, true);
-  changed(log, "faults");
-  changed(log, "fit");
+  for (const what of ["faults", "fit", "story"]) changed(log, what);
   guarded(log.name, () => askFit(log, log.asked)).then(() => setBusy(log, false));
 }
 
@@ -213,7 +213,7 @@ export async function reconcile(log, settings, effects) {
   changed(log, "story");
   try {
     while (!search.story) {
-      Object.assign(search, await askLog(log.id, "reconcile", { ...log.query, ...settings }));
+      Object.assign(search, await askLog(log.id, "reconcile", modelQuery(log)));
       if (log.asked !== asked) return;
       changed(log, "story");
       if (!search.story) await new Promise((done) => setTimeout(done, POLL));
@@ -230,7 +230,7 @@ export async function reconcile(log, settings, effects) {
 /** Let a search end with what it has. */
 export function stop(log) {
   log.search.stopped = true;
-  stopSearch(log.id, { ...log.query, ...log.search.settings });
+  ask(addressOf(log.id, "reconcile", modelQuery(log)), { method: "DELETE" });
   changed(log, "story");
 }
 

@@ -50,14 +50,12 @@ at("example").addEventListener("click", () => guarded("example", async () => beg
 at("rechoose").addEventListener("click", () => offerChoice(shownLog()));
 for (const id of ["type", "units"]) at(id).addEventListener("change", () => choose(shownLog(), id, at(id).value));
 
-let over = 0;
-addEventListener("dragenter", (event) => { event.preventDefault(); over++; at("veil").classList.add("seen"); });
-addEventListener("dragover", (event) => event.preventDefault());
-addEventListener("dragleave", () => { if (--over <= 0) at("veil").classList.remove("seen"); });
+const cover = (seen) => at("veil").classList.toggle("seen", seen);
+addEventListener("dragover", (event) => { event.preventDefault(); cover(true); });
+addEventListener("dragleave", (event) => { if (!event.relatedTarget) cover(false); });
 addEventListener("drop", (event) => {
   event.preventDefault();
-  over = 0;
-  at("veil").classList.remove("seen");
+  cover(false);
   if (event.dataTransfer.files.length) openAll(event.dataTransfer.files);
 });
 

@@ -1,7 +1,7 @@
 // The page itself: its elements, messages, and the clipboard.
 
 import { Refused } from "./api.js";
-import { button, text } from "./elements.js";
+import { button, make } from "./elements.js";
 
 export const at = (id) => document.getElementById(id);
 
@@ -16,12 +16,9 @@ export async function guarded(name, work) {
 }
 
 function showRefusal(name, problem) {
-  const card = text("article", "", "refusal");
-  card.setAttribute("role", "alert");
-  card.append(text("h3", name), text("p", `${problem.what ?? problem.message}.`), text("p", problem.advice ?? "", "advice"));
-  const close = button("close", "×", () => card.remove());
-  close.setAttribute("aria-label", "Close this message");
-  card.append(close);
+  const card = make("article", { className: "refusal", role: "alert" },
+    make("h3", "", name), make("p", "", `${problem.what ?? problem.message}.`), make("p", "advice", problem.advice),
+    button("close", "×", () => card.remove(), { "aria-label": "Close this message" }));
   at("refusals").prepend(card);
 }
 

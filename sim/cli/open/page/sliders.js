@@ -1,6 +1,6 @@
 // The gains: a slider and a number for each, with the fit's own value and its error marked.
 
-import { text } from "./elements.js";
+import { make } from "./elements.js";
 
 const STEPS = 2000; // steps of a slider
 const TINY = 0.0001; // smaller errors are shown as an upper bound
@@ -38,26 +38,17 @@ export class Sliders {
 
   makeRow(gain, value) {
     const [low, high] = endsOf(gain);
-    const place = document.createElement("div");
-    const label = text("label", nameOf(gain.name), "name");
-    const number = text("input", "", "number");
-    const slider = text("input", "", "slider");
-    const id = `gain-${gain.name}`;
-    label.htmlFor = id;
-    label.title = gain.means;
-    Object.assign(slider, { id, type: "range", min: low, max: high, step: (high - low) / STEPS });
-    Object.assign(number, { type: "text", inputMode: "decimal", spellcheck: false });
-    number.setAttribute("aria-label", `${nameOf(gain.name)} as a number`);
-    slider.setAttribute("aria-describedby", `${id}-means`);
-    const means = text("p", gain.means, "means");
-    means.id = `${id}-means`;
-    means.title = gain.means;
-    const error = text("span", `± ${errorText(gain)}`, "error");
-    error.title = "one standard error";
+    const [id, name] = [`gain-${gain.name}`, nameOf(gain.name)];
+    const number = make("input", { className: "number", type: "text", inputMode: "decimal", spellcheck: false, "aria-label": `${name} as a number` });
+    const slider = make("input", { id, className: "slider", type: "range", min: low, max: high, step: (high - low) / STEPS, "aria-describedby": `${id}-means` });
+    const place = make("div", "gain",
+      make("div", "top", make("label", { className: "name", htmlFor: id, title: gain.means }, name), number,
+        make("span", { className: "error", title: "one standard error" }, `± ${errorText(gain)}`), make("span", "unit", gain.unit)),
+      slider, make("p", { id: `${id}-means`, className: "means", title: gain.means }, gain.means));
     const share = (one) => Math.min(Math.max((one - low) / (high - low), 0), 1);
     slider.style.setProperty("--fit", share(gain.value));
     const row = { gain, value, place };
-    const put = (to, { typed = false } = {}) => {
+    row.put = (to, { typed = false } = {}) => {
       row.value = to;
       slider.value = to;
       slider.style.setProperty("--at", share(to));
@@ -65,21 +56,17 @@ export class Sliders {
       slider.setAttribute("aria-valuetext", `${rounded(to, gain.error)} ${gain.unit}`);
       place.classList.toggle("moved", to !== gain.value);
     };
-    slider.addEventListener("input", () => { put(Number(slider.value)); this.onMove(this.values); });
-    slider.addEventListener("dblclick", () => { put(gain.value); this.onMove(this.values); });
-    number.addEventListener("input", () => {
+    const move = (to, how) => { row.put(to, how); this.onMove(this.values); };
+    slider.oninput = () => move(Number(slider.value));
+    slider.ondblclick = () => move(gain.value);
+    number.oninput = () => {
       const typed = Number(number.value.replace("−", "-").replace(",", "."));
       const fine = number.value.trim() !== "" && Number.isFinite(typed);
       number.toggleAttribute("aria-invalid", !fine);
-      if (fine) { put(typed, { typed: true }); this.onMove(this.values); }
-    });
-    number.addEventListener("blur", () => { number.removeAttribute("aria-invalid"); number.value = rounded(row.value, gain.error); });
-    row.put = put;
-    place.className = "gain";
-    put(value);
-    const head = text("div", "", "top");
-    head.append(label, number, error, text("span", gain.unit, "unit"));
-    place.append(head, slider, means);
+      if (fine) move(typed, { typed: true });
+    };
+    number.onblur = () => { number.removeAttribute("aria-invalid"); number.value = rounded(row.value, gain.error); };
+    row.put(value);
     return row;
   }
 

@@ -1,7 +1,8 @@
 // The card of the chart: the log's name, its runs, the values at the cursor, marked spans, other logs.
 
 import { Chart } from "./chart.js";
-import { button, figure, text } from "./elements.js";
+import { button, figure, make } from "./elements.js";
+import { nameOfRun } from "./frame.js";
 import { leaveOut, logs, shownLog, state } from "./logs.js";
 import { at, copy, pressOne, say } from "./page.js";
 import { writeSpans } from "./spans.js";
@@ -37,13 +38,8 @@ export function showReading(log) {
 }
 
 function showRuns(log) {
-  const chips = log.runs.map((run, k) => {
-    const way = run.test.endsWith("forward") ? "→" : "←";
-    const label = `${run.part ? `${run.part} ` : ""}${run.test.replace(/-\w+$/, "")} ${way}`;
-    const chip = button("chip", label, () => chart.showRun(k));
-    chip.setAttribute("aria-label", `Show run ${k}, ${run.part} ${run.test}`);
-    return chip;
-  });
+  const chips = log.runs.map((run, k) =>
+    button("chip", nameOfRun(run), () => chart.showRun(k), { "aria-label": `Show run ${k}, ${run.part} ${run.test}` }));
   at("runs").replaceChildren(button("chip all", "All", () => chart.showAll()), ...chips);
 }
 
@@ -75,45 +71,21 @@ function showSpans(spans) {
   at("span-hint").textContent = words ? pattern.hint : "Drag across a test to mark a part of it. Its times then stand here, ready to copy.";
 }
 
+/** Show the run, the times and the values of all curves at the cursor. */
 export function showCursor(cursor) {
   const log = shownLog();
   if (!log?.runs) return;
-  const { symbol } = log.summary.units;
   const run = cursor && log.runs[cursor.run];
-  const k = cursor?.sample;
-  const one = cursor && log.simulated?.[cursor.run];
-  const guess = one && k >= one.first ? one.velocity[k - one.first] : undefined;
-  const derived = run && chart.derived?.runs[cursor.run];
-  const value = (number, unit) => (number === undefined ? "–" : `${figure(number)} ${unit}`);
-  const time = ["time", run ? `${run.time[k].toFixed(3)} s` : "–", ""];
-  const of = {
-    run: ["run", run ? run.test : "point at the curve", "run"],
-    volts: ["voltage", value(run?.voltage[k], "V"), "volts"],
-    position: ["position", value(run?.position[k], symbol), chart.showsSignals ? "place" : ""],
-    measured: [chart.showsSignals ? "velocity" : "measured", value(run?.velocity[k], `${symbol}/s`), "measured"],
-  };
-  const rows = chart.showsSignals
-    ? [
-        of.run,
-        ["time in the test", run ? `${(run.time[k] - run.time[0]).toFixed(3)} s` : "–", ""],
-        of.volts,
-        of.measured,
-        of.position,
-        ["slope of position", value(derived?.slope[k], `${symbol}/s`), "place"],
-        ["time step", run && k ? `${derived.step[k - 1].toFixed(1)} ms` : "–", ""],
-        ["time in the log", time[1], ""],
-      ]
-    : [
-        of.run, time, of.volts, of.measured,
-        ["simulated", value(guess, `${symbol}/s`), "simulated"],
-        ["error", value(guess === undefined ? undefined : run.velocity[k] - guess, `${symbol}/s`), "left"],
-        of.position,
-      ];
-  at("readout").replaceChildren(...rows.map(([name, value, kind]) => {
-    const pair = text("div", "", kind);
-    pair.append(text("dt", name), text("dd", value));
-    return pair;
-  }));
+  const seconds = (since) => (run ? `${(run.time[cursor.sample] - since).toFixed(3)} s` : "–");
+  const times = chart.showsSignals
+    ? [["time in the test", seconds(run?.time[0])], ["time in the log", seconds(0)]] : [["time", seconds(0)]];
+  const values = chart.shown.curves.filter(({ label }) => label).map(({ label, of, unit, color }) => {
+    const one = run && of(chart, cursor.run);
+    const value = one?.values[cursor.sample - one.first];
+    return [label, value === undefined ? "–" : `${figure(value)} ${unit(chart)}`, color];
+  });
+  const rows = [["run", run ? run.test : "point at the curve", "run"], ...times, ...values];
+  at("readout").replaceChildren(...rows.map(([name, value, kind = ""]) => make("div", kind, make("dt", "", name), make("dd", "", value))));
 }
 
 /** Draw the runs of other logs over those of the same test, in their order. */
@@ -132,7 +104,7 @@ export function showOthers() {
       laid.push({ color: OTHERS[k % OTHERS.length], run, time: theirs.time, velocity: theirs.velocity.map((value) => value * factor) });
     }
   }
-  chart.setOthers(laid);
+  chart.mark({ others: laid });
   document.querySelector(".legend .other").hidden = !others.length;
 }
 

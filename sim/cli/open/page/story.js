@@ -1,6 +1,6 @@
 // The story of a search for missing effects.
 
-import { button, foldedItem, item, prose, text } from "./elements.js";
+import { button, foldedItem, make, prose } from "./elements.js";
 import { chooseEffects, logs, reconcile, shownLog, stop } from "./logs.js";
 import { at, guarded } from "./page.js";
 import { errorText, nameOf, rounded } from "./sliders.js";
@@ -10,77 +10,60 @@ export function showStory() {
   const { search } = log;
   const place = at("story");
   if (search && !search.story && !search.refused) {
-    const bar = place.querySelector("progress") ?? Object.assign(document.createElement("progress"), { max: 1 });
-    bar.value = search.share;
-    bar.setAttribute("aria-label", "How far the search is");
+    const bar = place.querySelector("progress") ?? make("progress", { max: 1, "aria-label": "How far the search is" });
     const end = place.querySelector(".stop") ?? button("button stop", "Stop", () => stop(log));
+    bar.value = search.share;
     end.disabled = search.stopped;
-    place.replaceChildren(text("p", `${search.stopped ? "stopping after" : ""} ${search.words}…`, "quiet"), bar, end);
+    place.replaceChildren(make("p", "quiet", `${search.stopped ? "stopping after" : ""} ${search.words}…`), bar, end);
     return;
   }
   const others = [...logs.values()].filter((one) => one !== log && one.runs);
   const parts = !search
-    ? [text("p", "Tries every effect of the catalogue, drag to backlash, and names those that explain the simulation error. " + (log.summary.compiled
-        ? "This takes some seconds." : "This takes minutes: Numba is not installed. With the extra fast it takes seconds."), "quiet")]
-    : search.refused ? [item("grave", search.refused)]
+    ? [make("p", "quiet", "Tries every effect of the catalogue, drag to backlash, and names those that explain the simulation error. ", log.summary.compiled
+        ? "This takes some seconds." : "This takes minutes: Numba is not installed. With the extra fast it takes seconds.")]
+    : search.refused ? [make("li", "grave", search.refused)]
       : storyParts(search.story, log, (effects) => guarded(log.name, () => chooseEffects(log, effects)));
   place.replaceChildren(...parts, searchForm(search, others, (settings) => guarded(log.name, () => reconcile(log, settings))));
 }
 
 /** The headline, the models to choose from, the findings, and where the base model is wrong. */
 function storyParts(story, log, choose) {
-  const head = text("p", "", "headline");
-  head.append(...prose(story.headline));
-  const found = story.findings.map((one) => {
-    const card = text("article", "", "finding");
-    const name = text("h3", plain(one.name));
-    name.append(text("span", one.kind === "fault" ? "damage" : one.size, "badge"));
-    card.append(name, text("p", one.sentence));
-    for (const words of one.parameters) card.append(text("p", words, "where"));
-    for (const [title, words] of one.look) card.append(text("p", `${title}: ${words}`, "advice"));
-    return card;
-  });
+  const found = story.findings.map((one) => make("article", "finding",
+    make("h3", "", plain(one.name), make("span", "badge", one.kind === "fault" ? "damage" : one.size)),
+    make("p", "", one.sentence),
+    one.parameters.map((words) => make("p", "where", words)),
+    one.look.map(([title, words]) => make("p", "advice", `${title}: ${words}`))));
   const rest = [story.caution, ...story.next.map((one) => `Test to run next: ${one}`), ...story.remarks]
-    .filter(Boolean).map((words) => { const made = item("look"); made.append(...prose(words)); return made; });
+    .filter(Boolean).map((words) => make("li", "look", prose(words)));
   const places = story.places.length
-    ? [text("p", "Where the base model is wrong most", "quiet places"), list(story.places.map((one) => item("busy", one)))]
+    ? [make("p", "quiet places", "Where the base model is wrong most"), make("ul", "doubts", story.places.map((one) => make("li", "busy", one)))]
     : [];
   const tried = foldedItem("busy", "Tried", `Score of each effect, and what became of it. ${story.tried.join("; ")}.`);
   const models = story.effects.length && log.plain ? [modelChoice(story, log, choose)] : [];
-  return [head, ...models, gapBars(story), ...found, list([...rest, tried]), ...places, text("p", story.how, "quiet how")];
+  return [make("p", "headline", prose(story.headline)), ...models, gapBars(story), ...found, make("ul", "doubts", rest, tried), ...places, make("p", "quiet how", story.how)];
 }
 
 /** A box to tick for each effect, and the gains without effects and with those ticked. */
 function modelChoice({ effects }, { effects: chosen, plain: without, fit }, choose) {
-  const boxes = text("fieldset", "", "models");
-  boxes.append(text("legend", "Effects in the model"), ...effects.map((name) => {
-    const label = text("label", "");
-    const box = Object.assign(document.createElement("input"), { type: "checkbox", checked: chosen.includes(name) });
-    box.addEventListener("change", () => choose(effects.filter((one) => (one === name ? box.checked : chosen.includes(one)))));
-    label.append(box, plain(name));
-    return label;
-  }));
-  const table = text("table", "", "gains-table");
-  const say = ({ value, ...gain }) => `${rounded(value, gain.error)} ± ${errorText(gain)}`;
-  const row = (tag, words) => { const made = text("tr", ""); made.append(...words.map((one) => text(tag, one))); return made; };
-  table.append(
-    row("th", ["", "without", chosen.length ? `with ${chosen.map(plain).join(", ")}` : "with the ticked effects", ""]),
-    ...without.gains.map((gain, k) => row("td", [nameOf(gain.name), say(gain), chosen.length ? say(fit.gains[k]) : "–", gain.unit])),
-  );
-  boxes.append(table);
-  return boxes;
+  const boxes = effects.map((name) => {
+    const onchange = ({ target }) => choose(effects.filter((one) => (one === name ? target.checked : chosen.includes(one))));
+    return make("label", "", make("input", { type: "checkbox", checked: chosen.includes(name), onchange }), plain(name));
+  });
+  const say = ({ value, ...gain }) => `${rounded(value, gain.error)} ±\u00a0${errorText(gain)}`;
+  const row = (tag, words) => make("tr", "", words.map((one) => make(tag, "", one)));
+  const table = make("table", "gains-table",
+    row("th", ["gain", "without", chosen.length ? `with ${chosen.map(plain).join(", ")}` : "with the ticked effects", "unit"]),
+    without.gains.map((gain, k) => row("td", [nameOf(gain.name), say(gain), chosen.length ? say(fit.gains[k]) : "–", gain.unit])));
+  return make("fieldset", "models", make("legend", "", "Effects in the model"), boxes, table);
 }
 
 /** Other open logs that take part, and the button that begins a search. */
 function searchForm(search, others, begin) {
-  const form = text("div", "", "row search");
+  const form = make("div", "row search");
   const pick = (title, role) => {
-    const label = text("label", `${title} `);
-    const select = document.createElement("select");
-    select.append(new Option("no other log", ""), ...others.map((one) => new Option(one.name, one.id)));
+    const select = make("select", "", new Option("no other log", ""), others.map((one) => new Option(one.name, one.id)));
     select.value = search?.settings[role] ?? "";
-    label.append(select);
-    return [label, select];
+    return [make("label", "", `${title} `, select), select];
   };
   const [[confirm, validation], [show, heldOut]] = [pick("Confirm effects with", "validation"), pick("Show the gap on", "held_out")];
   const press = (words, longer) => button("button", words, () => begin({ validation: validation.value, held_out: heldOut.value, longer }));
@@ -94,24 +77,11 @@ function searchForm(search, others, begin) {
 /** The gap of each model as a bar, in times the noise; 1 is noise alone. */
 function gapBars({ gaps }) {
   const most = Math.max(1, ...gaps.map(({ gap }) => gap ?? 0));
-  const rows = gaps.map(({ name, text: words, gap }, k) => {
-    const row = text("div", "", k === gaps.length - 1 ? "last" : "");
-    const bar = text("i", "");
-    bar.style.setProperty("--share", (gap ?? most) / most);
-    row.append(text("span", name), bar, text("b", words));
-    return row;
-  });
-  const bars = text("div", "", "gaps");
-  bars.append(text("p", "Simulation error, in times the noise of the velocity", "quiet"), ...rows);
-  return bars;
+  const rows = gaps.map(({ name, text, gap }, k) => make("div", k === gaps.length - 1 ? "last" : "",
+    make("span", "", name), make("i", { style: `--share: ${(gap ?? most) / most}` }), make("b", "", text)));
+  return make("div", "gaps", make("p", "quiet", "Simulation error, in times the noise of the velocity"), rows);
 }
 
 function plain(name) {
   return name.replaceAll("-", " ");
-}
-
-function list(rows) {
-  const made = text("ul", "", "doubts");
-  made.append(...rows);
-  return made;
 }

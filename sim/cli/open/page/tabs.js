@@ -1,6 +1,6 @@
 // The tabs of the open logs.
 
-import { button, drawing, text } from "./elements.js";
+import { button, drawing, make } from "./elements.js";
 import { activate, forget, logs, state } from "./logs.js";
 import { at } from "./page.js";
 import { showOthers } from "./stage.js";
@@ -14,21 +14,12 @@ export function showTabs() {
 
 function makeTab(log) {
   const now = log.id === state.active;
-  const tab = text("div", "", `tab${now ? " now" : ""}`);
-  const name = button("name", log.name, () => activate(log.id));
-  if (now) name.setAttribute("aria-current", "true");
-  tab.append(name);
-  if (log.choice) tab.append(text("span", "choose signals", "badge"));
-  if (!now && log.runs) {
-    const over = button("over", "", () => { log.others = !log.others; showOthers(); showTabs(); });
-    over.append(drawing("0 0 16 16", LAID_OVER));
-    over.setAttribute("aria-pressed", String(log.others));
-    over.setAttribute("aria-label", `Lay ${log.name} over the log that is seen`);
-    over.title = "Lay over";
-    tab.append(over);
-  }
-  const close = button("close", "×", () => forget(log.id));
-  close.setAttribute("aria-label", `Close ${log.name}`);
-  tab.append(close);
-  return tab;
+  const lay = () => { log.others = !log.others; showOthers(); showTabs(); };
+  return make("div", `tab${now ? " now" : ""}`,
+    button("name", log.name, () => activate(log.id), now ? { "aria-current": "true" } : {}),
+    log.choice && make("span", "badge", "choose signals"),
+    !now && log.runs && button("over", drawing("0 0 16 16", LAID_OVER), lay, {
+      title: "Lay over", "aria-pressed": String(log.others), "aria-label": `Lay ${log.name} over the log that is seen`,
+    }),
+    button("close", "×", () => forget(log.id), { "aria-label": `Close ${log.name}` }));
 }

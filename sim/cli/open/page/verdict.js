@@ -1,6 +1,6 @@
 // The verdict and its warnings, and the faults of the log.
 
-import { button, foldedItem, item, prose, text } from "./elements.js";
+import { button, foldedItem, make, prose } from "./elements.js";
 import { choose, leaveOut, nameOfPart, shownLog } from "./logs.js";
 import { at } from "./page.js";
 import { chart, listMarks } from "./stage.js";
@@ -12,23 +12,22 @@ export function showFaults() {
   const log = shownLog();
   const place = at("faults");
   if (!log.faults) {
-    for (const one of [place, at("fault-lines")]) one.replaceChildren(item("busy", "Looking for faults…"));
+    for (const one of [place, at("fault-lines")]) one.replaceChildren(make("li", "busy", "Looking for faults…"));
     return;
   }
-  chart.setFaults(listMarks(log));
+  chart.mark({ faults: listMarks(log) });
   const growing = log.revision > 0; // then a missing test is not a fault
   const faults = log.faults.faults.filter(({ fault }) => !(growing && fault === "missing-test"));
   const rows = faults.slice(0, MOST_SHOWN).map((one) => faultCard(log, one));
-  if (faults.length > MOST_SHOWN) rows.push(item("busy", `${faults.length - MOST_SHOWN} more are marked on the time axis.`));
+  if (faults.length > MOST_SHOWN) rows.push(make("li", "busy", `${faults.length - MOST_SHOWN} more are marked on the time axis.`));
   const none = `No fault in ${log.runs.length === 1 ? "this run" : `these ${log.runs.length} runs`}.`;
-  place.replaceChildren(...rows.length ? rows : [item("well", none)]);
+  place.replaceChildren(...rows.length ? rows : [make("li", "well", none)]);
   const lines = faults.slice(0, MOST_LINES).map((one) => {
-    const line = item("grave");
-    line.append(button("link", `${one.fault.replaceAll("-", " ")} (${surenessOf(one)})${one.test ? `: ${one.test}` : ""}`, () => showFault(one)));
-    return line;
+    const words = `${one.fault.replaceAll("-", " ")} (${surenessOf(one)})${one.test ? `: ${one.test}` : ""}`;
+    return make("li", "grave", button("link", words, () => showFault(one)));
   });
-  if (faults.length > MOST_LINES) lines.push(item("busy", `${faults.length - MOST_LINES} more below`));
-  at("fault-lines").replaceChildren(...lines.length ? lines : [item("well", none)], ...leftOutLines(log));
+  if (faults.length > MOST_LINES) lines.push(make("li", "busy", `${faults.length - MOST_LINES} more below`));
+  at("fault-lines").replaceChildren(...lines.length ? lines : [make("li", "well", none)], ...leftOutLines(log));
   showDoubts();
 }
 
@@ -44,33 +43,23 @@ function showFault(one) {
 }
 
 function faultCard(log, one) {
-  const card = item("fault");
-  const name = text("h3", one.fault.replaceAll("-", " "));
-  name.append(text("span", surenessOf(one), "badge"));
-  card.append(name);
-  if (one.test) {
-    const where = one.run === null ? one.test : `${one.test}, ${one.start_s.toFixed(2)} to ${one.end_s.toFixed(2)} s`;
-    card.append(text("p", where, "where"));
-  }
-  const advice = text("p", "", "advice");
-  advice.append(...prose(one.advice));
-  card.append(text("p", one.evidence), advice);
-  if (one.run !== null && one.test) {
-    const part = { test: one.test, start: one.start_s, end: one.end_s };
-    const leave = button("button small leave", "Leave out", () => leaveOut(log, [...log.leftOut, part]));
-    leave.disabled = log.leftOut.some((other) => nameOfPart(other) === nameOfPart(part));
-    card.append(button("button small", "Show", () => showFault(one)), " ", leave);
-  }
-  return card;
+  const part = { test: one.test, start: one.start_s, end: one.end_s };
+  const disabled = log.leftOut.some((other) => nameOfPart(other) === nameOfPart(part));
+  const where = one.run === null ? one.test : `${one.test}, ${one.start_s.toFixed(2)} to ${one.end_s.toFixed(2)} s`;
+  return make("li", "fault",
+    make("h3", "", one.fault.replaceAll("-", " "), make("span", "badge", surenessOf(one))),
+    one.test && make("p", "where", where),
+    make("p", "", prose(one.evidence)), make("p", "advice", prose(one.advice)),
+    one.test && one.run !== null && [
+      button("button small", "Show", () => showFault(one)), " ",
+      button("button small leave", "Leave out", () => leaveOut(log, [...log.leftOut, part]), { disabled }),
+    ]);
 }
 
 /** A line for each part that was left out, with a button to take it in again. */
 function leftOutLines(log) {
-  return log.leftOut.map((part) => {
-    const line = item("busy", `Left out: ${part.test}, ${part.start.toFixed(2)} to ${part.end.toFixed(2)} s `);
-    line.append(button("link", "Take in again", () => leaveOut(log, log.leftOut.filter((one) => one !== part))));
-    return line;
-  });
+  return log.leftOut.map((part) => make("li", "busy", `Left out: ${part.test}, ${part.start.toFixed(2)} to ${part.end.toFixed(2)} s `,
+    button("link", "Take in again", () => leaveOut(log, log.leftOut.filter((one) => one !== part)))));
 }
 
 /** The verdict in a word, and the warnings of fit and inspection, each once, the worst first. */
@@ -94,7 +83,6 @@ export function showDoubts() {
 }
 
 function doubtItem(log, { message, grave, advice, type }) {
-  const made = foldedItem(grave ? "grave" : "look", grave ? "Wrong" : "Warning", `${message} ${advice ?? ""}`);
-  if (type) made.firstChild.append(button("button small", `Fit as ${type}`, () => choose(log, "type", type)));
-  return made;
+  return foldedItem(grave ? "grave" : "look", grave ? "Wrong" : "Warning", `${message} ${advice ?? ""}`,
+    type && button("button small", `Fit as ${type}`, () => choose(log, "type", type)));
 }

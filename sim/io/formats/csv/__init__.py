@@ -14,11 +14,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.core.errors import BadRequest, BadSample, UnreadableFile
+from sim.core.errors import BadSample, UnreadableFile
 from sim.core.log import Array, Log, Run
 from sim.core.units import find_unit
 from sim.core.vocabulary import TYPES
-from sim.io.entries import assemble_log, assemble_motor_logs
+from sim.io.entries import assemble_logs
 from sim.io.entries.entry import Entry, find_missing_motion
 from sim.io.format import (
     HEAD,
@@ -32,14 +32,14 @@ from sim.io.formats.csv.entries import is_export, read_columns, read_entries
 from sim.io.formats.csv.table import EXTRA, KNOWN, NEEDED, STATED, CsvTable, open_table, read_header
 
 SUFFIXES = (".csv",)
-ENOUGH = 3  # [columns] of ours in the header that identify the format
+MIN_COLUMNS = 3  # [columns] of ours in the header that identify the format
 
 
 def recognizes(head: bytes) -> bool:
     """Whether the first line has enough of our columns, or is that of a log viewer's export."""
     text = head.decode("utf-8-sig", errors="replace")
     names = read_header(text)
-    return is_export(names) or len(set(names) & set(KNOWN)) >= ENOUGH
+    return is_export(names) or len(set(names) & set(KNOWN)) >= MIN_COLUMNS
 
 
 def entries(path: Path) -> list[Entry]:
@@ -58,8 +58,8 @@ def _is_export_file(path: Path) -> bool:
         return is_export(read_header(stream.read(HEAD)))
 
 
-def read(path: Path, options: ReadOptions) -> Log:
-    """Read a CSV log.
+def read(path: Path, options: ReadOptions) -> dict[str, Log]:
+    """Read a CSV log; only a log viewer's export can have several motors.
 
     Args:
         path: the file.
@@ -72,8 +72,7 @@ def read(path: Path, options: ReadOptions) -> Log:
         BadRequest: a signal is unknown, or a mechanism was picked that the file does not have.
     """
     if _is_export_file(path):
-        log, _ = assemble_log(read_entries(path), options=options, where=str(path))
-        return log
+        return assemble_logs(read_entries(path), options=options, where=str(path))[0]
     refuse_pick(options.pick, where=str(path))
     table = open_table(path, entries=options.entries)
     tests, codes = table.group_by_test()
@@ -86,7 +85,7 @@ def read(path: Path, options: ReadOptions) -> Log:
     runs: list[Run] = []
     doubts = [*table.doubts, *warn_of_motor_choice(options.motor, where=table.where)]
     doubts += warn_of_missing_signal(find_missing_motion(present), options, where=table.where)
-    for number, rows in enumerate(_split(table, codes, signals["time"])):
+    for number, rows in enumerate(_split_runs(table, codes, signals["time"])):
         mine = {
             name: values[rows]
             for name, values in signals.items()
@@ -96,7 +95,7 @@ def read(path: Path, options: ReadOptions) -> Log:
         run, warnings = make_run(tests[codes[rows[0]]], mine, si=si, where=where)
         runs.append(run)
         doubts.extend(warnings)
-    return Log(
+    log = Log(
         tuple(runs),
         units=options.units_or_default,
         type=options.type or "",
@@ -104,17 +103,7 @@ def read(path: Path, options: ReadOptions) -> Log:
         doubts=tuple(doubts),
         computed=find_missing_motion(present) or "",
     )
-
-
-def read_motors(path: Path, options: ReadOptions) -> dict[str, Log]:
-    """Read a CSV log as a log for each motor; only a log viewer's export can have several.
-
-    Raises:
-        Refusal: as ``read``.
-    """
-    if not _is_export_file(path):
-        return {"": read(path, options)}
-    return assemble_motor_logs(read_entries(path), options=options, where=str(path))[0]
+    return {"": log}
 
 
 def _take_stated(table: CsvTable, options: ReadOptions) -> ReadOptions:
@@ -140,16 +129,7 @@ def write(log: Log, path: Path) -> None:
     Args:
         log: the log to write; positions are written in its ``units``.
         path: the file.
-
-    Raises:
-        BadRequest: the log has no runs, or a run without samples.
     """
-    if not log.runs or not all(len(run) for run in log.runs):
-        raise BadRequest(
-            "a run of the log has no samples" if log.runs else "the log has no runs",
-            advice="Write a log in which every run has samples: each sample is a row of the CSV "
-            "file.",
-        )
     numbered = len({run.test for run in log.runs}) < len(log.runs)
     extra = [name for name in EXTRA if any(getattr(run, name) is not None for run in log.runs)]
     with path.open("w", encoding="utf-8", newline="") as stream:
@@ -159,7 +139,7 @@ def write(log: Log, path: Path) -> None:
         end = f",{log.type or 'simple'},{log.units}\n" if stated else "\n"
         for number, run in enumerate(log.runs):
             prefix = f"{number},{run.test}," if numbered else f"{run.test},"
-            for row in _rows(run, extra=extra, si=find_unit(log.units).si):
+            for row in _format_rows(run, extra=extra, si=find_unit(log.units).si):
                 stream.write(f"{prefix}{row}{end}")
 
 
@@ -168,7 +148,7 @@ def _is_usual(log: Log) -> bool:
     return log.type in {"", "simple"} and log.units == ReadOptions().units_or_default
 
 
-def _rows(run: Run, *, extra: list[str], si: float) -> Iterator[str]:
+def _format_rows(run: Run, *, extra: list[str], si: float) -> Iterator[str]:
     """The numbers of a run as text, row by row."""
     signals: list[Array | None] = [run.time, run.voltage, run.position / si, run.velocity / si]
     signals += [getattr(run, name) for name in extra]
@@ -192,7 +172,9 @@ def _has_signal(table: CsvTable, name: str, values: Array, rows: NDArray[np.intp
     return not empty.all()
 
 
-def _split(table: CsvTable, codes: NDArray[np.intp], time: Array) -> Iterator[NDArray[np.intp]]:
+def _split_runs(
+    table: CsvTable, codes: NDArray[np.intp], time: Array
+) -> Iterator[NDArray[np.intp]]:
     """The row indices of each run, in the order in which the runs begin.
 
     Raises:

@@ -14,14 +14,11 @@ import numpy as np
 from sim.core.errors import BadSample, UnreadableFile
 from sim.io.entries.entry import STRING, Entry, ValuesEntry
 from sim.io.entries.names import split_unit, split_words
-from sim.io.formats.csv.table import is_number, split_rows
+from sim.io.entries.units import SECONDS
+from sim.io.formats.csv.table import is_number, read_text
+from sim.support.csv_rows import check_width, detect_delimiter, split_rows
 
 TIMES = frozenset({"t", "time", "timestamp"})
-UNITS = {  # unit of a time -> in µs
-    **dict.fromkeys(("s", "sec", "second", "seconds"), 1e6),
-    **dict.fromkeys(("ms", "msec", "millisecond", "milliseconds"), 1e3),
-    **dict.fromkeys(("us", "µs", "usec", "microsecond", "microseconds"), 1.0),
-}
 SLOWEST = 0.5  # [s] between two rows; where it seems to be more, the times are not in seconds
 LISTED = ({"name", "value"}, {"key", "value"})  # the other columns of a list
 EMPTY = ("", "null")  # cells without a value
@@ -40,7 +37,7 @@ def _find_time(names: Sequence[str]) -> int | None:
     """The index of the first column that holds times; None if none does."""
     for index, name in enumerate(names):
         words = _split_time(name)
-        if TIMES & words and words <= TIMES | UNITS.keys():
+        if TIMES & words and words <= TIMES | SECONDS.keys():
             return index
     return None
 
@@ -62,14 +59,17 @@ def read_entries(path: Path) -> list[Entry]:
         BadSample: a time is not a number.
     """
     where = str(path)
-    _, rows = split_rows(path)
-    _, header = next(rows)
+    (_, header), *rows = split_rows(read_text(path), where=where)
     titles = [title.strip() for title in header]
     first = _find_time([title.lower() for title in titles]) or 0
     unit = titles.pop(first)
     listed = {title.lower() for title in titles} in LISTED
     found: dict[str, list[_Sample]] = {} if listed else {title: [] for title in titles}
-    written, cells = _read_times(rows, first, width=len(titles), where=where)
+    written, cells = [], []
+    for line, row in rows:
+        check_width(row, header, where=f"{where}, line {line}")
+        written.append(_parse_time(row.pop(first), where=f"{where}, line {line}"))
+        cells.append(row)
     times = np.array(written) * _find_unit(unit, written)
     begins = set() if listed else set((np.flatnonzero(np.diff(times) < 0.0) + 1).tolist())
     for begin in sorted(begins):  # each run has a clock of its own
@@ -94,9 +94,9 @@ def read_columns(path: Path) -> list[Entry]:
     Raises:
         UnreadableFile: not UTF-8, or no header.
     """
-    delimiter, rows = split_rows(path)
-    cells = [row for _, row in rows]
-    if delimiter != ",":
+    text = read_text(path)
+    cells = [row for _, row in split_rows(text, where=str(path))]
+    if detect_delimiter(text) != ",":
         cells = [[cell.replace(",", ".") for cell in row] for row in cells]
     columns = zip(*cells, strict=False)  # of rows of unequal length, what all have
     return list(
@@ -107,35 +107,13 @@ def read_columns(path: Path) -> list[Entry]:
     )
 
 
-def _read_times(
-    rows: Iterable[tuple[int, list[str]]], column: int, *, width: int, where: str
-) -> tuple[list[float], list[list[str]]]:
-    """The time in each row, as it is written there, and the other cells of the row.
-
-    Raises:
-        UnreadableFile: a row has too many cells, or too few.
-        BadSample: a time is not a number.
-    """
-    times, cells = [], []
-    for line, row in rows:
-        if len(row) != width + 1:
-            raise UnreadableFile(
-                f"the row has {len(row)} cells where the header has {width + 1}",
-                where=f"{where}, line {line}",
-                advice="Complete the line, or export the log again.",
-            )
-        times.append(_parse_time(row.pop(column), where=f"{where}, line {line}"))
-        cells.append(row)
-    return times, cells
-
-
 def _find_unit(name: str, times: Sequence[float]) -> float:
     """The unit of the times [µs]: by the name of their column, else by how far rows are apart."""
-    named = next((UNITS[word] for word in _split_time(name) if word in UNITS), None)
+    named = next((1e6 * SECONDS[word] for word in _split_time(name) if word in SECONDS), None)
     steps = np.abs(np.diff(times))
     steps = steps[steps > 0.0]
     if named is not None or not steps.size:
-        return named or UNITS["s"]
+        return named or 1e6
     step = float(np.median(steps))
     return next(unit for unit in (1e6, 1e3, 1.0) if step * unit < SLOWEST * 1e6 or unit == 1.0)
 

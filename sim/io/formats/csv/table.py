@@ -1,9 +1,7 @@
 """The cells of a CSV file by column, with their line numbers for error messages."""
 
-import csv
-import io
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,7 +12,9 @@ from sim.core.advice import Action
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, BadSample, MissingSignal, UnreadableFile
 from sim.core.log import LARGEST, Array
-from sim.core.vocabulary import DIRECTIONS, KINDS, TESTS
+from sim.core.vocabulary import DIRECTIONS, KINDS
+from sim.io.entries.names import find_test_name
+from sim.support.csv_rows import check_width, detect_delimiter, split_rows
 
 NEEDED = ("test", "time_s", "voltage", "position", "velocity")
 EXTRA = ("current", "bus_voltage")  # optional; empty in runs without them
@@ -24,15 +24,6 @@ KNOWN = (*SIGNALS, *STATED)
 WORDS = ("run", "test", *STATED)  # columns of texts; the others hold numbers
 
 _ENTRY = {"state": "test", "time": "time_s"}  # name of a signal -> its column, if they differ
-
-# Other names of the kinds and directions of tests, as in tools before 2024.
-_SAME = {
-    "slow": "quasistatic",
-    "fast": "dynamic",
-    "forwards": "forward",
-    "backward": "reverse",
-    "backwards": "reverse",
-}
 
 
 @dataclass(frozen=True)
@@ -67,9 +58,8 @@ class CsvTable:
         code_of: dict[str, int] = {}
         for row, cell in enumerate(self.cells["test"]):
             if cell not in code_of:
-                words = re.split(r"[\s_-]+", cell.strip().lower())
-                test = "-".join(_SAME.get(word, word) for word in words)
-                if test not in TESTS:
+                test = find_test_name(cell, fillers=())
+                if not test:
                     raise UnreadableFile(
                         f"test is {cell[:40]!r}, which is no test's name",
                         where=self.describe_row(row),
@@ -86,7 +76,7 @@ class CsvTable:
         Raises:
             BadSample: a cell is not a finite number; the message names its line.
         """
-        cells = self._plain(name, gaps=gaps)
+        cells = self._normalize_cells(name, gaps=gaps)
         try:
             values = np.array([float(cell) for cell in cells])
         except ValueError:
@@ -123,23 +113,12 @@ class CsvTable:
             )
         return words[0] or None if words else None
 
-    def _plain(self, name: str, *, gaps: bool) -> Sequence[str]:
+    def _normalize_cells(self, name: str, *, gaps: bool) -> Sequence[str]:
         """The cells of a column with decimal points; with ``gaps``, ``nan`` for empty cells."""
         cells: Sequence[str] = self.cells[name]
         if self.decimal_comma:
             cells = [cell.replace(",", ".") for cell in cells]
         return [cell.strip() or "nan" for cell in cells] if gaps else cells
-
-
-def split_rows(path: Path) -> tuple[str, Iterator[tuple[int, list[str]]]]:
-    """The separator, and the line number and cells of each row that is not blank.
-
-    Raises:
-        UnreadableFile: not UTF-8, or an unmatched quotation mark.
-    """
-    text = _read_text(path)
-    delimiter = _detect_delimiter(text)
-    return delimiter, _rows(text, delimiter=delimiter, where=str(path))
 
 
 def read_header(text: str) -> list[str]:
@@ -162,20 +141,11 @@ def open_table(path: Path, *, entries: Mapping[str, str]) -> CsvTable:
         BadRequest: ``entries`` names an unknown signal.
     """
     where = str(path)
-    header: list[str] = []
-    rows: list[tuple[int, list[str]]] = []
-    delimiter, every = split_rows(path)
-    for line, row in every:
-        if not header:
-            header = [cell.strip().lower() for cell in row]
-        elif len(row) == len(header):
-            rows.append((line, row))
-        else:
-            raise UnreadableFile(
-                f"the row has {len(row)} cells where the header has {len(header)}",
-                where=f"{where}, line {line}",
-                advice="Complete the line, or remove it.",
-            )
+    text = read_text(path)
+    (_, first), *rows = list(split_rows(text, where=where)) or [(1, [""])]
+    header = [cell.strip().lower() for cell in first]
+    for line, row in rows:
+        check_width(row, header, where=f"{where}, line {line}")
     place, doubts = _find_columns(header, entries=entries, where=where)
     if not rows:
         raise UnreadableFile(
@@ -184,44 +154,23 @@ def open_table(path: Path, *, entries: Mapping[str, str]) -> CsvTable:
     columns = list(zip(*(row for _, row in rows), strict=True))
     cells = {name: columns[index] for name, index in place.items()}
     lines = [line for line, _ in rows]
-    comma = delimiter != "," and _uses_decimal_comma(cells, where=where)
+    comma = detect_delimiter(text) != "," and _uses_decimal_comma(cells, where=where)
     return CsvTable(where, cells, lines, comma, doubts)
 
 
-def _read_text(path: Path) -> str:
-    """The text of a file, with LF as line endings.
+def read_text(path: Path) -> str:
+    """The text of a file.
 
     Raises:
         UnreadableFile: it is not UTF-8.
     """
     try:
-        text = path.read_bytes().decode("utf-8-sig")
+        return path.read_bytes().decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise UnreadableFile(
             f"byte {error.start} is not UTF-8 text",
             where=str(path),
             advice="Save the file as CSV in UTF-8.",
-        ) from None
-    return text.replace("\r\n", "\n").replace("\r", "\n")
-
-
-def _detect_delimiter(text: str) -> str:
-    """The separator of the cells: the most frequent candidate in the header."""
-    return max(",;\t", key=text.lstrip().partition("\n")[0].count)
-
-
-def _rows(text: str, *, delimiter: str, where: str) -> Iterator[tuple[int, list[str]]]:
-    """The line number and the cells of each row that is not blank."""
-    reader = csv.reader(io.StringIO(text), delimiter=delimiter, strict=True)
-    try:
-        for row in reader:
-            if any(row) and not (len(row) == 1 and row[0].isspace()):
-                yield reader.line_num, row
-    except csv.Error as error:
-        raise UnreadableFile(
-            f"damaged CSV ({error})",
-            where=f"{where}, line {reader.line_num}",
-            advice="Look for a quotation mark without its partner.",
         ) from None
 
 

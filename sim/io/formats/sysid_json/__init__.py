@@ -35,8 +35,8 @@ def recognizes(head: bytes) -> bool:
     return head.removeprefix(b"\xef\xbb\xbf").lstrip().startswith(b"{") and bool(_KEY.search(head))
 
 
-def read(path: Path, options: ReadOptions) -> Log:
-    """Read a log of the tools before 2024.
+def read(path: Path, options: ReadOptions) -> dict[str, Log]:
+    """Read a log of the tools before 2024, or a log for each side of a drivetrain.
 
     Args:
         path: the file.
@@ -47,17 +47,8 @@ def read(path: Path, options: ReadOptions) -> Log:
         BadSample: a number that cannot be a measurement.
         BadRequest: an unknown side, or names of entries, which this format does not have.
     """
-    return _Document.load(path, options).log(options.motor)
-
-
-def read_motors(path: Path, options: ReadOptions) -> dict[str, Log]:
-    """Read a file as a log for each side of a drivetrain.
-
-    Raises:
-        Refusal: as ``read``.
-    """
     document = _Document.load(path, options)
-    if len(document.form.sides) == 1 or options.motor:
+    if len(document.form.sides) == 1 or options.motor or not options.each_motor:
         return {"": document.log(options.motor)}
     return {side: document.log(side) for side in SIDES}
 

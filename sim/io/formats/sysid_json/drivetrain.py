@@ -64,7 +64,7 @@ def read_drivetrain(
     if motor != "combined":
         return halves[SIDES.index(motor)], doubts
     doubts += _doubt_sides_differ(halves, where=where)
-    return {test: _mean(halves[0][test], halves[1][test]) for test in sides[0]}, doubts
+    return {test: _average_sides(halves[0][test], halves[1][test]) for test in sides[0]}, doubts
 
 
 def _align_sides(halves: list[dict[str, Side]]) -> dict[int, list[str]]:
@@ -89,7 +89,7 @@ def _doubt_sides_differ(halves: list[dict[str, Side]], *, where: str) -> list[Do
     apart = []
     for test in left:
         gap = np.mean((left[test].velocity - right[test].velocity) ** 2)
-        if gap > APART**2 * np.mean(_mean(left[test], right[test]).velocity ** 2):
+        if gap > APART**2 * np.mean(_average_sides(left[test], right[test]).velocity ** 2):
             apart.append(test)
     return [make_doubt("sides-differ", "left and right", apart, where=where)] if apart else []
 
@@ -109,7 +109,7 @@ def _doubt_dead_side(dead: str, living: str, where: str) -> Doubt:
     )
 
 
-def _mean(left: Side, right: Side) -> Side:
+def _average_sides(left: Side, right: Side) -> Side:
     """The mean of both sides."""
     return Side(*(0.5 * (a + b) for a, b in zip(left.columns, right.columns, strict=True)))
 

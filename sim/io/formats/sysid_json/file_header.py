@@ -73,7 +73,7 @@ def read_header(document: Mapping[str, object], options: ReadOptions, *, where: 
                 action=Action("state-type"),
             )
         )
-    units, unsure = _units(document, options, type_=type_, where=where)
+    units, unsure = _read_units(document, options, type_=type_, where=where)
     per_rotation = document.get("unitsPerRotation", 1.0)
     if not isinstance(per_rotation, float) or not 0.0 < per_rotation < LARGEST:
         raise UnreadableFile(
@@ -86,7 +86,7 @@ def read_header(document: Mapping[str, object], options: ReadOptions, *, where: 
     )
 
 
-def _units(
+def _read_units(
     document: Mapping[str, object], options: ReadOptions, *, type_: str, where: str
 ) -> tuple[str, tuple[Doubt, ...]]:
     """The unit of position, and a doubt if it was assumed or contradicts the user's.

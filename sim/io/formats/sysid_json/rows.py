@@ -99,7 +99,7 @@ def parse_tables(
     """
     present = [key for key in RUNS if key in document]
     tables = {
-        RUNS[key]: _table(document[key], where=f"{where}, {key}")
+        RUNS[key]: _read_table(document[key], where=f"{where}, {key}")
         for key in present
         if document[key] != []
     }
@@ -146,9 +146,9 @@ def detect_form(tables: Mapping[str, Array], header: FileHeader, *, where: str) 
     width = next(iter(widths.values()))
     if width not in _FORMS:
         raise UnreadableFile(
-            f"its rows have {width} numbers",
+            f"no tool wrote rows of {width} numbers",
             where=where,
-            advice=f"The tools wrote rows of {', '.join(map(str, _FORMS))}: give their file.",
+            advice=f"Give a tool's own file: its rows have {', '.join(map(str, _FORMS))} numbers.",
         )
     form = _FORMS[width]
     if (
@@ -210,7 +210,7 @@ def _make_object(pairs: list[tuple[str, object]]) -> dict[str, object]:
     return dict(pairs)
 
 
-def _table(rows: object, *, where: str) -> Array:
+def _read_table(rows: object, *, where: str) -> Array:
     """The rows of a run as numbers (n, columns), nan for null.
 
     Raises:

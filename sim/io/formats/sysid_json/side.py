@@ -13,7 +13,7 @@ import numpy as np
 from sim.core.doubt import Doubt
 from sim.core.log import Array
 
-MOVING = 0.2  # [share of the largest value] smaller values can have the sign of noise
+SIGNED = 0.2  # [share of the largest value] smaller values can have the sign of noise
 CLEAR = 0.6  # [mean of the signs] reached if 4 of 5 samples have the same sign
 NOISE = 0.05  # [share of the largest voltage] noise of an unsigned voltage
 
@@ -69,7 +69,7 @@ class Side:
     def signs(self) -> tuple[int, int]:
         """The signs of voltage and velocity while it moves: 1, -1, or 0 if unclear."""
         voltage, velocity = np.abs(self.voltage), np.abs(self.velocity)
-        moving = (voltage > MOVING * voltage.max()) & (velocity > MOVING * velocity.max())
+        moving = (voltage > SIGNED * voltage.max()) & (velocity > SIGNED * velocity.max())
         if not moving.any():
             return 0, 0
         means = [float(np.sign(one[moving]).mean()) for one in (self.voltage, self.velocity)]

@@ -4,19 +4,18 @@ Bytes are parsed into records (``records``), records into entries (``contents``)
 entries into a Log (``sim/io/entries``).
 """
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator
 from functools import partial
 from pathlib import Path
-from typing import Protocol, TypeVar
 
 import numpy as np
 
 from sim.core.doubt import Doubt
 from sim.core.errors import MissingSignal, UnreadableFile
 from sim.core.log import Log
-from sim.io.entries import assemble_log, assemble_motor_logs
+from sim.io.entries import assemble_logs
 from sim.io.entries.discovery import may_be_signal
-from sim.io.entries.entry import NUMBERS, STRING, Entry
+from sim.io.entries.entry import NUMBERS, STRING
 from sim.io.entries.state import NO_END, RunInterval
 from sim.io.format import ReadOptions
 from sim.io.formats.wpilog.contents import FileDamage, read_contents
@@ -25,19 +24,9 @@ from sim.io.formats.wpilog.entry import FileEntry
 from sim.io.formats.wpilog.records import MAGIC, XZ_MAGIC
 from sim.io.formats.wpilog.writing import write
 
-__all__ = ["SUFFIXES", "entries", "read", "read_motors", "recognizes", "write"]
+__all__ = ["SUFFIXES", "entries", "read", "recognizes", "write"]
 
 SUFFIXES = (".wpilog", ".wpilogxz")
-Made_co = TypeVar("Made_co", covariant=True)
-
-
-class _Maker(Protocol[Made_co]):
-    """A function that makes logs from entries."""
-
-    def __call__(
-        self, entries: Sequence[Entry], *, options: ReadOptions, where: str
-    ) -> tuple[Made_co, tuple[RunInterval, ...]]:
-        """The log or logs, and the intervals of the runs."""
 
 
 def recognizes(head: bytes) -> bool:
@@ -54,8 +43,8 @@ def entries(path: Path) -> list[FileEntry]:
     return list(read_contents(path).entries)
 
 
-def read(path: Path, options: ReadOptions) -> Log:
-    """Read the runs of one mechanism from a WPILOG file.
+def read(path: Path, options: ReadOptions) -> dict[str, Log]:
+    """Read the runs of one mechanism, or of each of its motors, from a WPILOG file.
 
     Args:
         path: the file.
@@ -68,51 +57,24 @@ def read(path: Path, options: ReadOptions) -> Log:
         BadRequest: the file lacks the chosen motor or mechanism, or holds several mechanisms.
         BadSample: the file holds a number that cannot be a measurement.
     """
-    log, doubts = _read(path, options, assemble_log)
-    return log.add_doubts(*doubts)
-
-
-def read_motors(path: Path, options: ReadOptions) -> dict[str, Log]:
-    """Read the runs of one mechanism as a log for each of its motors.
-
-    Args:
-        path: the file.
-        options: the user's choices: units, motor, and the names of entries.
-
-    Raises:
-        Refusal: as ``read``.
-    """
-    logs, doubts = _read(path, options, assemble_motor_logs)
-    return {name: log.add_doubts(*doubts) for name, log in logs.items()}
-
-
-def _read(
-    path: Path, options: ReadOptions, make: _Maker[Made_co]
-) -> tuple[Made_co, tuple[Doubt, ...]]:
-    """The log or logs of a file, and doubts about the file.
-
-    Raises:
-        Refusal: as ``read``.
-    """
     where = str(path)
     named = set(options.entries.values())
     found = read_contents(path, partial(_is_wanted, named=named))
     damage = found.damage
-    lost = tuple(_doubt_orphans(found.orphans, where))
     if not found.entries:
         raise _make_unreadable_error(damage, found.end, where, "there is no record before it")
     try:
         with np.errstate(all="ignore"):  # values that are not finite are refused later
-            made, spans = make(found.entries, options=options, where=where)
+            logs, spans = assemble_logs(found.entries, options=options, where=where)
     except MissingSignal as missing:
         if damage is None:
             raise
         raise _make_unreadable_error(damage, found.end, where, missing.what) from None
-    if damage is None:
-        return made, (*lost, *_doubt_unfinished_run(spans[-1], where))
-    if not damage.torn and spans[0].end == NO_END:
+    if damage and not damage.torn and spans[0].end == NO_END:
         raise _make_unreadable_error(damage, found.end, where, "no run is whole before it")
-    return made, (*lost, _doubt_damage(damage, where))
+    doubts = [*_doubt_orphans(found.orphans, where)]
+    doubts += [_doubt_damage(damage, where)] if damage else _doubt_unfinished_run(spans[-1], where)
+    return {name: log.add_doubts(*doubts) for name, log in logs.items()}
 
 
 def _is_wanted(entry: Start, *, named: Collection[str]) -> bool:

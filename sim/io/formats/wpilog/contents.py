@@ -17,7 +17,7 @@ from typing import IO, TypeAlias
 import numpy as np
 
 from sim.io.entries.entry import Numbers
-from sim.io.formats.wpilog.control import Metadata, Start, parse_control_record
+from sim.io.formats.wpilog.control import METADATA, START, Start, parse_control_record
 from sim.io.formats.wpilog.entry import KINDS, SIZES, FileEntry
 from sim.io.formats.wpilog.records import (
     PAD,
@@ -94,7 +94,7 @@ class _Series:
         """Add samples of a window with these headers."""
         _, _, size, _, payload = head
         if self.type in SIZES:
-            values = view_as_numbers(buffer, KINDS[self.type])[payload].tobytes()
+            values = view_as_numbers(buffer, np.dtype(KINDS[self.type]))[payload].tobytes()
         else:
             spans = zip(payload.tolist(), (payload + size).tolist(), strict=True)
             values = b"".join([window[begin:end] for begin, end in spans])
@@ -104,13 +104,14 @@ class _Series:
     def make_entry(self, name: str) -> FileEntry:
         """The samples so far, in the order of time."""
         size, time = np.concatenate([np.zeros((2, 0), dtype=np.int64), *self.headers], axis=1)
-        payload = np.cumsum(size) - size
+        payloads = b"".join(self.payloads)
         if (time[1:] < time[:-1]).any():
             order = np.argsort(time, kind="stable")
-            size, time, payload = size[order], time[order], payload[order]
-        return FileEntry(
-            name, self.type, self.metadata, time, payload, size, b"".join(self.payloads)
-        )
+            ends = np.cumsum(size)
+            spans = zip((ends - size)[order].tolist(), ends[order].tolist(), strict=True)
+            payloads = b"".join([payloads[begin:end] for begin, end in spans])
+            size, time = size[order], time[order]
+        return FileEntry(name, self.type, self.metadata, time, size, payloads)
 
 
 def read_contents(path: Path, wanted: Wanted = bool) -> Contents:
@@ -229,10 +230,13 @@ class RecordReader:
     def _follow_control(self, head: Numbers, window: bytes) -> None:
         """Start or finish an entry, or change its metadata."""
         start, _, size, _, payload = head.tolist()
-        control = parse_control_record(window[payload : payload + size])
-        if control is None:
-            self._stop(start, "a control record that makes no sense")
-        elif isinstance(control, Start):
+        found = parse_control_record(window[payload : payload + size])
+        if found is None:
+            self._stop_at(start, "a control record that makes no sense")
+            return
+        which, number, texts = found
+        if which == START:
+            control = Start(number, *texts)
             _, orphans = self.unknown.pop(control.id, (0, 0))
             self.orphans += orphans
             new = _Series(control.type)
@@ -240,11 +244,11 @@ class RecordReader:
             series.is_wanted = self._wanted(control)
             series.metadata = control.metadata or series.metadata
             self._open[control.id] = series
-        elif open_now := self._open.get(control.id):
-            if isinstance(control, Metadata):
-                open_now.metadata = control.metadata
+        elif open_now := self._open.get(number):
+            if which == METADATA:
+                open_now.metadata = texts[0]
             else:
-                self._open[control.id] = None
+                self._open[number] = None
 
     def _add_samples(self, head: Numbers, window: bytes, buffer: Bytes) -> None:
         """Add samples, up to the first with a wrong size for its type."""
@@ -258,7 +262,7 @@ class RecordReader:
         if misfits:
             start, problem = min(misfits)
             self._add_samples(head[:, head[0] < start], window, buffer)
-            self._stop(start, problem)
+            self._stop_at(start, problem)
             return
         for series, part in groups:
             number, first = int(part[1, 0]), self.end + int(part[0, 0])
@@ -268,7 +272,7 @@ class RecordReader:
             elif series and series.is_wanted:
                 series.add(part, window, buffer)
 
-    def _stop(self, start: int, problem: str) -> None:
+    def _stop_at(self, start: int, problem: str) -> None:
         """Stop reading at a record of the window, because of a problem."""
         self.end += start
         self.problem = problem

@@ -1,20 +1,14 @@
 """An entry of a WPILOG file, whose values are decoded on demand."""
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
 from sim.core.log import Array
 from sim.io.entries.entry import Entry, Numbers
-from sim.io.formats.wpilog.records import view_as_numbers
 
-KINDS: dict[str, type[np.generic]] = {
-    "double": np.float64,
-    "int64": np.int64,
-    "float": np.float32,
-    "boolean": np.bool_,
-}
+KINDS = {"double": "<f8", "int64": "<i8", "float": "<f4", "boolean": "?"}
 SIZES = {kind: np.dtype(dtype).itemsize for kind, dtype in KINDS.items()}  # [bytes] of one value
 
 
@@ -23,32 +17,21 @@ class FileEntry(Entry):
     """A named series of values in a file.
 
     Args:
-        begin: (n,) offset of each value in ``payloads``.
         size: (n,) length of each value [bytes].
-        payloads: the values as they are in the file.
+        payloads: the values as they are in the file, one after another.
     """
 
-    begin: Numbers
     size: Numbers
     payloads: bytes
 
-    def values(self) -> NDArray[np.generic]:
-        """The values (n,) of an entry with a type in ``KINDS``."""
-        if not len(self):
-            return np.zeros(0, dtype=KINDS[self.type])
-        buffer = np.frombuffer(self.payloads, dtype=np.uint8)
-        if self.type == "boolean":
-            return np.not_equal(buffer[self.begin], 0)
-        return view_as_numbers(buffer, KINDS[self.type])[self.begin]
-
     def numbers(self) -> Array:
         """The values (n,) of an entry with a type in ``KINDS``, in double precision."""
-        return self.values().astype(np.float64)
+        return np.frombuffer(self.payloads, KINDS[self.type]).astype(np.float64)
 
     def texts(self) -> list[str]:
         """The values of an entry of type string."""
-        spans = list(zip(self.begin.tolist(), (self.begin + self.size).tolist(), strict=True))
-        if self.payloads.isascii():
+        ends = [0, *np.cumsum(self.size).tolist()]
+        if self.payloads.isascii():  # then letters are bytes, and one decoding is faster
             letters = self.payloads.decode("ascii")
-            return [letters[begin:end] for begin, end in spans]
-        return [self.payloads[begin:end].decode("utf-8", "replace") for begin, end in spans]
+            return [letters[at:end] for at, end in pairwise(ends)]
+        return [self.payloads[at:end].decode("utf-8", "replace") for at, end in pairwise(ends)]

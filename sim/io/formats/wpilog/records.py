@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.core.errors import UnreadableFile
+from sim.core.log import Array
 from sim.io.entries.entry import Numbers
 from sim.io.format import LARGEST_FILE
 
@@ -32,6 +33,9 @@ PREFACE = 12  # [bytes] magic, version (2), length of the extra header (4)
 MAJOR = 1  # the only version is 1.0
 FILE_HEADER = MAGIC + struct.pack("<HI", MAJOR << 8, 0)
 PAD = 32  # [bytes] zeros after a window, so that an incomplete header can be read
+SHORT, LONG = struct.Struct("<BBBQ"), struct.Struct("<BIIQ")  # headers of the records written here
+SHORT_BITS, LONG_BITS = 0b0111_0000, 0b0111_1111  # their first bytes
+BYTE = 255  # largest number of one byte
 LONG_SIZE = 0b1100  # bits of a record whose payload size takes more than one byte
 
 # Offsets in a record by its first byte
@@ -42,12 +46,23 @@ MASK = np.array([(1 << 8 * length) - 1 for length in range(9)], dtype=np.uint64)
 
 
 def pack_record(number: int, time: int, payload: bytes) -> bytes:
-    """A record; each field of its header has as few bytes as it needs, as WPILib writes it."""
-    fields = (number, len(payload), time)
-    lengths = [max(1, (field.bit_length() + 7) // 8) for field in fields]
-    bits = lengths[0] - 1 | lengths[1] - 1 << 2 | lengths[2] - 1 << 4
-    packed = [field.to_bytes(n, "little") for field, n in zip(fields, lengths, strict=True)]
-    return b"".join((bytes((bits,)), *packed, payload))
+    """A record, whose time has eight bytes, and its id and size one each, or four if needed."""
+    if number <= BYTE and len(payload) <= BYTE:
+        return SHORT.pack(SHORT_BITS, number, len(payload), time) + payload
+    return LONG.pack(LONG_BITS, number, len(payload), time) + payload
+
+
+def pack_numbers(number: int, time: Numbers, values: Array) -> list[bytes]:
+    """The records of doubles of one entry, at their times [µs]."""
+    kind, bits = ("u1", SHORT_BITS) if number <= BYTE else ("<u4", LONG_BITS)
+    table = np.empty(
+        time.size,
+        [("bits", "u1"), ("id", kind), ("size", kind), ("time", "<u8"), ("value", "<f8")],
+    )
+    table["bits"], table["id"], table["size"] = bits, number, values.itemsize
+    table["time"], table["value"] = time, values
+    whole, size = table.tobytes(), table.itemsize
+    return [whole[at : at + size] for at in range(0, len(whole), size)]
 
 
 def find_records(window: bytes) -> tuple[Numbers, int]:
@@ -84,7 +99,7 @@ def read_headers(buffer: Bytes, start: Numbers) -> Numbers:
     size_at, time_at, payload = (
         start + np.array(table)[bits] for table in (SIZE_AT, TIME_AT, PAYLOAD_AT)
     )
-    numbers = view_as_numbers(buffer, np.uint64)
+    numbers = view_as_numbers(buffer, np.dtype("<u8"))
     fields = [
         (numbers[at] & MASK[end - at]).view(np.int64)
         for at, end in ((start + 1, size_at), (size_at, time_at), (time_at, payload))
@@ -97,9 +112,8 @@ def pad(window: bytes) -> Bytes:
     return np.frombuffer(window + bytes(PAD), dtype=np.uint8)
 
 
-def view_as_numbers(buffer: Bytes, kind: type[Number]) -> NDArray[Number]:
-    """The buffer as little-endian numbers that begin at every byte: element i, at offset i."""
-    dtype = np.dtype(kind).newbyteorder("<")
+def view_as_numbers(buffer: Bytes, dtype: np.dtype[Number]) -> NDArray[Number]:
+    """The buffer as numbers that begin at every byte: element i, at offset i."""
     return np.ndarray((buffer.size - dtype.itemsize + 1,), dtype, buffer, strides=(1,))
 
 

@@ -5,17 +5,23 @@ as the name of a test, is an entry of strings that is written when it changes.
 """
 
 import struct
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import repeat
 from pathlib import Path
+
+import numpy as np
 
 from sim.core.errors import BadRequest
 from sim.core.log import Array
+from sim.io.entries.entry import Numbers
 from sim.io.formats.wpilog.control import Start, make_start_payload
-from sim.io.formats.wpilog.records import FILE_HEADER, pack_record
+from sim.io.formats.wpilog.records import FILE_HEADER, pack_numbers, pack_record
 from sim.support.atomic_file import write_atomically
+from sim.support.os_errors import refuse_os_errors
 
 SECOND = 1e6  # [µs]
+ADVICE = "Choose a folder that exists and that you may write to."
 # Type of an entry -> format of a value
 PACKING = {"double": "<d", "float": "<f", "int64": "<q", "boolean": "<?"}
 
@@ -33,6 +39,42 @@ class SignalGroup:
     time: Array
     signals: Mapping[str, Array]
     texts: Mapping[str, Sequence[tuple[float, str]]] = field(default_factory=dict)
+
+
+def encode_signals(groups: Sequence[SignalGroup], units: Mapping[str, str]) -> bytes:
+    """The content of a file with groups of signals, in the order of time.
+
+    Args:
+        groups: the groups; entries of the same name are continued.
+        units: name of an entry -> its unit, for the entry's metadata.
+    """
+    kinds: dict[str, str] = {}
+    for group in groups:
+        kinds |= dict.fromkeys(group.signals, "double") | dict.fromkeys(group.texts, "string")
+    ids = {name: number for number, name in enumerate(kinds, start=1)}
+    times: list[int] = []  # [µs] of each record; tuples of both would take twice as long
+    records: list[bytes] = []
+    for group in groups:
+        time = _to_microseconds(group.time)
+        for name, values in group.signals.items():
+            times += time.tolist()
+            records += pack_numbers(ids[name], time, values)
+        for name, changes in group.texts.items():
+            at = _to_microseconds(np.array([when for when, _ in changes])).tolist()
+            times += at
+            payloads = (text.encode() for _, text in changes)
+            records += map(pack_record, repeat(ids[name]), at, payloads)
+    order = sorted(range(len(times)), key=times.__getitem__)
+    begin = times[order[0]] if order else 0
+    entries = (
+        Start(number, name, kinds[name], units.get(name, "")) for name, number in ids.items()
+    )
+    starts = (pack_record(0, begin, make_start_payload(entry)) for entry in entries)
+    return b"".join((FILE_HEADER, *starts, *map(records.__getitem__, order)))
+
+
+def _to_microseconds(time: Array) -> Numbers:
+    return np.maximum(np.rint(SECOND * time), 0.0).astype(np.int64)
 
 
 def write_signals(groups: Sequence[SignalGroup], path: Path, *, units: Mapping[str, str]) -> None:
@@ -54,39 +96,8 @@ def write_signals(groups: Sequence[SignalGroup], path: Path, *, units: Mapping[s
             where=str(path),
             advice="End its name in .wpilog.",
         )
-    kinds: dict[str, str] = {}
-    for group in groups:
-        kinds |= dict.fromkeys(group.signals, "double") | dict.fromkeys(group.texts, "string")
-    ids = {name: number for number, name in enumerate(kinds, start=1)}
-    starts = [
-        (0, 0, make_start_payload(Start(number, name, kinds[name], units.get(name, ""))))
-        for name, number in ids.items()
-    ]
-    records = sorted(
-        (record for group in groups for record in _list_records(group, ids)),
-        key=lambda record: record[1],
-    )
-    try:
-        write_atomically(
-            path, FILE_HEADER + b"".join(pack_record(*one) for one in (*starts, *records))
-        )
-    except OSError as error:
-        raise BadRequest(
-            f"cannot be written ({error.strerror or error})",
-            where=str(path),
-            advice="Choose a folder that exists and that you may write to.",
-        ) from None
-
-
-def _list_records(group: SignalGroup, ids: Mapping[str, int]) -> Iterator[tuple[int, int, bytes]]:
-    """Entry id, time [µs] and payload of each record."""
-    times = [round(SECOND * time) for time in group.time.tolist()]
-    for name, values in group.signals.items():
-        for time, value in zip(times, values.tolist(), strict=True):
-            yield ids[name], max(time, 0), struct.pack("<d", value)
-    for name, changes in group.texts.items():
-        for when, text in changes:
-            yield ids[name], max(round(SECOND * when), 0), text.encode()
+    with refuse_os_errors("cannot be written", path, advice=ADVICE):
+        write_atomically(path, encode_signals(groups, units))
 
 
 class SignalRecorder:
@@ -102,14 +113,8 @@ class SignalRecorder:
     def __init__(self, path: Path) -> None:
         self.path = path
         self._numbers: dict[tuple[str, str], int] = {}
-        try:
+        with refuse_os_errors("cannot be written", path, advice=ADVICE):
             self._stream = path.open("xb")
-        except OSError as error:
-            raise BadRequest(
-                f"cannot be written ({error.strerror or error})",
-                where=str(path),
-                advice="Choose a folder that exists and that you may write to.",
-            ) from None
         self._stream.write(FILE_HEADER)
 
     def record(
