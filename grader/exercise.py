@@ -71,7 +71,7 @@ class Grade:
         exercise: ``exercise4``.
         student: whose answer it is.
         score, max_score: points earned, points there are.
-        status: ``passed`` (full marks), ``failed`` or ``ungradable``.
+        status: ``passed`` (full marks), ``failed`` or ``ungradable``; of a class also ``missing``.
         checks: one result for each check, in the order they are shown.
         file: what was graded.
         reason: why it was ungradable, one line; empty otherwise.
@@ -87,6 +87,11 @@ class Grade:
     file: Path | None = None
     reason: str = ""
     warnings: tuple[str, ...] = ()
+
+    @property
+    def is_graded(self) -> bool:
+        """Whether there was an answer, and it could be graded."""
+        return self.status in {"passed", "failed"}
 
     @property
     def is_readable(self) -> bool:
@@ -302,11 +307,11 @@ class Exercise:
             exercise=self.name,
         )
 
-    def skip(self, reason: str, *, student: str) -> Grade:
+    def skip(self, reason: str, *, student: str, status: str = "ungradable") -> Grade:
         """The grade of an answer that is not graded, for a reason of one line."""
         results = tuple(skip_check(one, reason) for one in self.checks)
         most = sum(one.points for one in self.checks)
-        return Grade(self.name, student, 0.0, most, "ungradable", results, reason=reason)
+        return Grade(self.name, student, 0.0, most, status, results, reason=reason)
 
 
 def find_checks(module: ModuleType) -> tuple[Check[Any], ...]:

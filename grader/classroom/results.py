@@ -2,9 +2,8 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
 
-from grader.classroom.grading import MISSING, GradedStudent, make_ungraded_student
+from grader.classroom.grading import MISSING, NOTHING, GradedStudent, skip_student
 from grader.classroom.roster import Roster
 from grader.classroom.submissions import Submission
 from grader.exercise import Exercise
@@ -44,29 +43,18 @@ class ClassResults:
         """Exercise -> points there are."""
         found = dict.fromkeys(self.exercises, 0.0)
         for one in self.students:
-            for record in one.records:
-                most: Any = record["max_score"]
-                found[str(record["exercise"])] = float(most)
+            found |= {grade.exercise: grade.max_score for grade in one.grades}
         return found
 
 
 def collect_scores(one: GradedStudent) -> dict[str, float]:
     """Exercise -> points of one student, of the exercises of which an answer was graded."""
-    return {
-        str(record["exercise"]): float(record["score"])
-        for record in one.records
-        if is_graded(record)
-    }
-
-
-def is_graded(record: Mapping[str, Any]) -> bool:
-    """Whether there was an answer, and it could be graded."""
-    return record["status"] in {"passed", "failed"}
+    return {grade.exercise: grade.score for grade in one.grades if grade.is_graded}
 
 
 def find_status(one: GradedStudent) -> dict[str, str]:
     """Exercise -> passed, failed, missing or ungradable."""
-    return {str(record["exercise"]): str(record["status"]) for record in one.records}
+    return {grade.exercise: grade.status for grade in one.grades}
 
 
 def find_total(one: GradedStudent, results: ClassResults) -> float | None:
@@ -150,7 +138,7 @@ def _grade_absent(
         return replace(theirs[0], student=student), []
     names = list_first([one.student for one in theirs], most=len(theirs), separator="; ")
     said = f"nothing is theirs, and several of their group handed something in: {names}"
-    nothing = make_ungraded_student(student, asked, handed_in=(), reason="")
+    nothing = skip_student(student, asked, status=MISSING, reason=NOTHING)
     return nothing, [said] if theirs else []
 
 

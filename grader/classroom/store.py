@@ -7,17 +7,17 @@ from collections.abc import Iterable
 from contextlib import suppress
 from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
+from grader.check import Result, Status
 from grader.classroom.grading import GradedStudent
 from grader.classroom.submissions import Submission
+from grader.exercise import Grade
 from grader.student_data.variant import make_folder_name
 from sim.support.atomic_file import make_private_folder, write_atomically
 from sim.support.os_errors import refuse_os_errors
 
 RESULTS = "results"
-RECORD_NAMES = {
-    "exercise", "student", "score", "max_score", "status", "file", "reason", "warnings", "checks"
-}  # fmt: skip
 WRITTEN = "written.txt"  # there: the files of the last run that ended, one path in each line
 
 
@@ -66,9 +66,8 @@ class ResultStore:
         """A student's results, if they are there whole and nothing they depend on has changed."""
         try:
             kept = json.loads(self._path(student).read_text(encoding="utf-8"))
-            found = GradedStudent(kept["student"], kept["digest"], tuple(kept["records"]))
-            if not all({*record} >= RECORD_NAMES for record in found.records):
-                return None
+            grades = tuple(map(_parse_grade, kept["grades"]))
+            found = GradedStudent(kept["student"], kept["digest"], grades)
         except (OSError, ValueError, KeyError, TypeError):
             return None
         return found if (found.student, found.digest) == (student, expected) else None
@@ -80,7 +79,8 @@ class ResultStore:
             BadRequest: they cannot be written.
         """
         path = self._path(graded.student)
-        text = json.dumps(asdict(graded), ensure_ascii=False, indent=1, allow_nan=False)
+        raw = asdict(graded)  # of paths, there are only names of files
+        text = json.dumps(raw, ensure_ascii=False, indent=1, allow_nan=False, default=str)
         advice = "Make room there, then run the same command again: what is graded is kept."
         with refuse_os_errors("the results cannot be written", path, advice=advice):
             write_atomically(path, text + "\n", private=True)
@@ -114,3 +114,10 @@ class ResultStore:
 
     def _path(self, student: str) -> Path:
         return self.folder / RESULTS / f"{make_folder_name(student)}.json"
+
+
+def _parse_grade(raw: dict[str, Any]) -> Grade:
+    """A grade from a stored file; whatever does not fit raises."""
+    checks = tuple(Result(**{**one, "status": Status(one["status"])}) for one in raw["checks"])
+    file = Path(raw["file"]) if raw["file"] else None
+    return Grade(**{**raw, "checks": checks, "file": file, "warnings": tuple(raw["warnings"])})

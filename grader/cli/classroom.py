@@ -237,22 +237,17 @@ def _run(
 ) -> tuple[GradedStudent, ...] | None:
     """Grade what is left; None where it was stopped."""
     store = ResultStore(out)
-    left = plan_grading(work, store, travel=cluster is not None, again=again)
-    total = len(left.kept) + len(left.jobs)
+    kept, left = plan_grading(work, store, travel=cluster is not None, again=again)
+    total = len(kept) + len(left)
     with (
-        progress_bar("students", total, done=len(left.kept)) as (step, done),
+        progress_bar("students", total, done=len(kept)) as (step, done),
         deferred_interrupt() as stop_if_noted,
     ):
-
-        def say() -> None:
-            step()
-            stop_if_noted()
-
         try:  # one more than there are cores, for while one waits for a learner's code
             return grade_class(
-                work, left, store, cluster=cluster,
+                work, kept, left, store, cluster=cluster,
                 processes=processes or count_available_cores() + 1,
-                say=say, stop_if_asked=stop_if_noted,
+                say=step, stop_if_asked=stop_if_noted,
             )  # fmt: skip
         except KeyboardInterrupt:
             count = done()
