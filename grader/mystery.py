@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from grader.check import Check, run_checks
-from grader.exercise import Exercise, Grade, list_exercises
+from grader.exercise import Exercise, Grade, list_exercises, sum_points
 from grader.student_data.variant import make_folder_name
 from sim.core.errors import BadRequest
 from sim.support.atomic_file import write_atomically
@@ -68,6 +68,13 @@ class MysteryState:
     level: int = 1
     seed: int | None = None
 
+    def __post_init__(self) -> None:
+        numbers = (self.number, self.level, self.seed or 0)
+        if min(numbers) < 0 or not (
+            all(isinstance(one, int) for one in numbers) and 0 < self.level <= HIGHEST
+        ):
+            raise ValueError
+
     def close(self, *, solved: bool) -> "MysteryState":
         """The state after a mystery: one level up if it was solved, one down if not."""
         level = min(max(self.level + (1 if solved else -1), 1), HIGHEST)
@@ -82,13 +89,9 @@ def find_mystery_folder(course: Path, student: str) -> Path:
 def load_state(folder: Path) -> MysteryState:
     """How far a learner is; a file that is damaged begins anew."""
     try:
-        found = tomllib.loads((folder / STATE).read_text(encoding="utf-8"))
-    except (OSError, ValueError, RecursionError):
+        return MysteryState(**tomllib.loads((folder / STATE).read_text(encoding="utf-8")))
+    except (OSError, ValueError, TypeError, RecursionError):
         return MysteryState()
-    number, level, seed = (found.get(name) for name in ("number", "level", "seed"))
-    if not (isinstance(number, int) and isinstance(level, int) and 0 < level <= HIGHEST):
-        return MysteryState()
-    return MysteryState(number, level, seed if isinstance(seed, int) and seed >= 0 else None)
 
 
 def save_state(folder: Path, state: MysteryState) -> None:
@@ -156,7 +159,6 @@ def open_mystery(course: Path, folder: Path, state: MysteryState) -> tuple[Myste
 def grade_mystery_answer(mystery: Mystery, answer: str, *, student: str) -> Grade:
     """Grade an answer about a mystery log by the checks of its exercise."""
     results = run_checks(mystery.checks, mystery.read(answer))
-    score = sum(one.points for one in results)
-    most = sum(one.max_points for one in results)
+    score, most = sum_points(results)
     status = "passed" if score == most else "failed"
     return Grade(FOLDER, student, score, most, status, results)

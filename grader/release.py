@@ -9,7 +9,7 @@ import io
 import tempfile
 import zipfile
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import tomlkit
@@ -33,13 +33,9 @@ class StudentPackage:
     """
 
     student: str
-    secret: bytes
+    secret: bytes = field(repr=False)  # a message may hold this
     name: str
     course: CourseBundle
-
-    def __repr__(self) -> str:
-        """Without the secret: a message may hold this."""
-        return f"Package({self.student!r})"
 
 
 def make_student_package(package: StudentPackage) -> tuple[str, bytes]:

@@ -270,20 +270,11 @@ def format_overview(
         status = (
             Status.PASSED if standing.is_done else Status.FAILED if tried else Status.NOT_REACHED
         )
-        mark, style = MARKS[status]
         score = format_points(standing.score, standing.max_score) if tried else "not tried yet"
-        room = find_width() - len(score) - 1
-        said = f"{one.name}  {one.title}"[: room - 3]
         if plain:
             lines.append(style_line(f"{one.name}, {one.title}: {score}"))
-            continue
-        lines.append(
-            (
-                StyledText(f"{mark} ", style),
-                StyledText(said.ljust(room - 1)),
-                StyledText(score, style),
-            )
-        )
+        else:
+            lines += _format_row(f"{one.name}  {one.title}", score, *MARKS[status])
     return lines
 
 

@@ -322,9 +322,7 @@ def test_whatever_is_handed_in_is_graded_or_listed(course, tmp_path, files, form
         assert text.encode() in graded or any(name in listed for name in {*names, "more"})
     if len({text for text in files.values() if text != STARTER}) == 1 and graded:
         assert graded & {text.encode() for text in files.values() if text != STARTER}
-    job = GradingJob(
-        "ann", "", one.files, one.problems, "ann", ("exercise1",), course, None, run=False
-    )
+    job = GradingJob(one, "", ("exercise1",), course, None, run=False)
     (grade,) = grade_student(job).grades
     marked = grade.is_graded
 

@@ -216,7 +216,7 @@ def test_github_reads_it(results, tmp_path):
 
 
 def test_pages_are_whole_ask_nobody_and_escape_names(results, tmp_path):
-    page = write_pages(results, tmp_path)
+    page, *_ = write_pages(results, tmp_path)
     text = page.read_text("utf-8")
     students = sorted((tmp_path / "students").glob("*.html"))
 
@@ -245,7 +245,7 @@ def test_what_a_person_has_to_check_names_student_and_exercises(tmp_path):
         ungradable("ben", f"exercise{number}", "no name") for number in (1, 2, 3)
     ))  # fmt: skip
     people = replace(some(ann, ben), exercises=("exercise1", "exercise2", "exercise3"))
-    text = write_pages(people, tmp_path).read_text("utf-8")
+    text = write_pages(people, tmp_path)[0].read_text("utf-8")
     page = (tmp_path / "students" / "ann.html").read_text("utf-8")
 
     assert "<b>ann, exercise1, exercise3</b>: the file is empty</li>" in text
@@ -257,7 +257,7 @@ def test_what_a_person_has_to_check_names_student_and_exercises(tmp_path):
 
 def test_without_a_grade_nobody_is_counted(tmp_path):
     people = some(GradedStudent("ann", "", (ungradable("ann", "exercise1", "empty"),)))
-    text = write_pages(replace(people, exercises=("exercise1",)), tmp_path).read_text("utf-8")
+    text = write_pages(replace(people, exercises=("exercise1",)), tmp_path)[0].read_text("utf-8")
 
     assert "Nothing was graded yet." in text
     assert "nan %" not in text
@@ -276,7 +276,7 @@ def test_the_summary_counts_people():
 
 def test_a_class_of_five_hundred_gives_a_page_that_can_be_opened(tmp_path):
     people = some(*(student(f"s{n:03d}", (2.0, n % 3), (n % 2, 2.0)) for n in range(500)))
-    page = write_pages(people, tmp_path)
+    page, *_ = write_pages(people, tmp_path)
 
     assert page.stat().st_size < 500_000
 
@@ -289,9 +289,8 @@ def test_what_cannot_be_written_is_one_line(name, results, tmp_path):
         list_exports()[name].write(results, tmp_path / "in the way")
 
 
-def test_every_format_says_what_it_is():
+def test_all_formats_are_found():
     assert set(list_exports()) == {"canvas", "github", "gradebook", "gradescope", "junit"}
-    assert all(len(one.summary) > 20 for one in list_exports().values())
 
 
 def test_only_students_of_whom_something_was_graded_are_in_the_average_and_the_histogram(tmp_path):
@@ -300,7 +299,7 @@ def test_only_students_of_whom_something_was_graded_are_in_the_average_and_the_h
     people = (student("Ada", [1.0]), absent, unread)
     results = ClassResults("Robotics 1", people, ("exercise1",))
 
-    page = write_pages(results, tmp_path).read_text(encoding="utf-8")
+    page = write_pages(results, tmp_path)[0].read_text(encoding="utf-8")
 
     assert "2 of 3 students handed something in; on average they have 50 %" in page
     assert "Half of the 1 have at least 50 %" in page

@@ -126,7 +126,7 @@ def test_what_is_graded_is_not_graded_again_until_something_changes(course, tmp_
         )
         kept, todo = plan_grading(work, store, travel=False, again=again)
         grade_class(work, kept, todo, store, processes=1, cluster=None, say=lambda: None)
-        return [job.student for job in todo]
+        return [job.submission.student for job in todo]
 
     assert left() == ["ann", "ben"]
     assert left() == []

@@ -65,7 +65,7 @@ def grade_answer(course, there, out):
     kept, left = plan_grading(work, store, travel=False, again=False)
     found = grade_class(work, kept, left, store, processes=2, cluster=None, say=lambda: None)
     results = {one.student: (one.grades[0].score, one.grades[0].reason) for one in found}
-    return results, [job.student for job in left]
+    return results, [job.submission.student for job in left]
 
 
 def test_what_hangs_dies_or_eats_memory_is_named_and_stops_nobody(course, tmp_path, monkeypatch):

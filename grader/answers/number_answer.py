@@ -7,7 +7,7 @@ never the distance, and never the key.
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import Any
 
 from grader.answers.quantity import NotAUnitError, read_number, read_unit
 from grader.answers.wrong_number import MANY, Scene, WrongNumber, explain_wrong_number
@@ -225,20 +225,8 @@ def judge_number(
     )
 
 
-class NumberAnswers(Protocol):
-    """Answers with numbers, and what they are compared with."""
-
-    @property
-    def given(self) -> Mapping[str, object]:
-        """Name -> the answer as it stands in the file."""
-
-    @property
-    def key(self) -> AnswerKey:
-        """The right numbers."""
-
-
 def make_number_check(name: str, description: str, *, points: float) -> Check[Any]:
-    """Make a check of one number.
+    """Make a check of one number, of answers that have a ``key``.
 
     Args:
         name: the number's name; in lower case it names the check.
@@ -246,7 +234,7 @@ def make_number_check(name: str, description: str, *, points: float) -> Check[An
         points: for full marks.
     """
 
-    def judge(answers: NumberAnswers) -> str | None:
+    def judge(answers: Any) -> str | None:  # noqa: ANN401 - each exercise has its own
         return judge_number(name, answers.given, answers.key, points=points)
 
     return make_check(name, description, judge, points=points)

@@ -5,7 +5,7 @@ import io
 import tempfile
 import zipfile
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 from types import MappingProxyType
@@ -25,11 +25,7 @@ class CourseBundle:
     """
 
     digest: str
-    content: bytes
-
-    def __repr__(self) -> str:
-        """Without the content."""
-        return f"Bundle({self.digest[:8]})"
+    content: bytes = field(repr=False)
 
 
 def pack_course(course: Path) -> CourseBundle:

@@ -5,10 +5,10 @@ from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 
+from grader.classroom.answer_files import Submission
 from grader.classroom.bundle import pack_course
 from grader.classroom.grading import GradedStudent, GradingJob, skip_student
 from grader.classroom.store import ResultStore, digest_job
-from grader.classroom.submissions import Submission
 from grader.classroom.workers import grade_within_limits
 from grader.exercise import Exercise
 from grader.student_data.fingerprint import fingerprint_folders
@@ -45,11 +45,8 @@ class GradedClass:
         course = pack_course(self.course) if travel else self.course
         return tuple(
             GradingJob(
-                one.student,
+                one,
                 digest_job(one, names=names, made_by=made_by, secret=self.secret),
-                one.files,
-                one.problems,
-                one.numbers_owner,
                 names,
                 course,
                 self.secret,
@@ -73,7 +70,7 @@ def plan_grading(
     """
     kept, left = [], []
     for job in asked.make_jobs(travel=travel):
-        known = None if again else store.get(job.student, job.digest)
+        known = None if again else store.get(job.submission.student, job.digest)
         if known is None:
             left.append(job)
         else:

@@ -2,13 +2,13 @@
 
 import os
 import tempfile
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from grader.classroom.answer_files import Files
+from grader.classroom.answer_files import Submission
 from grader.classroom.bundle import unpack_course
 from grader.exercise import Exercise, Grade
 from grader.student_data.variant import use_class_secret
@@ -27,22 +27,16 @@ class GradingJob:
     """One student to grade.
 
     Args:
-        student: who.
+        submission: what the student handed in.
         digest: of everything the results depend on.
-        files: exercise -> file name -> content.
-        problems: exercise -> why it cannot be graded.
-        numbers_owner: whose numbers it is graded on: the student's, unless they studied as nobody.
         names: the exercises to grade.
         course: the course folder, or all of it that grading needs, for another machine.
         secret: of the class; None where everybody's numbers are those of self-study.
         run: whether robot code is run, too.
     """
 
-    student: str
+    submission: Submission
     digest: str
-    files: Mapping[str, Files]
-    problems: Mapping[str, str]
-    numbers_owner: str
     names: tuple[str, ...]
     course: "Path | CourseBundle"
     secret: bytes | None = field(repr=False)  # a message may hold this
@@ -77,24 +71,24 @@ def grade_student(job: GradingJob) -> GradedStudent:
         grades = tuple(
             _grade(job.find_exercise(name), job, Path(folder) / name) for name in job.names
         )
-    return GradedStudent(job.student, job.digest, grades)
+    return GradedStudent(job.submission.student, job.digest, grades)
 
 
 def _grade(exercise: Exercise, job: GradingJob, folder: Path) -> Grade:
-    files, student = job.files.get(exercise.name, {}), job.student
-    if exercise.name in job.problems:
-        return exercise.skip(job.problems[exercise.name], student=student)
+    given, student = job.submission, job.submission.student
+    files = given.files.get(exercise.name, {})
+    if exercise.name in given.problems:
+        return exercise.skip(given.problems[exercise.name], student=student)
     if not files:
         return exercise.skip(NOTHING, student=student, status=MISSING)
-    endings = {Path(name).suffix for name in exercise.files}
-    if not any(Path(name).suffix.lower() in endings for name in files):
+    if exercise.answer_endings.isdisjoint(Path(name).suffix.lower() for name in files):
         needed, there = " or ".join(exercise.files), list_first(sorted(files), most=SHOWN)
         return exercise.skip(f"{needed} is missing; there is only {there}", student=student)
     try:
         folder.mkdir()
         for name, content in files.items():
             (folder / name).write_bytes(content)
-        grade = exercise.grade(folder, student=job.numbers_owner, run=job.run)
+        grade = exercise.grade(folder, student=given.numbers_owner, run=job.run)
         return _remove_paths(replace(grade, student=student), folder)
     except MemoryError:
         reason = "grading it needed more memory than this computer has"

@@ -16,8 +16,8 @@ from itertools import combinations
 from pathlib import Path
 
 from grader.check import Result
+from grader.classroom.answer_files import Submission
 from grader.classroom.grading import GradedStudent
-from grader.classroom.submissions import Submission
 from grader.exercise import Exercise
 from grader.student_data.variant import make_folder_name
 from sim.core.errors import BadRequest
@@ -117,11 +117,9 @@ def _read_answer(files: Mapping[str, bytes], checks: Sequence[Result]) -> _Answe
 
 
 def _list_starter_lines(exercise: Exercise) -> frozenset[str]:
-    names = (*exercise.files, *exercise.companion_files)
-    paths = [exercise.folder / name for name in names]
-    return _read_answer(
-        {path.name: path.read_bytes() for path in paths if path.is_file()}, ()
-    ).lines
+    paths = [exercise.folder / name for name in exercise.starters]
+    files = {path.name: path.read_bytes() for path in paths if path.is_file()}
+    return _read_answer(files, ()).lines
 
 
 def find_foreign_logs(handed_in: Sequence[Submission], packages: Path) -> tuple[str, ...]:

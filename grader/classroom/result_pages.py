@@ -33,26 +33,22 @@ TENTHS = 10  # of all points, in each of which students are counted
 SIGNS = {MISSING: "–", "ungradable": "!"}
 
 
-def write_pages(results: ClassResults, folder: Path) -> Path:
+def write_pages(results: ClassResults, folder: Path) -> tuple[Path, ...]:
     """Write ``index.html``, and ``students/NAME.html`` for each of them.
 
     Returns:
-        The overview's path.
+        The paths of all pages, the overview's first.
 
     Raises:
         BadRequest: they cannot be written.
     """
     templates = _load_templates()
+    pages = []
     for one in results.students:
         text = templates.get_template("student.html.jinja").render(_fill_student_page(one, results))
-        write_private_file(folder / _name_page(one), text)
+        pages.append(write_private_file(folder / _name_page(one), text))
     text = templates.get_template("class.html.jinja").render(_fill_class_page(results))
-    return write_private_file(folder / "index.html", text)
-
-
-def list_pages(results: ClassResults, folder: Path) -> tuple[Path, ...]:
-    """The paths of all pages that ``write_pages`` writes."""
-    return (folder / "index.html", *(folder / _name_page(one) for one in results.students))
+    return (write_private_file(folder / "index.html", text), *pages)
 
 
 def _load_templates() -> "Environment":
@@ -95,12 +91,9 @@ def _fill_class_page(results: ClassResults) -> dict[str, Any]:
         analyze_items(results.students), key=lambda one: (one.share, one.exercise, one.check)
     )
     return {
-        "name": results.name,
+        "results": results,
         "verdict": summarize_class(results),
-        "numbers": results.numbers,
-        "likenesses": results.likenesses,
         "open": _list_open_cases(results),
-        "count": len(results.students),
         "columns": summarize_exercises(results.students),
         "spread": [
             sum(min(int(TENTHS * one), TENTHS - 1) == k for one in shares) for k in range(TENTHS)
@@ -171,10 +164,9 @@ def _format_total(one: GradedStudent, results: ClassResults) -> str:
 def _fill_student_page(one: GradedStudent, results: ClassResults) -> dict[str, Any]:
     total = _format_total(one, results)
     return {
-        "student": one.student,
+        "one": one,
         "name": results.name,
         "verdict": f"{total} points." if " of " in total else "Not everything was graded yet.",
-        "grades": one.grades,
         "format_points": format_points,
         "render_checks": render_checks,
     }

@@ -1,11 +1,12 @@
 """The results of a class: what the overview and every export are made of."""
 
+from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
+from grader.classroom.answer_files import Submission
 from grader.classroom.grading import MISSING, NOTHING, GradedStudent, skip_student
 from grader.classroom.roster import Roster
-from grader.classroom.submissions import Submission
 from grader.exercise import Exercise
 from grader.student_data.variant import normalize_name
 from sim.support.printable import list_first
@@ -20,7 +21,6 @@ class ClassResults:
         students: their results, in order of their names.
         exercises: the exercises' names, in order.
         roster: student -> the row of the roster, by its header; empty without one.
-        header: the roster's header.
         remarks: student, or a name that is not on the roster -> what a person has to look at
             besides what could not be graded, one line each.
         late: student -> what the platform or the roster says of a late submission.
@@ -32,7 +32,6 @@ class ClassResults:
     students: tuple[GradedStudent, ...]
     exercises: tuple[str, ...]
     roster: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
-    header: tuple[str, ...] = ()
     remarks: Mapping[str, Sequence[str]] = field(default_factory=dict)
     late: Mapping[str, str] = field(default_factory=dict)
     numbers: str = ""
@@ -76,7 +75,7 @@ def list_ungraded(one: GradedStudent, results: ClassResults) -> list[str]:
 def collect_results(
     title: str,
     graded: Sequence[GradedStudent],
-    known: Roster | None,
+    known: Roster,
     *,
     asked: Sequence[Exercise],
     handed_in: Sequence[Submission],
@@ -93,46 +92,41 @@ def collect_results(
         asked: the exercises.
         handed_in: what was handed in.
     """
-    rows, header = (known.rows, known.header) if known else ({}, ())
-    strangers = {
-        one.student: one.problem for one in handed_in if known and one.problem
-        and one.student not in rows
-    }  # fmt: skip
-    found = {normalize_name(one.student): one for one in graded if one.student not in strangers}
-    remarks = {name: [problem] for name, problem in strangers.items()}
-    remarks |= {one.student: [*one.unused] for one in handed_in if one.unused and not one.problem}
+    rows = known.rows
+    found = {normalize_name(one.student): one for one in graded}
+    remarks: dict[str, list[str]] = defaultdict(list)
     for one in handed_in:
+        if not one.problem:
+            remarks[one.student] += one.unused
+        elif rows and one.student not in rows:
+            remarks[one.student].append(one.problem)
+            del found[normalize_name(one.student)]
         for student in one.likely:
             maybe = f"perhaps {one.place.name} is theirs; it was not graded"
-            remarks.setdefault(student, []).append(maybe)
+            remarks[student].append(maybe)
     present = dict(found)
     for student in rows:
         if normalize_name(student) not in present:
             own, said = _grade_absent(student, present, known, asked)
             found[normalize_name(student)] = own
-            remarks.setdefault(student, []).extend(said)
-    remarks = {name: lines for name, lines in remarks.items() if lines}
+            remarks[student] += said
     late = {one.student: "late" for one in handed_in if one.late}
-    late |= known.late if known else {}
+    late |= known.late
     return ClassResults(
         title,
         tuple(sorted(found.values(), key=lambda one: one.student.casefold())),
         tuple(one.name for one in asked),
         rows,
-        header,
-        remarks,
+        {name: lines for name, lines in remarks.items() if lines},
         late,
     )
 
 
 def _grade_absent(
-    student: str,
-    found: Mapping[str, GradedStudent],
-    known: Roster | None,
-    asked: Sequence[Exercise],
+    student: str, found: Mapping[str, GradedStudent], known: Roster, asked: Sequence[Exercise]
 ) -> tuple[GradedStudent, list[str]]:
     """The results of who handed nothing in: those of the partner who did, if there is one."""
-    partners = known.partners.get(student, ()) if known else ()
+    partners = known.partners.get(student, ())
     theirs = [found[key] for one in partners if (key := normalize_name(one)) in found]
     if len(theirs) == 1:
         return replace(theirs[0], student=student), []

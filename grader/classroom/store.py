@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from grader.check import Result, Status
+from grader.classroom.answer_files import Submission
 from grader.classroom.grading import GradedStudent
-from grader.classroom.submissions import Submission
 from grader.exercise import Grade
 from grader.student_data.variant import make_folder_name
 from sim.support.atomic_file import make_private_folder, write_atomically

@@ -22,17 +22,18 @@ ENDED = "the process that graded it stopped, perhaps because the memory was full
 def grade_within_limits(job: GradingJob) -> GradedStudent:
     """Grade all exercises of a student, each with a time limit, in the child of this thread."""
     grades = tuple(_grade_exercise(job, name) for name in job.names)
-    return GradedStudent(job.student, job.digest, grades)
+    return GradedStudent(job.submission.student, job.digest, grades)
 
 
 def _grade_exercise(job: GradingJob, name: str) -> Grade:
     """The result of one exercise, or why there is none."""
-    files = {name: job.files[name]} if name in job.files else {}
-    part = replace(job, names=(name,), files=files)
+    given = job.submission
+    files = {one: content for one, content in given.files.items() if one == name}
+    part = replace(job, names=(name,), submission=replace(given, files=files))
     try:
         return run_in_child(grade_student, part, seconds=SECONDS, memory=MEMORY).grades[0]
     except TimeoutError:
         reason = TOO_LONG
     except ChildEnded:
         reason = ENDED
-    return job.find_exercise(name).skip(reason, student=job.student)
+    return job.find_exercise(name).skip(reason, student=given.student)

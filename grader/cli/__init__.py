@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, cast
 import click
 from click.shell_completion import CompletionItem
 
-from grader.cli.course_here import find_course_here
+from grader.cli.course_here import PATH, PLAIN, STUDENT, find_course_here
 from grader.terminal import print_error, print_lines
 from sim.core.errors import BadRequest
 from sim.support import command_line
@@ -133,19 +133,14 @@ def complete_exercise(
 
 @grade.command(hidden=True)
 @click.argument("exercise", required=False, shell_complete=complete_exercise)
-@click.argument("file", required=False, type=click.Path(path_type=Path))
-@click.option("--student", metavar="NAME", help="Who you are; your numbers depend on it.")
+@click.argument("file", required=False, type=PATH)
+@STUDENT
 @click.option("--json", "as_json", is_flag=True, help="Write the result as JSON.")
 @click.option("--hint", is_flag=True, help="Show the next of three hints. You lose no points.")
 @click.option(
-    "--picture",
-    metavar="FILE",
-    type=click.Path(path_type=Path),
-    help="Draw what a wrong answer would do: .svg, .png.",
+    "--picture", metavar="FILE", type=PATH, help="Draw what a wrong answer would do: .svg, .png."
 )
-@click.option(
-    "--plain", is_flag=True, help="For screen readers: words instead of symbols, no columns."
-)
+@PLAIN
 def exercise(
     exercise: str | None,
     file: Path | None,
@@ -168,7 +163,7 @@ def exercise(
             one, file, folder, progress, who, as_json=as_json, plain=plain, picture=picture
         )
         if code == DONE and not as_json:
-            _show_next_step(folder, who)
+            show_next_step(folder, who)
         return code
     if as_json or hint or picture:
         option = "json" if as_json else "hint" if hint else f"picture {picture}"
@@ -177,11 +172,11 @@ def exercise(
     from grader.report import format_overview  # noqa: PLC0415 - the same
 
     print_lines(format_overview(folder, list_exercises(folder), progress, student=who, plain=plain))
-    _show_next_step(folder, who)
+    show_next_step(folder, who)
     return 0
 
 
-def _show_next_step(folder: Path, who: str) -> None:
+def show_next_step(folder: Path, who: str) -> None:
     """End with the one thing to do next."""
     from grader.course import load_progress  # noqa: PLC0415 - --help has to start at once
     from grader.exercise import list_exercises  # noqa: PLC0415 - the same
@@ -193,7 +188,7 @@ def _show_next_step(folder: Path, who: str) -> None:
 
 
 @grade.command()
-@click.argument("folder", required=False, type=click.Path(path_type=Path))
+@click.argument("folder", required=False, type=PATH)
 @click.option("--no-lab", is_flag=True, help="Do not open JupyterLab.")
 @click.option("--student", metavar="NAME", help="Who you are, from now on.")
 def start(folder: Path | None, student: str | None, *, no_lab: bool) -> int:

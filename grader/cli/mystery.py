@@ -5,6 +5,7 @@ from pathlib import Path
 import click
 
 from grader.cli import locate_course
+from grader.cli.course_here import PLAIN, STUDENT
 from grader.mystery import (
     HIGHEST,
     Mystery,
@@ -25,10 +26,8 @@ from sim.support.command_line import DONE, NOT_RIGHT
 @click.command()
 @click.argument("answer", nargs=-1)
 @click.option("--give-up", is_flag=True, help="Show the answer; the next one is easier.")
-@click.option("--student", metavar="NAME", help="Who you are; each learner has a level.")
-@click.option(
-    "--plain", is_flag=True, help="For screen readers: words instead of symbols, no columns."
-)
+@STUDENT
+@PLAIN
 def mystery(answer: tuple[str, ...], student: str | None, *, give_up: bool, plain: bool) -> int:
     """Make a log with a hidden problem, or grade your ANSWER to it.
 
@@ -48,26 +47,20 @@ def mystery(answer: tuple[str, ...], student: str | None, *, give_up: bool, plai
     one = draw_mystery(course, state)
     if give_up:
         save_state(folder, state.close(solved=False))
-        print_lines(
-            [
-                *wrap_text(one.solution, lead="The answer was: ", style="bold"),
-                style_line("Next: grade mystery", "cyan"),
-            ]
-        )
+        print_lines(wrap_text(one.solution, lead="The answer was: ", style="bold"))
+        print_lines([style_line("Next: grade mystery", "cyan")])
         return DONE
     if not answer:
         print_lines(_format_task(state, one, place))
         return DONE
     result = grade_mystery_answer(one, " ".join(answer), student=who)
     print_lines(format_checks(result, plain=plain))
-    if result.status != "passed":
-        print_lines(
-            [(), style_line("Next: look again, or give up: grade mystery --give-up", "cyan")]
-        )
-        return NOT_RIGHT
-    save_state(folder, state.close(solved=True))
-    print_lines([(), style_line("Next: grade mystery", "cyan")])
-    return DONE
+    solved = result.status == "passed"
+    if solved:
+        save_state(folder, state.close(solved=True))
+    then = "grade mystery" if solved else "look again, or give up: grade mystery --give-up"
+    print_lines([(), style_line(f"Next: {then}", "cyan")])
+    return DONE if solved else NOT_RIGHT
 
 
 def _format_task(state: MysteryState, one: Mystery, place: Path) -> list[Line]:

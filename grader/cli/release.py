@@ -9,7 +9,7 @@ from grader.classroom.atomic_files import write_private_file
 from grader.classroom.bundle import pack_course
 from grader.classroom.roster import read_class_roster
 from grader.classroom.secret import identify_secret
-from grader.cli.course_here import find_course_here
+from grader.cli.course_here import PATH, find_course_here
 from grader.package_files import select_package_files
 from grader.release import (
     StudentPackage,
@@ -27,7 +27,6 @@ from sim.support.secret import Secret, find_secret
 from sim.support.work.executor import count_available_cores, run_jobs
 from sim.support.work.progress_bar import progress_bar
 
-PATH = click.Path(path_type=Path)
 NAMED = 8  # files left out that are named
 WORTH = 3  # [students] that a further process has to save, to be worth its start
 
@@ -79,8 +78,18 @@ def release(  # noqa: PLR0917 - click passes options by name
     course = find_course_here()
     if secret:
         refuse_secret_inside(secret, {"folder of the packages": output, "course folder": course})
-    kept = find_secret(secret, make=True) if roster else find_secret(secret, make=False)
-    return _release(course, output, roster, kept, name=name, processes=processes)
+    kept = find_secret(secret, make=roster is not None)
+    students = tuple(read_class_roster(roster).rows) if roster else ()
+    everybody = pack_course_folder(choose_files(course, kept, with_keys=not students))
+    if kept and kept.new:
+        kept.save()
+        print_error(f"{kept.new}: a new secret. Keep this file, and show it to nobody.")
+    write_private_file(output / "course.zip", everybody)
+    value, packed = kept.value if kept else b"", pack_course(course)
+    packages = [StudentPackage(student, value, name, packed) for student in students]
+    _write_packages(packages, output / "students", processes or count_available_cores())
+    _tell_made(output, len(everybody), len(students), kept)
+    return DONE
 
 
 COMMAND = release
@@ -106,45 +115,30 @@ def refuse_secret_inside(secret: Path, folders: Mapping[str, Path]) -> None:
             )
 
 
-def report_left_out(left_out: Sequence[str]) -> None:
-    """Print which files of the course folder students do not get."""
-    if left_out:
-        print_error(f"left out, as no part of the course: {list_first(left_out, most=NAMED)}")
+def choose_files(course: Path, secret: Secret | None, *, with_keys: bool) -> dict[str, bytes]:
+    """The files of a course that students get; prints which files of its folder they do not get.
 
-
-def _release(
-    course: Path,
-    output: Path,
-    roster: Path | None,
-    secret: Secret | None,
-    *,
-    name: str,
-    processes: int | None,
-) -> int:
-    students = tuple(read_class_roster(roster).rows) if roster else ()
-    chosen = select_package_files(course, with_keys=not students)
+    Args:
+        course: the course folder.
+        secret: of the class, which is in none of them.
+        with_keys: also the exercises' answer keys.
+    """
+    chosen = select_package_files(course, with_keys=with_keys)
     chosen.refuse_secret(secret.value if secret else b"")
-    report_left_out(chosen.left_out)
-    everybody = pack_course_folder(chosen.files)
-    if secret and secret.new:
-        secret.save()
-        print_error(f"{secret.new}: a new secret. Keep this file, and show it to nobody.")
-    packed = pack_course(course)
-    value = secret.value if secret else b""
-    packages = [StudentPackage(student, value, name, packed) for student in students]
-    write_private_file(output / "course.zip", everybody)
-    with progress_bar("students", len(packages)) as (step, _):
-        made = run_jobs(
-            make_student_package,
-            packages,
-            processes=processes or count_available_cores(),
-            worth=WORTH,
+    if chosen.left_out:
+        print_error(
+            f"left out, as no part of the course: {list_first(chosen.left_out, most=NAMED)}"
         )
-        for student, content in made:
-            write_private_file(output / "students" / f"{make_folder_name(student)}.zip", content)
+    return chosen.files
+
+
+def _write_packages(packages: Sequence[StudentPackage], folder: Path, processes: int) -> None:
+    with progress_bar("students", len(packages)) as (step, _):
+        for student, content in run_jobs(
+            make_student_package, packages, processes=processes, worth=WORTH
+        ):
+            write_private_file(folder / f"{make_folder_name(student)}.zip", content)
             step()
-    _tell_made(output, len(everybody), len(students), secret)
-    return DONE
 
 
 def _tell_made(output: Path, size: int, students: int, secret: Secret | None) -> None:
@@ -171,13 +165,7 @@ def _check(place: Path, secret: bytes) -> int:
             advice="Name the folder that holds .course and exercises.",
         )
     wrong = find_broken_seals(place, found, secret=secret)
-    print_lines([style_line(f"{name}: changed since it was issued") for name in wrong])
-    if not wrong:
-        print_lines(
-            [
-                style_line(
-                    f"{place}: issued to {found.student}; all {len(found.sealed)} files unchanged."
-                )
-            ]
-        )
+    lines = [f"{name}: changed since it was issued" for name in wrong]
+    whole = f"{place}: issued to {found.student}; all {len(found.sealed)} files unchanged."
+    print_lines([style_line(line) for line in lines or [whole]])
     return NOT_RIGHT if wrong else DONE

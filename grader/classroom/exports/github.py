@@ -17,7 +17,6 @@ from grader.report import compose_feedback
 from grader.student_data.variant import make_folder_name
 from sim.support.printable import make_printable
 
-SUMMARY = "github/STUDENT.txt: result=…, a line for $GITHUB_OUTPUT"
 LONGEST = 500  # [characters] of an output, says the reporter
 STATUS = {"passed": "pass", "failed": "fail", "missing": "fail", "ungradable": "error"}
 

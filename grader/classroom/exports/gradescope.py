@@ -16,8 +16,6 @@ from grader.report import compose_feedback
 from grader.student_data.variant import make_folder_name
 from sim.support.printable import make_printable
 
-SUMMARY = "gradescope/STUDENT/results.json: as Gradescope reads it"
-
 
 def write(results: ClassResults, folder: Path) -> tuple[Path, ...]:
     """Write a folder ``gradescope`` with a ``results.json`` for each student.

@@ -15,7 +15,6 @@ from grader.classroom.results import ClassResults
 from grader.exercise import Grade
 from grader.report import compose_feedback
 
-SUMMARY = "junit.xml: a suite for each student, as build servers read it"
 NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
