@@ -12,9 +12,9 @@ from pathlib import Path
 
 from grader.student_data.class_package import PLACE as ISSUED
 from grader.student_data.fingerprint import PACKAGES, fingerprint_folders, fingerprint_packages
-from grader.student_data.variant import check_student_name, make_folder_name
 from sim.core.errors import BadRequest, Refusal
 from sim.support.atomic_file import write_atomically
+from sim.support.student_names import check_student_name, make_folder_name
 
 NOBODY = "me"  # who is learning, until they say otherwise
 PLACE = Path(".course") / "progress.toml"

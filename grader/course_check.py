@@ -18,7 +18,8 @@ from grader.exercise import HINTS, Exercise, Grade, load_module
 from grader.misconception import MISCONCEPTIONS
 from grader.mistake import LINE, Mistake
 from grader.starter import remove_answers
-from grader.student_data.variant import make_folder_name, use_class_secret
+from grader.student_data.variant import use_class_secret
+from sim.support.student_names import make_folder_name
 
 STUDENTS = ("ann", "ben", "zoë")  # between them they get every kind of mechanism of the course
 FEWEST_MISTAKES = 5
@@ -91,12 +92,18 @@ def prepare_solved(one: Exercise, student: str, folder: Path) -> SolvedExercise:
         student: whose files.
         folder: an empty folder for the copy.
     """
+    moved = _copy_exercise(one, student, folder)
+    data = moved.folder / "data" / make_folder_name(student)
+    return SolvedExercise(moved, student, solve(moved, data, solution=one.solution))
+
+
+def _copy_exercise(one: Exercise, student: str, folder: Path) -> Exercise:
+    """A copy of an exercise, with a student's files."""
     copy = folder / "exercises" / one.name
     shutil.copytree(one.folder, copy, ignore=shutil.ignore_patterns("data", "__pycache__"))
     moved = replace(one, folder=copy)
     moved.prepare(student, say=lambda _: None)
-    data = copy / "data" / make_folder_name(student)
-    return SolvedExercise(moved, student, solve(moved, data, solution=one.solution))
+    return moved
 
 
 def list_graded_mistakes(one: Exercise, student: str) -> list[Mistake]:
@@ -236,10 +243,8 @@ def find_draw_flaws(one: Exercise) -> Iterator[str]:
     made = []
     for secret in (b"east", b"west", b"east"):
         with tempfile.TemporaryDirectory() as folder, use_class_secret(secret):
-            copy = Path(folder, "exercises", one.name)
-            shutil.copytree(one.folder, copy, ignore=shutil.ignore_patterns("data", "__pycache__"))
-            replace(one, folder=copy).prepare("ann", say=lambda _: None)
-            files = sorted((copy / "data").rglob("*.*"))
+            copy = _copy_exercise(one, "ann", Path(folder))
+            files = sorted((copy.folder / "data").rglob("*.*"))
             made.append({path.name: path.read_bytes() for path in files})
     if made[0] != made[2]:
         yield "the same class and student get other files each time: draw from make_student_rng"

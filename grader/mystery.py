@@ -14,10 +14,10 @@ from typing import TYPE_CHECKING, Any
 
 from grader.check import Check, run_checks
 from grader.exercise import Exercise, Grade, list_exercises, sum_points
-from grader.student_data.variant import make_folder_name
 from sim.core.errors import BadRequest
 from sim.support.atomic_file import write_atomically
 from sim.support.os_errors import refuse_os_errors
+from sim.support.student_names import make_folder_name
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

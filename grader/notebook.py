@@ -20,11 +20,11 @@ from grader.report import (
     render_checks,
 )
 from grader.student_data.class_package import explain_no_grading, find_learner, read_class_package
-from grader.student_data.variant import make_folder_name
 from grader.terminal import Line, print_error, style_line
 from sim.core.errors import BadRequest, Refusal
 from sim.support.atomic_file import write_atomically
 from sim.support.printable import make_printable
+from sim.support.student_names import make_folder_name
 
 
 def escape_html(text: str) -> str:

@@ -18,7 +18,8 @@ from grader.classroom.bundle import CourseBundle, zip_files
 from grader.classroom.secret import seal_file, seal_identity
 from grader.exercise import list_exercises
 from grader.student_data.class_package import PLACE, ClassPackage
-from grader.student_data.variant import make_folder_name, use_class_secret
+from grader.student_data.variant import use_class_secret
+from sim.support.student_names import make_folder_name
 
 
 @dataclass(frozen=True)

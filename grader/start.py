@@ -28,14 +28,8 @@ QUIET = (
     "--log-level=ERROR",
 )
 IN_JUPYTER = ("JUPYTER_SERVER_URL", "JPY_PARENT_PID")  # of its terminals; of its kernels
-HIDDEN = (
-    "__pycache__",
-    "*.pyc",
-    "*.pyo",
-    ".DS_Store",
-    "*~",
-    "solutions",
-)  # Jupyter's own, and ours
+# Jupyter's own, and ours
+HIDDEN = ("__pycache__", "*.pyc", "*.pyo", ".DS_Store", "*~", "solutions")
 
 
 def is_in_jupyter() -> bool:

@@ -11,9 +11,9 @@ from grader.classroom.secret import seal_identity
 from grader.course import NOBODY
 from grader.exercise import Exercise
 from grader.student_data.class_package import PLACE, parse_class_package
-from grader.student_data.variant import check_student_name, make_folder_name, normalize_name
 from sim.core.errors import BadRequest, Refusal
 from sim.support.printable import list_first
+from sim.support.student_names import check_student_name, make_folder_name, normalize_name
 
 SHOWN = 5  # names in one line
 

@@ -19,8 +19,8 @@ from grader.check import Result
 from grader.classroom.answer_files import Submission
 from grader.classroom.grading import GradedStudent
 from grader.exercise import Exercise
-from grader.student_data.variant import make_folder_name
 from sim.core.errors import BadRequest
+from sim.support.student_names import make_folder_name
 
 MIN_BITS = 24.0  # of what two answers share: far beyond chance in the pairs of any class
 MIN_SHARE = 0.8  # of the bits of the longer one

@@ -16,8 +16,8 @@ from pathlib import Path
 from grader.check import Status
 from grader.classroom.grading import GradedStudent
 from grader.exercise import Exercise, Grade
-from grader.student_data.variant import normalize_name
 from sim.core.errors import BadRequest, Refusal, refusals_at
+from sim.support.student_names import normalize_name
 from sim.support.student_table import read_student_table
 
 COLUMNS = ("student", "check", "points", "why")

@@ -22,7 +22,7 @@ from grader.classroom.results import (
 )
 from grader.misconception import MISCONCEPTIONS
 from grader.report import format_points, render_checks
-from grader.student_data.variant import make_folder_name
+from sim.support.student_names import make_folder_name
 
 if TYPE_CHECKING:
     from jinja2 import Environment

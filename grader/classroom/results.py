@@ -8,8 +8,8 @@ from grader.classroom.answer_files import Submission
 from grader.classroom.grading import MISSING, NOTHING, GradedStudent, skip_student
 from grader.classroom.roster import Roster
 from grader.exercise import Exercise
-from grader.student_data.variant import normalize_name
 from sim.support.printable import list_first
+from sim.support.student_names import normalize_name
 
 
 @dataclass(frozen=True)

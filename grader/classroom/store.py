@@ -13,9 +13,9 @@ from grader.check import Result, Status
 from grader.classroom.answer_files import Submission
 from grader.classroom.grading import GradedStudent
 from grader.exercise import Grade
-from grader.student_data.variant import make_folder_name
 from sim.support.atomic_file import make_private_folder, write_atomically
 from sim.support.os_errors import refuse_os_errors
+from sim.support.student_names import make_folder_name
 
 RESULTS = "results"
 WRITTEN = "written.txt"  # there: the files of the last run that ended, one path in each line

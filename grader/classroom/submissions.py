@@ -14,8 +14,8 @@ from grader.classroom.answer_files import AnswerSelector, Submission
 from grader.classroom.submission_names import Identities, SubmissionName, parse_name
 from grader.classroom.submitted_files import UNREADABLE, format_file_name, list_submitted_files
 from grader.exercise import Exercise
-from grader.student_data.variant import check_student_name
 from sim.core.errors import BadRequest, Refusal
+from sim.support.student_names import check_student_name
 
 SHOWN = 40  # [characters] of a name that is none
 

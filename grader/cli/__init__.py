@@ -10,7 +10,7 @@ from dataclasses import replace
 from difflib import get_close_matches
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 import click
 from click.shell_completion import CompletionItem
@@ -54,8 +54,10 @@ class ExerciseOrCommand(click.Group):
         """The command of this name, or None."""
         if cmd_name not in OWN_MODULE:
             return super().get_command(ctx, cmd_name)
-        module = {"class": "classroom"}.get(cmd_name, cmd_name.replace("-", "_"))
-        return cast("click.Command", import_module(f"{__name__}.{module}").COMMAND)
+        name = {"class": "classroom"}.get(cmd_name, cmd_name.replace("-", "_"))
+        found = vars(import_module(f"{__name__}.{name}")).values()
+        commands = (one for one in found if isinstance(one, click.Command))
+        return next(one for one in commands if one.name == cmd_name)
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Take everything that does not begin with a command as a request to grade."""
@@ -219,7 +221,7 @@ def start(folder: Path | None, student: str | None, *, no_lab: bool) -> int:
 
 def _ask_name(known: str) -> str:
     """Who is learning, typed on the terminal; ``known`` where nobody can type."""
-    from grader.student_data.variant import check_student_name  # noqa: PLC0415 - the same
+    from sim.support.student_names import check_student_name  # noqa: PLC0415 - the same
 
     if not sys.stdin.isatty() or "JPY_PARENT_PID" in os.environ:  # a notebook cell takes no typing
         return known

@@ -126,9 +126,6 @@ def class_(  # noqa: PLR0917 - click passes options by name
     return _write_results(results, out, formats)
 
 
-COMMAND = class_
-
-
 def _find_submissions(
     folder: Path,
     course: Path,

@@ -29,6 +29,3 @@ def edition(output: Path, only: tuple[str, ...]) -> int:
     said = f"{index}: {len(chosen)} lessons, their slides, and handout.html to print"
     print_lines([style_line(said)])
     return DONE
-
-
-COMMAND = edition

@@ -20,9 +20,6 @@ def export() -> None:
     """Make an autograder for Gradescope or GitHub Classroom, or a configuration of JupyterHub."""
 
 
-COMMAND = export
-
-
 @export.command()
 @click.option("-o", "--output", type=PATH, required=True, help="The zip file: autograder.zip.")
 @ONLY

@@ -75,6 +75,3 @@ def _format_task(state: MysteryState, one: Mystery, place: Path) -> list[Line]:
         style_line(f"  To look at it: {one.tool.format(folder=place.as_posix())}"),
         style_line(f'Next: grade mystery "{one.example}"  (with your own answer)', "cyan"),
     ]
-
-
-COMMAND = mystery

@@ -18,12 +18,12 @@ from grader.release import (
     pack_course_folder,
 )
 from grader.student_data.class_package import read_class_package
-from grader.student_data.variant import make_folder_name
 from grader.terminal import print_error, print_lines, style_line
 from sim.core.errors import BadRequest
 from sim.support.command_line import DONE, NOT_RIGHT
 from sim.support.printable import list_first
 from sim.support.secret import Secret, find_secret
+from sim.support.student_names import make_folder_name
 from sim.support.work.executor import count_available_cores, run_jobs
 from sim.support.work.progress_bar import progress_bar
 
@@ -90,9 +90,6 @@ def release(  # noqa: PLR0917 - click passes options by name
     _write_packages(packages, output / "students", processes or count_available_cores())
     _tell_made(output, len(everybody), len(students), kept)
     return DONE
-
-
-COMMAND = release
 
 
 def refuse_secret_inside(secret: Path, folders: Mapping[str, Path]) -> None:

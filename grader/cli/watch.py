@@ -48,6 +48,3 @@ def watch(exercise: str | None, student: str | None, *, plain: bool) -> int:
         return DONE
     show_next_step(folder, who)
     return DONE
-
-
-COMMAND = watch

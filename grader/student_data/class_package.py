@@ -4,8 +4,8 @@ import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.student_data.variant import check_student_name, normalize_name
 from sim.core.errors import BadRequest, Refusal
+from sim.support.student_names import check_student_name, normalize_name
 
 PLACE = Path(".course") / "class.toml"
 

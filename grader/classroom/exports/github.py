@@ -14,8 +14,8 @@ from grader.classroom.grading import GradedStudent
 from grader.classroom.results import ClassResults
 from grader.exercise import Grade
 from grader.report import compose_feedback
-from grader.student_data.variant import make_folder_name
 from sim.support.printable import make_printable
+from sim.support.student_names import make_folder_name
 
 LONGEST = 500  # [characters] of an output, says the reporter
 STATUS = {"passed": "pass", "failed": "fail", "missing": "fail", "ungradable": "error"}

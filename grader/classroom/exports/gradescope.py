@@ -13,8 +13,8 @@ from grader.classroom.atomic_files import write_private_file
 from grader.classroom.grading import GradedStudent
 from grader.classroom.results import ClassResults
 from grader.report import compose_feedback
-from grader.student_data.variant import make_folder_name
 from sim.support.printable import make_printable
+from sim.support.student_names import make_folder_name
 
 
 def write(results: ClassResults, folder: Path) -> tuple[Path, ...]:
