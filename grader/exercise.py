@@ -50,7 +50,6 @@ from grader.answers.submission import (
     NamedAnswers,
     StudentAnswers,
     find_files,
-    find_whole_answer,
     read_answers,
     read_text,
 )
@@ -248,8 +247,9 @@ class Exercise:
         """
         advice = "Give yourself the right to read it, then run the same command again."
         with refuse_os_errors("it cannot be opened", given or self.folder, advice=advice):
-            whole = find_whole_answer(given, names=self.files, companion_files=self.companion_files)
-            return find_files(whole, folder=self.folder, names=self.files)
+            return find_files(
+                given, folder=self.folder, names=self.files, companion_files=self.companion_files
+            )
 
     def find_consequence(self, grade: Grade) -> Consequence | None:
         """What an answer would do on the robot; None where it is right, or has no visible effect.

@@ -72,7 +72,10 @@ def find_submissions(
             where=str(folder),
             advice="Put a folder or zip file there for each student, with the student's name.",
         )
-    each = [_identify(parts, exercises, asked, roster) for parts in found.values()]
+    each = [
+        _identify(parts, AnswerSelector(exercises, asked or exercises), roster)
+        for parts in found.values()
+    ]
     return tuple(sorted(each, key=lambda one: one.student.casefold()))
 
 
@@ -96,18 +99,14 @@ def _list_parts(folder: Path, roster: Identities | None) -> Iterator[_Part]:
 
 
 def _identify(
-    parts: Sequence[_Part],
-    exercises: Sequence[Exercise],
-    asked: Sequence[Exercise] | None,
-    roster: Identities | None,
+    parts: Sequence[_Part], selector: AnswerSelector, roster: Identities | None
 ) -> Submission:
     """What one student handed in, by the name on the roster; a stranger's is not read."""
     first = parts[0]
     if roster is None:
-        return _read(parts, exercises, asked, student=first.name.student)
-    student = roster.find(first.name)
-    if student is not None:
-        return _read(parts, exercises, asked, student=student)
+        return _read(parts, selector, student=first.name.student)
+    if student := roster.find(first.name):
+        return _read(parts, selector, student=student)
     likely = roster.propose(first.name)
     perhaps = f". Perhaps it is {' or '.join(likely)}" if likely else ""
     problem = (
@@ -133,16 +132,11 @@ def read_submission(
         student: who; None takes the name of the place.
     """
     name = SubmissionName(place.stem if place.is_file() else place.name)
-    return _read([_Part(place, name)], exercises, asked, student=student or name.student)
+    selector = AnswerSelector(exercises, asked or exercises)
+    return _read([_Part(place, name)], selector, student=student or name.student)
 
 
-def _read(
-    parts: Sequence[_Part],
-    exercises: Sequence[Exercise],
-    asked: Sequence[Exercise] | None,
-    *,
-    student: str,
-) -> Submission:
+def _read(parts: Sequence[_Part], selector: AnswerSelector, *, student: str) -> Submission:
     place = parts[0].path
     try:
         student = check_student_name(student)
@@ -150,7 +144,6 @@ def _read(
         return Submission(_make_legible(student), place, problem=str(refusal))
     at, late = "", any(part.name.late for part in parts)
     try:
-        selector = AnswerSelector(exercises, asked or exercises)
         for part in parts:
             at = format_file_name(part.path.name)
             for one in list_submitted_files(part.path, name=part.name.file):
