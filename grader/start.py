@@ -77,13 +77,9 @@ def start(course: Path, progress: Progress, *, student: str, lab: bool) -> int:
     lesson, exercise = find_next_step(course, standings)
     if lab:
         return _open_lab(course, course / lesson if lesson else _find_last_lesson(course, exercise))
-    if lesson:
-        first = "Begin" if not any(how.max_score for how in standings.values()) else "Go on"
-        _print_line(f"Ready. {first} with {lesson}; to open it in JupyterLab:  {command} start")
-    else:
-        _print_line("Ready.")
-        print_lines(format_next_step(course, found, progress, student=student))
-    return 0
+    _print_line(f"Ready. To work in JupyterLab:  {command} start")
+    print_lines(format_next_step(course, found, progress, student=student))
+    return DONE
 
 
 def _find_last_lesson(course: Path, exercise: str) -> Path:

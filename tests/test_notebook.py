@@ -208,7 +208,7 @@ def test_numbers_of_a_class_are_only_received(course):
     )
     place = course / ".course"
     place.mkdir()
-    (place / "class.toml").write_text('class = "East"\nstudent = "me"\n[sealed]\n', "utf-8")
+    (place / "class.toml").write_text('class = "East"\nstudent = "me"\n', "utf-8")
     shown = submit(1, size=3)
 
     assert "1 of 2 answered" in str(shown)

@@ -6,16 +6,12 @@ from collections.abc import Iterable
 from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from grader.classroom.answer_files import Submission
-from grader.classroom.bundle import unpack_course
+from grader.classroom.bundle import CourseBundle, unpack_course
 from grader.exercise import Exercise, Grade
 from grader.student_data.variant import use_class_secret
 from sim.support.printable import list_first
-
-if TYPE_CHECKING:
-    from grader.classroom.bundle import CourseBundle
 
 MISSING = "missing"  # the status of an exercise that was not handed in
 NOTHING = "nothing was handed in"
@@ -38,7 +34,7 @@ class GradingJob:
     submission: Submission
     digest: str
     names: tuple[str, ...]
-    course: "Path | CourseBundle"
+    course: Path | CourseBundle
     secret: bytes | None = field(repr=False)  # a message may hold this
     run: bool
 

@@ -3,7 +3,7 @@
 import math
 from pathlib import Path
 from statistics import median
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from grader.classroom.atomic_files import write_private_file
 from grader.classroom.grading import MISSING, GradedStudent
@@ -24,9 +24,6 @@ from grader.misconception import MISCONCEPTIONS
 from grader.report import format_points, render_checks
 from sim.support.student_names import make_folder_name
 
-if TYPE_CHECKING:
-    from jinja2 import Environment
-
 FOLDER = Path(__file__).parent
 PEOPLE = "students"
 TENTHS = 10  # of all points, in each of which students are counted
@@ -42,21 +39,16 @@ def write_pages(results: ClassResults, folder: Path) -> tuple[Path, ...]:
     Raises:
         BadRequest: they cannot be written.
     """
-    templates = _load_templates()
+    from sim.report.page_file import load_templates  # noqa: PLC0415 - only who writes pages needs them
+
+    templates = load_templates(FOLDER)
+    templates.filters |= {"percent": _format_percent, "signed": _format_signed}
     pages = []
     for one in results.students:
         text = templates.get_template("student.html.jinja").render(_fill_student_page(one, results))
         pages.append(write_private_file(folder / _name_page(one), text))
     text = templates.get_template("class.html.jinja").render(_fill_class_page(results))
     return (write_private_file(folder / "index.html", text), *pages)
-
-
-def _load_templates() -> "Environment":
-    from sim.report.page_file import load_templates  # noqa: PLC0415 - only who writes pages needs them
-
-    found = load_templates(FOLDER)
-    found.filters |= {"percent": _format_percent, "signed": _format_signed}
-    return found
 
 
 def _name_page(one: GradedStudent) -> str:

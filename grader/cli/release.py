@@ -11,16 +11,10 @@ from grader.classroom.roster import read_class_roster
 from grader.classroom.secret import identify_secret
 from grader.cli.course_here import PATH, find_course_here
 from grader.package_files import select_package_files
-from grader.release import (
-    StudentPackage,
-    find_broken_seals,
-    make_student_package,
-    pack_course_folder,
-)
-from grader.student_data.class_package import read_class_package
+from grader.release import StudentPackage, make_student_package, pack_course_folder
 from grader.terminal import print_error, print_lines, style_line
 from sim.core.errors import BadRequest
-from sim.support.command_line import DONE, NOT_RIGHT
+from sim.support.command_line import DONE
 from sim.support.printable import list_first
 from sim.support.secret import Secret, find_secret
 from sim.support.student_names import make_folder_name
@@ -32,7 +26,7 @@ WORTH = 3  # [students] that a further process has to save, to be worth its star
 
 
 @click.command()
-@click.option("-o", "--output", type=PATH, help="Folder for the packages.")
+@click.option("-o", "--output", type=PATH, required=True, help="Folder for the packages.")
 @click.option(
     "--roster",
     type=PATH,
@@ -45,16 +39,8 @@ WORTH = 3  # [students] that a further process has to save, to be worth its star
 @click.option(
     "--processes", type=click.IntRange(min=1), help="Number of processes.  [default: every core]"
 )
-@click.option(
-    "--check", type=PATH, help="Only check whether a student's COURSE folder is unchanged."
-)
-def release(  # noqa: PLR0917 - click passes options by name
-    output: Path | None,
-    roster: Path | None,
-    secret: Path | None,
-    name: str,
-    processes: int | None,
-    check: Path | None,
+def release(
+    output: Path, roster: Path | None, secret: Path | None, name: str, processes: int | None
 ) -> int:
     """Make the students' package.
 
@@ -62,13 +48,6 @@ def release(  # noqa: PLR0917 - click passes options by name
     logs of their own, and no answer keys. Only the owner of the secret can make these numbers
     again, and grade them: grade class FOLDER --secret FILE.
     """
-    if check is not None:
-        kept = find_secret(secret, make=False)
-        if kept is None:
-            raise BadRequest("no secret was named", advice="Name its file with --secret.")
-        return _check(check, kept.value)
-    if output is None:
-        raise BadRequest("no folder was named", advice="Say where: grade release -o FOLDER")
     if roster and not secret:
         raise BadRequest(
             "numbers for a class need a secret",
@@ -150,19 +129,3 @@ def _tell_made(output: Path, size: int, students: int, secret: Secret | None) ->
         mark = identify_secret(secret.value)
         lines.append(f"Made with the secret {mark}; grade class shows the same characters.")
     print_lines([style_line(one) for one in lines])
-
-
-def _check(place: Path, secret: bytes) -> int:
-    """Say what is not as the class issued it."""
-    found = read_class_package(place)
-    if found is None:
-        raise BadRequest(
-            "no class issued this",
-            where=str(place),
-            advice="Name the folder that holds .course and exercises.",
-        )
-    wrong = find_broken_seals(place, found, secret=secret)
-    lines = [f"{name}: changed since it was issued" for name in wrong]
-    whole = f"{place}: issued to {found.student}; all {len(found.sealed)} files unchanged."
-    print_lines([style_line(line) for line in lines or [whole]])
-    return NOT_RIGHT if wrong else DONE

@@ -17,13 +17,11 @@ class ClassPackage:
     Args:
         name: of the class.
         student: whose numbers these are.
-        sealed: file, seen from the course folder -> the class's seal of it.
         seal: the class's seal of the two names.
     """
 
     name: str
     student: str
-    sealed: dict[str, str]
     seal: str
 
     def is_for(self, student: str) -> bool:
@@ -59,7 +57,7 @@ def parse_class_package(content: bytes) -> ClassPackage:
     try:
         raw = tomllib.loads(content.decode("utf-8"))
         name, student = str(raw["class"]), check_student_name(str(raw["student"]))
-        return ClassPackage(name, student, dict(raw.get("sealed", {})), str(raw.get("seal", "")))
+        return ClassPackage(name, student, str(raw.get("seal", "")))
     except (TypeError, LookupError, RecursionError, Refusal) as error:
         raise ValueError(str(error)) from None
 
