@@ -7,8 +7,9 @@ from collections.abc import Mapping, Sequence
 from html import escape
 from typing import Any
 
-from grader.answers.number_answer import AnswerKey, AskedNumber, Band, judge_number
-from grader.answers.wrong_number import Scene
+from grader.answers.asked_number import AskedNumber, Band
+from grader.answers.number_answer import judge_number
+from grader.answers.wrong_number import AnswerKey, Scene
 from grader.check import WrongAnswer
 from grader.misconception import MISCONCEPTIONS
 from sim.core.errors import BadRequest

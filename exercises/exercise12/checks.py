@@ -8,7 +8,8 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 
-from grader.answers.number_answer import AskedNumber, Band, read_answer_number
+from grader.answers.asked_number import AskedNumber, Band
+from grader.answers.number_answer import read_answer_number
 from grader.answers.submission import StudentAnswers
 from grader.check import NotReachedError, WrongAnswer, check
 from grader.mystery import Mystery

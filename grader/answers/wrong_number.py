@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 from itertools import combinations
 from pathlib import Path
 
+from grader.answers.asked_number import AskedNumber
 from grader.texts import read_texts
 
 MANY = 3  # more suspects than this tell the learner nothing
@@ -126,29 +127,28 @@ class Scene:
     computed: bool = False
 
 
-def explain_wrong_number(
-    name: str,
-    value: float,
-    *,
-    right: Callable[[float], bool],
-    key: Mapping[str, float],
-    scene: Scene,
-    unit: str,
-) -> tuple[WrongNumber, ...]:
+@dataclass(frozen=True)
+class AnswerKey:
+    """The numbers of an exercise, and the mechanism and tests they belong to."""
+
+    asked: Mapping[str, AskedNumber]
+    scene: Scene = field(default_factory=Scene)
+
+
+def explain_wrong_number(name: str, value: float, key: AnswerKey) -> tuple[WrongNumber, ...]:
     """The mistakes that would explain a wrong number.
 
     Args:
         name: the gain: ``kV``.
         value: the learner's number, in the unit of the answer.
-        right: whether a value of this gain would earn full marks.
-        key: gain -> its value in the unit of the answer.
-        scene: the mechanism and its tests.
-        unit: the unit of the answer.
+        key: the right numbers, the mechanism and its tests.
     """
-    found = list(_explain_by_factors(name, value, right=right, scene=scene, unit=unit))
+    asked, scene = key.asked, key.scene
+    right = asked[name].is_right
+    found = list(_explain_by_factors(name, value, asked[name], scene))
     rarer = tuple(likely.slip for likely in scene.rarer.get(name, ()) if _looks_like(value, likely))
-    if name == "kS" and {"kV", "kA"} <= key.keys() and not rarer:  # theirs is the narrower band
-        excess = key["kA"] / key["kV"] * scene.ramp
+    if name == "kS" and {"kV", "kA"} <= asked.keys() and not rarer:  # theirs is the narrower band
+        excess = asked["kA"].expected / asked["kV"].expected * scene.ramp
         if excess > 0 and right(value - excess):
             found.append(_INTERCEPT)
     if name == "kV" and value and right(1.0 / value):
@@ -176,17 +176,17 @@ _UPSIDE_DOWN = WrongNumber(
 
 
 def _explain_by_factors(
-    name: str, value: float, *, right: Callable[[float], bool], scene: Scene, unit: str
+    name: str, value: float, asked: AskedNumber, scene: Scene
 ) -> Iterator[WrongNumber]:
-    if right(-value):
+    if asked.is_right(-value):
         says = "the size is right, the sign is not"
-        if scene.ramp and unit.startswith("V"):
+        if scene.ramp and asked.unit.startswith("V"):
             says += (
                 ". Positive volts have to give a positive velocity: does the voltage column or "
                 "the velocity column have the wrong sign?"
             )
         yield WrongNumber("sign", says)
-    factors = [*_list_factors(scene, velocity=name in {"kV", "kA"}, unit=unit)]
+    factors = [*_list_factors(scene, velocity=name in {"kV", "kA"}, unit=asked.unit)]
     if name == "kA" and scene.period:
         says = (
             f"the time between two samples is {scene.period:g} s. Did you divide the change of "
@@ -195,7 +195,7 @@ def _explain_by_factors(
         factors.append((1.0 / scene.period, WrongNumber("period", says)))
     for factor, slip in factors:
         for times, way in ((factor, "small"), (1.0 / factor, "large")):
-            if right(value * times):
+            if asked.is_right(value * times):
                 shown = f"{factor:.3g}" if factor < LARGE else f"{factor:.0f}"
                 says = f"about {shown} times too {way}: {slip.says}"
                 yield replace(slip, says=says)
