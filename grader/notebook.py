@@ -10,8 +10,9 @@ from typing import Any
 from grader.answers.answer_names import find_similar_name
 from grader.answers.submission import read_answers, read_text
 from grader.consequence import Consequence
-from grader.course import find_course, load_progress, update_progress
+from grader.course import find_course
 from grader.exercise import Exercise, Grade, find_exercise
+from grader.learner import find_learner
 from grader.report import (
     format_grade,
     format_points,
@@ -19,7 +20,6 @@ from grader.report import (
     judge_grade,
     render_checks,
 )
-from grader.student_data.class_package import explain_no_grading, find_learner, read_class_package
 from grader.terminal import Line, print_error, style_line
 from sim.core.errors import BadRequest, Refusal
 from sim.support.atomic_file import write_atomically
@@ -87,31 +87,25 @@ def submit(
         The result, which a cell shows. What cannot be graded is shown in one line, too.
     """
     folder = find_course(Path.cwd()) if course is None else course
-    progress, said = load_progress(folder)
-    if said:
-        print_error(said)
     try:
-        who = find_learner(folder, known=progress.student, student=student)
+        learner = find_learner(folder, student=student, say=print_error)
         one = find_exercise(str(exercise), folder)
         if answers:
             write_answers(one, answers)
-        of_class = read_class_package(folder)
-        if of_class and one.is_personal and of_class.is_for(who):
-            said = str(explain_no_grading(one.name, of_class))
-            return ShownGrade((*format_receipt(one, None), style_line(said)))
-        one.prepare(who, say=lambda _: None)
-        grade = one.grade(None, student=who)
+        if refusal := learner.find_refusal(one):
+            return ShownGrade((*format_receipt(one, None), style_line(str(refusal))))
+        one.prepare(learner.name, say=lambda _: None)
+        grade = one.grade(None, student=learner.name)
     except Refusal as refusal:
         return ShownGrade((style_line(f"! {refusal}"),))
     if grade.status == "ungradable":
         return ShownGrade((style_line(f"! {grade.reason}"),))
-    points = {"score": grade.score, "max_score": grade.max_score}
-    if said := update_progress(folder, lambda now: now.add_score(who, one.name, **points)):
+    if said := learner.keep_score(grade):
         print_error(said)
     then = one.find_consequence(grade)
     lines = format_grade(
         grade,
-        hints_shown=progress.find_standing(who, one.name).hints,
+        hints_shown=learner.standings[one.name].hints,
         solution=one.solution,
         then=then.words if then else "",
     )
@@ -174,7 +168,7 @@ def _read_questions(
     """
     folder = find_course(Path.cwd()) if course is None else course
     one = find_exercise(exercise, folder)
-    who = find_learner(folder, known=load_progress(folder)[0].student, student=None)
+    who = find_learner(folder, student=None, say=print_error).name
     one.prepare(who, say=lambda _: None)
     text = read_text(one.folder / "data" / make_folder_name(who) / "questions.md")
     return {

@@ -9,7 +9,8 @@ from pathlib import Path
 from grader.answers.submission import read_answers, read_text
 from grader.check import Result, Status
 from grader.course import Progress, Standing
-from grader.exercise import HINTS, Exercise, Grade
+from grader.exercise import HINTS, Exercise, Grade, list_exercises
+from grader.learner import Learner
 from grader.misconception import MISCONCEPTIONS
 from grader.terminal import Line, StyledText, find_width, style_line, wrap_text
 from sim.support.printable import make_printable
@@ -249,23 +250,17 @@ def format_hints(exercise: Exercise, *, shown: int) -> list[Line]:
     return lines
 
 
-def format_overview(
-    course: Path,
-    found: tuple[Exercise, ...],
-    progress: Progress,
-    *,
-    student: str,
-    plain: bool = False,
-) -> list[Line]:
+def format_overview(learner: Learner, *, plain: bool = False) -> list[Line]:
     """Where a learner stands: lessons and exercises."""
-    standings = [progress.find_standing(student, one.name) for one in found]
-    done = sum(standing.is_done for standing in standings)
-    name = f" ({student})" if student != Progress().student else ""
-    lines = [style_line(f"{done} of {len(found)} exercises done{name}", "bold"), style_line()]
-    lessons = sorted((course / "lessons").glob("*.ipynb"))
+    done = sum(standing.is_done for standing in learner.standings.values())
+    name = f" ({learner.name})" if learner.name != Progress().student else ""
+    head = f"{done} of {len(learner.standings)} exercises done{name}"
+    lines = [style_line(head, "bold"), style_line()]
+    lessons = sorted((learner.course / "lessons").glob("*.ipynb"))
     lines += [style_line(f"  {lesson.parent.name}/{lesson.name}") for lesson in lessons]
     lines += [style_line()] if lessons else []
-    for one, standing in zip(found, standings, strict=True):
+    for one in list_exercises(learner.course):
+        standing = learner.standings[one.name]
         tried = standing.max_score > 0
         status = (
             Status.PASSED if standing.is_done else Status.FAILED if tried else Status.NOT_REACHED
@@ -278,16 +273,13 @@ def format_overview(
     return lines
 
 
-def format_next_step(
-    course: Path, found: tuple[Exercise, ...], progress: Progress, *, student: str
-) -> list[Line]:
+def format_next_step(learner: Learner) -> list[Line]:
     """The one thing to do next, in a line that begins with ``Next``."""
-    standings = {one.name: progress.find_standing(student, one.name) for one in found}
-    lesson, exercise = find_next_step(course, standings)
+    lesson, exercise = find_next_step(learner.course, learner.standings)
     if lesson:
         return [style_line(f"Next: open {lesson}", "cyan")]
     if exercise:
-        word = "go on with" if standings[exercise].max_score > 0 else "do"
+        word = "go on with" if learner.standings[exercise].max_score > 0 else "do"
         return [style_line(f"Next: {word} exercises/{exercise}/README.md", "cyan")]
     return [style_line("Everything here is done.", "bold green")]
 

@@ -16,7 +16,6 @@ LARGEST = 1_000_000  # [bytes] robot code and answers are far smaller; a log or 
 LARGEST_ANSWERS = 64_000  # [bytes] of a file of answers; the longest solved one has 3,000
 DEEPEST = 50  # [lists in lists] of it; the parser needs a call of Python for each
 LONGEST_LINE = 2_000  # [characters] of it: reading a key takes the square of its length
-SHOWN = 3  # names of files in a message
 _BARE_WORDS = re.compile(r"[\w.]+\s*=\s*\[?\s*[A-Za-z][\w\s,-]*\]?\s*(#.*)?")  # no quotes
 NOT_ANSWERS = {
     "answer_key.toml", "class.toml", "faults.toml", "hints.toml", "progress.toml", "pyproject.toml",
@@ -101,7 +100,7 @@ def _find_in_folder(folder: Path, names: Sequence[str]) -> tuple[Path, ...]:
     if not like:
         return _refuse_files(f"{' or '.join(names)} is missing", folder, "Name the file itself.")
     if len(like) > 1:  # one answer each: the best of many would be a prize for guessing
-        named = list_first([file.name for file in like], most=SHOWN)
+        named = list_first([file.name for file in like])
         what = f"{len(like)} files here could be the answer ({named})"
         advice = f"Name the one that counts, or call it {names[0]}."
         return _refuse_files(what, folder, advice)

@@ -32,7 +32,6 @@ from sim.support.printable import list_first
 MAX_FILES = 40  # for one exercise
 LARGEST_LOG = 32_000_000  # [bytes] of one robot log; four tests of SysId take less than 10 MB
 LONGEST_NAME = 200  # [bytes] of a file's name; some systems take no more than 255
-SHOWN = 3  # names in a line
 OURS = {"README.md", "hints.toml", "checks.py"}  # of the exercise, whatever a student did to them
 COURSE_FOLDERS = {"lessons", "grader", "sim", "tests"}  # of a whole course
 COURSE_FILES = {
@@ -272,7 +271,7 @@ class AnswerSelector:
                 certain.setdefault(open_[0], []).append(shown)
             elif open_ and fit:
                 unused.append(
-                    f"{shown} could belong to {list_first(open_, most=SHOWN)}; it was not graded. "
+                    f"{shown} could belong to {list_first(open_)}; it was not graded. "
                     "Put it into a folder with the name of its exercise"
                 )
             elif open_:
@@ -306,7 +305,7 @@ def _select_answer(
         shown = [format_file_name(one.path.name) for one in pool]
         return [], problem or _explain_wrong_files(exercise, shown), []
     kept = {one.content for one in graded}
-    from_ = list_first([_show_path(one) for one in graded], most=SHOWN)
+    from_ = list_first([_show_path(one) for one in graded])
     lines = [
         f"{_show_path(one)} was not graded: {exercise.name} is graded from {from_}"
         for one in touched
@@ -339,7 +338,7 @@ def _find_rivals(pool: Sequence[_Candidate], exercise: Exercise) -> str:
         those.setdefault(one.content, _show_path(one))
     for those in rivals.values():
         if len(those) > 1:
-            shown = list_first([*those.values()], most=SHOWN)
+            shown = list_first([*those.values()])
             return (
                 f"there are {len(those)} different files that may be the answer: {shown}. Keep the "
                 "one that counts"
@@ -376,7 +375,7 @@ def _show_path(one: _Candidate) -> str:
 
 def _explain_wrong_files(exercise: Exercise, names: Sequence[str]) -> str:
     """Why an exercise was not graded where only files of other names were handed in."""
-    shown, name = list_first(names, most=SHOWN), exercise.name
+    shown, name = list_first(names), exercise.name
     if all(_is_own_name(one, exercise) for one in names):
         return f"{shown} may belong to {name}. Put it into a folder {name}"
     needed = " or ".join(exercise.files)

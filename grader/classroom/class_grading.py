@@ -105,7 +105,6 @@ def grade_class(
         BadRequest: a result cannot be written, or the cluster does not answer.
     """
     found = [*kept]
-    store.open()
     grading = collect_results(
         grade_within_limits, left, processes=processes, cluster=cluster, stop_if_asked=stop_if_asked
     )

@@ -15,7 +15,6 @@ from sim.support.printable import list_first
 
 MISSING = "missing"  # the status of an exercise that was not handed in
 NOTHING = "nothing was handed in"
-SHOWN = 3  # names of files in a message
 
 
 @dataclass(frozen=True)
@@ -78,7 +77,7 @@ def _grade(exercise: Exercise, job: GradingJob, folder: Path) -> Grade:
     if not files:
         return exercise.skip(NOTHING, student=student, status=MISSING)
     if exercise.answer_endings.isdisjoint(Path(name).suffix.lower() for name in files):
-        needed, there = " or ".join(exercise.files), list_first(sorted(files), most=SHOWN)
+        needed, there = " or ".join(exercise.files), list_first(sorted(files))
         return exercise.skip(f"{needed} is missing; there is only {there}", student=student)
     try:
         folder.mkdir()

@@ -15,8 +15,6 @@ from sim.core.errors import BadRequest, Refusal
 from sim.support.printable import list_first
 from sim.support.student_names import check_student_name, make_folder_name, normalize_name
 
-SHOWN = 5  # names in one line
-
 
 def check_identities(
     handed_in: Sequence[Submission],
@@ -65,7 +63,7 @@ def _refuse_unknown_numbers(handed_in: Sequence[Submission], asked: Sequence[Exe
     if unknown:
         raise BadRequest(
             "nothing says which numbers these students worked on: "
-            f"{list_first(unknown, most=SHOWN, separator='; ')}",
+            f"{list_first(unknown, separator='; ')}",
             advice="If they had packages of grade release, add --secret class.secret. If they "
             "worked in the course without packages, add --self-study.",
         )

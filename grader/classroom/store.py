@@ -11,9 +11,9 @@ from typing import Any
 
 from grader.check import Result, Status
 from grader.classroom.answer_files import Submission
+from grader.classroom.atomic_files import write_private_file
 from grader.classroom.grading import GradedStudent
 from grader.exercise import Grade
-from sim.support.atomic_file import make_private_folder, write_atomically
 from sim.support.os_errors import refuse_os_errors
 from sim.support.student_names import make_folder_name
 
@@ -52,16 +52,6 @@ class ResultStore:
     def __init__(self, folder: Path) -> None:
         self.folder = folder
 
-    def open(self) -> None:
-        """Make the folder.
-
-        Raises:
-            BadRequest: it cannot be made.
-        """
-        advice = "Name another folder with -o."
-        with refuse_os_errors("the results cannot be written", self.folder, advice=advice):
-            make_private_folder(self.folder / RESULTS)
-
     def get(self, student: str, expected: str) -> GradedStudent | None:
         """A student's results, if they are there whole and nothing they depend on has changed."""
         try:
@@ -78,12 +68,9 @@ class ResultStore:
         Raises:
             BadRequest: they cannot be written.
         """
-        path = self._path(graded.student)
         raw = asdict(graded)  # of paths, there are only names of files
         text = json.dumps(raw, ensure_ascii=False, indent=1, allow_nan=False, default=str)
-        advice = "Make room there, then run the same command again: what is graded is kept."
-        with refuse_os_errors("the results cannot be written", path, advice=advice):
-            write_atomically(path, text + "\n", private=True)
+        write_private_file(self._path(graded.student), text + "\n")
 
     def remove_outdated(self, written: Iterable[Path], *, students: Iterable[str]) -> None:
         """Remove the files that the run before this one wrote and this one did not.
@@ -109,8 +96,7 @@ class ResultStore:
                     path.unlink()
                 with suppress(OSError):  # it is not empty
                     path.parent.rmdir()
-        with refuse_os_errors("cannot be replaced", kept, advice=advice):
-            write_atomically(kept, "".join(f"{name}\n" for name in sorted(now)), private=True)
+        write_private_file(kept, "".join(f"{name}\n" for name in sorted(now)))
 
     def _path(self, student: str) -> Path:
         return self.folder / RESULTS / f"{make_folder_name(student)}.json"

@@ -22,6 +22,7 @@ from grader.classroom.secret import describe_numbers
 from grader.classroom.store import ResultStore
 from grader.classroom.submissions import find_stray_files, find_submissions, read_submission
 from grader.cli.course_here import ONLY, PATH, choose_exercises, find_course_here
+from grader.course import NOBODY
 from grader.exercise import Exercise, list_exercises
 from grader.isolation import find_isolation_level
 from grader.terminal import print_error, print_lines, style_line, wrap_text
@@ -32,8 +33,6 @@ from sim.support.secret import find_secret
 from sim.support.work.executor import count_available_cores
 from sim.support.work.interrupt import deferred_interrupt
 from sim.support.work.progress_bar import progress_bar
-
-SHOWN = 5  # names in one line
 
 
 @click.command("class")
@@ -155,12 +154,12 @@ def _tell_problems(there: Sequence[Submission]) -> None:
         if one.problem:
             print_error(f"{one.student}: {one.problem}")
         elif one.unused:
-            print_error(f"{one.student}: {list_first(one.unused, most=SHOWN, separator='; ')}")
-    nameless = [one.student for one in there if one.worked_as]
+            print_error(f"{one.student}: {list_first(one.unused, separator='; ')}")
+    nameless = [one.student for one in there if one.worked_as == NOBODY]
     if nameless:
         print_error(
             "these students worked without a name, so they are graded on the numbers for no name: "
-            f"{list_first(nameless, most=SHOWN, separator='; ')}"
+            f"{list_first(nameless, separator='; ')}"
         )
     matched = [
         f"{one.place.name} as {one.student}"
@@ -168,7 +167,7 @@ def _tell_problems(there: Sequence[Submission]) -> None:
         if not one.problem and one.student.casefold() not in one.place.name.casefold()
     ]
     if matched:
-        print_error(f"found on the roster: {list_first(matched, most=SHOWN, separator='; ')}")
+        print_error(f"found on the roster: {list_first(matched, separator='; ')}")
 
 
 def _decide_running(asked: Sequence[Exercise], run: bool | None, cluster: str | None) -> bool:  # noqa: FBT001 - as the option

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from grader.cli import locate_course
+from grader.cli import locate_learner
 from grader.cli.course_here import PLAIN, STUDENT
 from grader.mystery import (
     HIGHEST,
@@ -35,7 +35,8 @@ def mystery(answer: tuple[str, ...], student: str | None, *, give_up: bool, plai
 
     For example: grade mystery "hard-stop, dynamic-forward, 1.20 to 1.66, trim"
     """
-    course, _, who = locate_course(student)
+    learner = locate_learner(student)
+    course, who = learner.course, learner.name
     folder = find_mystery_folder(course, who)
     state = load_state(folder)
     place = folder.relative_to(course)

@@ -2,9 +2,9 @@
 
 import click
 
-from grader.cli import complete_exercise, grade_file, locate_course, show_next_step
+from grader.cli import complete_exercise, grade_file, locate_learner, show_next_step
 from grader.cli.course_here import PLAIN, STUDENT
-from grader.exercise import find_exercise, list_exercises
+from grader.exercise import find_exercise
 from grader.terminal import print_lines, style_line
 from grader.watch import watch_exercise
 from sim.core.errors import Refusal
@@ -21,20 +21,18 @@ def watch(exercise: str | None, student: str | None, *, plain: bool) -> int:
     The command ends when all is right. Without EXERCISE, it takes the first exercise that is not
     done yet.
     """
-    folder, progress, who = locate_course(student)
-    left = (
-        one for one in list_exercises(folder) if not progress.find_standing(who, one.name).is_done
-    )
-    watched = find_exercise(exercise, folder) if exercise else next(left, None)
-    if watched is None:
-        show_next_step(folder, who)
+    learner = locate_learner(student)
+    left = (name for name, standing in learner.standings.items() if not standing.is_done)
+    name = exercise or next(left, None)
+    if name is None:
+        show_next_step(learner)
         return DONE
-    place = (watched.folder / watched.files[0]).relative_to(folder).as_posix()
+    watched = find_exercise(name, learner.course)
+    place = (watched.folder / watched.files[0]).relative_to(learner.course).as_posix()
 
     def grade() -> int:
-        _, now, _ = locate_course(student)
         try:
-            code = grade_file(watched, None, folder, now, who, plain=plain)
+            code = grade_file(watched, None, locate_learner(student), plain=plain)
         except Refusal as refusal:  # the next time it is saved, it may be readable
             print_error(str(refusal), name="grade")
             code = COULD_NOT
@@ -46,5 +44,5 @@ def watch(exercise: str | None, student: str | None, *, plain: bool) -> int:
         watch_exercise(watched, grade=grade)
     except KeyboardInterrupt:
         return DONE
-    show_next_step(folder, who)
+    show_next_step(learner)
     return DONE

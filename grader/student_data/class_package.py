@@ -62,30 +62,6 @@ def parse_class_package(content: bytes) -> ClassPackage:
         raise ValueError(str(error)) from None
 
 
-def find_learner(course: Path, *, known: str, student: str | None) -> str:
-    """Who is learning in a course folder.
-
-    Args:
-        course: the course folder.
-        known: who it was before, as progress keeps it.
-        student: who a command says it is; None in a class's package is whom it was issued to.
-
-    Raises:
-        BadRequest: the name is none, the class's file cannot be read, or the name that was known is
-            lost.
-    """
-    if student is not None:
-        return check_student_name(student)
-    of_class = read_class_package(course)
-    if of_class is None and not known:
-        raise BadRequest(
-            "your progress was damaged, and with it your name, which decides your numbers",
-            advice="Say your name once more, as before: grade start --student NAME. If you never "
-            "gave a name: grade start --student me",
-        )
-    return of_class.student if of_class else known
-
-
 def explain_no_grading(exercise: str, found: ClassPackage) -> BadRequest:
     """Why an exercise cannot be graded here, and how to practice all the same."""
     return BadRequest(

@@ -14,7 +14,6 @@ from sim.support.printable import list_first
 
 ROSTER = ("ID", "SIS User ID", "SIS Login ID")  # Canvas finds nobody by the name alone
 IDENTITY = ("Student", "ID", "SIS User ID", "SIS Login ID", "Section")
-SHOWN = 5  # names in one line
 
 
 def write(results: ClassResults, folder: Path) -> tuple[Path, ...]:
@@ -43,5 +42,5 @@ def warn(results: ClassResults) -> str:
         return ""
     return (
         "canvas.csv has no points for these students, because some of their work was not graded: "
-        f"{list_first(names, most=SHOWN, separator='; ')}. Check their work, then run this again"
+        f"{list_first(names, separator='; ')}. Check their work, then run this again"
     )
