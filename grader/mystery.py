@@ -8,7 +8,7 @@ so that everybody can grade it.
 import secrets
 import tomllib
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -100,11 +100,10 @@ def save_state(folder: Path, state: MysteryState) -> None:
     Raises:
         BadRequest: it cannot be written.
     """
-    seed = "" if state.seed is None else f"seed = {state.seed}\n"
+    told = ((name, value) for name, value in asdict(state).items() if value is not None)
     with refuse_os_errors("the mystery cannot be written", folder, advice=WRITE):
         folder.mkdir(parents=True, exist_ok=True)
-        text = f"number = {state.number}\nlevel = {state.level}\n{seed}"
-        write_atomically(folder / STATE, text)
+        write_atomically(folder / STATE, "".join(f"{name} = {value}\n" for name, value in told))
 
 
 def draw_mystery(course: Path, state: MysteryState) -> Mystery:
