@@ -103,10 +103,10 @@ class Submission:
 
     student: str
     place: Path
-    files: Mapping[str, Files] = field(default_factory=dict)
+    files: Mapping[str, Files] = field(default_factory=dict, repr=False)
     problems: Mapping[str, str] = field(default_factory=dict)
     problem: str = ""
-    identities: Mapping[str, bytes] = field(default_factory=dict)
+    identities: Mapping[str, bytes] = field(default_factory=dict, repr=False)
     data_folders: frozenset[str] = frozenset()
     worked_as: str = ""
     unused: tuple[str, ...] = ()

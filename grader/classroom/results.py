@@ -93,14 +93,15 @@ def collect_results(
         handed_in: what was handed in.
     """
     rows = known.rows
-    found = {normalize_name(one.student): one for one in graded}
+    strangers = {one.student for one in handed_in if one.problem and one.student not in rows}
+    strangers = strangers if rows else set()
+    found = {normalize_name(one.student): one for one in graded if one.student not in strangers}
     remarks: dict[str, list[str]] = defaultdict(list)
     for one in handed_in:
-        if not one.problem:
-            remarks[one.student] += one.unused
-        elif rows and one.student not in rows:
+        if one.student in strangers:
             remarks[one.student].append(one.problem)
-            del found[normalize_name(one.student)]
+        elif not one.problem:
+            remarks[one.student] += one.unused
         for student in one.likely:
             maybe = f"perhaps {one.place.name} is theirs; it was not graded"
             remarks[student].append(maybe)
