@@ -12,9 +12,9 @@ from pathlib import Path
 
 from grader.student_data.class_package import PLACE as ISSUED
 from grader.student_data.fingerprint import PACKAGES, fingerprint_folders, fingerprint_packages
-from grader.student_data.variant import check_student_name, make_folder_name
 from sim.core.errors import BadRequest, Refusal
 from sim.support.atomic_file import write_atomically
+from sim.support.student_names import check_student_name, make_folder_name
 
 NOBODY = "me"  # who is learning, until they say otherwise
 PLACE = Path(".course") / "progress.toml"
@@ -68,6 +68,11 @@ class Standing:
     score: float = 0.0
     max_score: float = 0.0
     hints: int = 0
+
+    def __post_init__(self) -> None:
+        known = 0 <= self.score <= self.max_score < math.inf and self.hints >= 0
+        if not (known and isinstance(self.hints, int)):
+            raise ValueError
 
     @property
     def is_done(self) -> bool:
@@ -174,18 +179,9 @@ def _parse_progress(raw: dict[str, object]) -> Progress:
     if not isinstance(tables, dict):
         raise TypeError
     for student, exercises in tables.items():
-        standings[student] = {name: _parse_standing(one) for name, one in exercises.items()}
+        standings[student] = {name: Standing(**one) for name, one in exercises.items()}
     student = _parse_student({"student": NOBODY, **raw})
     return Progress(check_student_name(student) if student else "", standings)
-
-
-def _parse_standing(one: Mapping[str, object]) -> Standing:
-    score, most, hints = one["score"], one["max_score"], one["hints"]
-    if not (isinstance(score, int | float) and isinstance(most, int | float)):
-        raise TypeError
-    if not (isinstance(hints, int) and hints >= 0 and 0 <= score <= most < math.inf):
-        raise ValueError
-    return Standing(float(score), float(most), hints)
 
 
 def update_progress(course: Path, change: Callable[[Progress], Progress]) -> str:

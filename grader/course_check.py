@@ -5,7 +5,6 @@ Beside ``exercises/NAME`` is ``solutions/NAME``: the solved files, or ``solve.py
 ``MISTAKES`` (``grader.mistake``).
 """
 
-import importlib.util
 import re
 import shutil
 import tempfile
@@ -14,13 +13,13 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
-from types import ModuleType
 
-from grader.exercise import HINTS, Exercise, Grade
+from grader.exercise import HINTS, Exercise, Grade, load_module
 from grader.misconception import MISCONCEPTIONS
 from grader.mistake import LINE, Mistake
 from grader.starter import remove_answers
-from grader.student_data.variant import make_folder_name, use_class_secret
+from grader.student_data.variant import use_class_secret
+from sim.support.student_names import make_folder_name
 
 STUDENTS = ("ann", "ben", "zoë")  # between them they get every kind of mechanism of the course
 FEWEST_MISTAKES = 5
@@ -60,22 +59,12 @@ class SolvedExercise:
 
 
 @cache
-def load_solution(path: Path) -> ModuleType:
-    """A file of ``solutions/`` as a module."""
-    spec = importlib.util.spec_from_file_location(f"_{path.parent.name}_{path.stem}", path)
-    if spec is None or spec.loader is None:
-        raise ImportError(f"{path} cannot be loaded")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
 def list_mistakes(one: Exercise) -> tuple[Mistake, ...]:
     """The planted mistakes of an exercise; none where its solution has none."""
     path = one.solution / "mistakes.py" if one.solution else None
     if path is None or not path.is_file():
         return ()
-    return tuple(getattr(load_solution(path), "MISTAKES", ()))
+    return tuple(getattr(load_module(path), "MISTAKES", ()))
 
 
 def solve(one: Exercise, data: Path, *, solution: Path | None = None) -> dict[str, str]:
@@ -90,10 +79,9 @@ def solve(one: Exercise, data: Path, *, solution: Path | None = None) -> dict[st
     if folder is None:
         raise FileNotFoundError(f"there is no solution of {one.name}")
     if (folder / "solve.py").is_file():
-        found: dict[str, str] = load_solution(folder / "solve.py").solve(one.folder, data)
+        found: dict[str, str] = load_module(folder / "solve.py").solve(one.folder, data)
         return found
-    names = (*one.files, *one.companion_files)
-    return {name: (folder / name).read_text(encoding="utf-8") for name in names}
+    return {name: (folder / name).read_text(encoding="utf-8") for name in one.starters}
 
 
 def prepare_solved(one: Exercise, student: str, folder: Path) -> SolvedExercise:
@@ -104,12 +92,18 @@ def prepare_solved(one: Exercise, student: str, folder: Path) -> SolvedExercise:
         student: whose files.
         folder: an empty folder for the copy.
     """
+    moved = _copy_exercise(one, student, folder)
+    data = moved.folder / "data" / make_folder_name(student)
+    return SolvedExercise(moved, student, solve(moved, data, solution=one.solution))
+
+
+def _copy_exercise(one: Exercise, student: str, folder: Path) -> Exercise:
+    """A copy of an exercise, with a student's files."""
     copy = folder / "exercises" / one.name
     shutil.copytree(one.folder, copy, ignore=shutil.ignore_patterns("data", "__pycache__"))
     moved = replace(one, folder=copy)
     moved.prepare(student, say=lambda _: None)
-    data = copy / "data" / make_folder_name(student)
-    return SolvedExercise(moved, student, solve(moved, data, solution=one.solution))
+    return moved
 
 
 def list_graded_mistakes(one: Exercise, student: str) -> list[Mistake]:
@@ -184,7 +178,7 @@ def _find_starter_flaws(one: Exercise) -> Iterator[str]:
     if one.solution is None:
         yield f"there is no folder solutions/{one.name} with the solution"
         return
-    for name in (*one.files, *one.companion_files):
+    for name in one.starters:
         starter, solved = one.folder / name, one.solution / name
         if not starter.is_file():
             yield f"{name} is missing in {one.folder}: the file to fill in"
@@ -249,10 +243,8 @@ def find_draw_flaws(one: Exercise) -> Iterator[str]:
     made = []
     for secret in (b"east", b"west", b"east"):
         with tempfile.TemporaryDirectory() as folder, use_class_secret(secret):
-            copy = Path(folder, "exercises", one.name)
-            shutil.copytree(one.folder, copy, ignore=shutil.ignore_patterns("data", "__pycache__"))
-            replace(one, folder=copy).prepare("ann", say=lambda _: None)
-            files = sorted((copy / "data").rglob("*.*"))
+            copy = _copy_exercise(one, "ann", Path(folder))
+            files = sorted((copy.folder / "data").rglob("*.*"))
             made.append({path.name: path.read_bytes() for path in files})
     if made[0] != made[2]:
         yield "the same class and student get other files each time: draw from make_student_rng"

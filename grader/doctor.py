@@ -1,9 +1,8 @@
 """``grade doctor``: what this machine has, and what is missing for which part of the course."""
 
-import importlib.util
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -14,6 +13,7 @@ from sim.support.extras import format_install_command
 OLDEST = (3, 11)
 NEEDED = ("numpy", "matplotlib", "jupyterlab", "ipywidgets", "tree-sitter")
 ROBOT = ("wpilib", "robotpy-commands-v2")
+CLUSTER = ("distributed",)
 
 
 @dataclass(frozen=True)
@@ -42,14 +42,18 @@ def examine_machine(course: Path) -> Iterator[MachineFinding]:
         course: the course folder.
     """
     yield _check_python()
-    yield _check_packages()
+    install = format_install_command("course")
+    yield _check_packages("packages", NEEDED, advice=install, needed=True)
     yield _check_engine()
     yield _check_writing(course)
     yield _check_terminal()
     yield _check_isolation()
     yield _check_container()
-    yield _check_robot()
-    yield _check_dask()
+    install = format_install_command("robot")
+    advice = f"For the simulated robot program of lesson 5: {install}"
+    yield _check_packages("RobotPy", ROBOT, advice=advice)
+    advice = f"To grade on more than one machine: {format_install_command('cluster')}"
+    yield _check_packages("cluster", CLUSTER, advice=advice)
 
 
 def _check_python() -> MachineFinding:
@@ -59,35 +63,31 @@ def _check_python() -> MachineFinding:
     return MachineFinding("Python", said, right, advice=f"Install Python {least} or newer.")
 
 
-def _check_packages() -> MachineFinding:
-    lacking = [name for name in NEEDED if _find_version(name) is None]
-    found = f"{', '.join(lacking)} missing" if lacking else "all installed"
-    advice = format_install_command("course")
-    return MachineFinding("packages", found, not lacking, advice=advice)
-
-
-def _find_version(name: str) -> str | None:
-    try:
-        return version(name)
-    except PackageNotFoundError:
-        return None
+def _check_packages(
+    what: str, names: Sequence[str], *, advice: str, needed: bool = False
+) -> MachineFinding:
+    """Whether packages are installed, and their versions."""
+    found = []
+    for name in names:
+        try:
+            found.append(f"{name} {version(name)}")
+        except PackageNotFoundError:
+            return MachineFinding(
+                what, f"{name} is not installed", right=False, needed=needed, advice=advice
+            )
+    return MachineFinding(what, ", ".join(found), right=True, needed=needed)
 
 
 def _check_engine() -> MachineFinding:
     from sim.physics.engine import engine_can_compile, engine_is_cached  # noqa: PLC0415 - beside its use
 
-    if not engine_can_compile():
-        advice = (
-            f"The simulation works, but slowly. To make it fast: {format_install_command('fast')}"
-        )
-        return MachineFinding(
-            "simulation", "not compiled: Numba is missing", right=False, needed=False, advice=advice
-        )
-    ready = engine_is_cached()
+    ready, advice = engine_is_cached(), "grade start compiles it."
     found = "compiled" if ready else "not compiled yet; the first simulation takes twenty seconds"
-    return MachineFinding(
-        "simulation", found, ready, needed=False, advice="grade start compiles it."
-    )
+    if not engine_can_compile():
+        ready, found = False, "not compiled: Numba is missing"
+        install = format_install_command("fast")
+        advice = f"The simulation works, but slowly. To make it fast: {install}"
+    return MachineFinding("simulation", found, ready, needed=False, advice=advice)
 
 
 def _check_writing(course: Path) -> MachineFinding:
@@ -123,19 +123,3 @@ def _check_container() -> MachineFinding:
         f"folder: {BUILD.format(engine='docker')}"
     )
     return MachineFinding("container", found, bool(there), needed=False, advice=advice)
-
-
-def _check_robot() -> MachineFinding:
-    there = [f"{name} {_find_version(name)}" for name in ROBOT if _find_version(name)]
-    right = len(there) == len(ROBOT)
-    advice = f"For the simulated robot program of lesson 5: {format_install_command('robot')}"
-    return MachineFinding(
-        "RobotPy", ", ".join(there) or "not installed", right, needed=False, advice=advice
-    )
-
-
-def _check_dask() -> MachineFinding:
-    right = importlib.util.find_spec("distributed") is not None
-    found = f"distributed {_find_version('distributed')}" if right else "not installed"
-    advice = f"To grade on more than one machine: {format_install_command('cluster')}"
-    return MachineFinding("cluster", found, right, needed=False, advice=advice)

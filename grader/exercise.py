@@ -37,7 +37,7 @@ import inspect
 import re
 import sys
 import tomllib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -50,7 +50,6 @@ from grader.answers.submission import (
     NamedAnswers,
     StudentAnswers,
     find_files,
-    find_whole_answer,
     read_answers,
     read_text,
 )
@@ -71,7 +70,7 @@ class Grade:
         exercise: ``exercise4``.
         student: whose answer it is.
         score, max_score: points earned, points there are.
-        status: ``passed`` (full marks), ``failed`` or ``ungradable``.
+        status: ``passed`` (full marks), ``failed`` or ``ungradable``; of a class also ``missing``.
         checks: one result for each check, in the order they are shown.
         file: what was graded.
         reason: why it was ungradable, one line; empty otherwise.
@@ -87,6 +86,11 @@ class Grade:
     file: Path | None = None
     reason: str = ""
     warnings: tuple[str, ...] = ()
+
+    @property
+    def is_graded(self) -> bool:
+        """Whether there was an answer, and it could be graded."""
+        return self.status in {"passed", "failed"}
 
     @property
     def is_readable(self) -> bool:
@@ -109,18 +113,7 @@ class Exercise:
     @cached_property
     def module(self) -> ModuleType:
         """The exercise's checks.py, loaded by path under a name of its own."""
-        path = self.folder / "checks.py"
-        own = hashlib.sha256(str(path).encode("utf-8", "surrogatepass")).hexdigest()[:12]
-        name = f"_checks_of_{self.name}_{own}"  # the same in each process, for the cache of draws
-        spec = importlib.util.spec_from_file_location(
-            name, path, submodule_search_locations=[str(self.folder)]
-        )
-        if spec is None or spec.loader is None:
-            raise ImportError(f"{path} cannot be loaded")
-        module = importlib.util.module_from_spec(spec)
-        sys.modules[name] = module  # dataclasses look themselves up there
-        spec.loader.exec_module(module)
-        return module
+        return load_module(self.folder / "checks.py")
 
     @property
     def checks(self) -> tuple[Check[Any], ...]:
@@ -142,6 +135,16 @@ class Exercise:
     def companion_files(self) -> tuple[str, ...]:
         """The files to fill in that belong to the one graded, and stand beside it."""
         return tuple(getattr(self.module, "BESIDE", ()))
+
+    @property
+    def starters(self) -> tuple[str, ...]:
+        """All files to fill in."""
+        return (*self.files, *self.companion_files)
+
+    @property
+    def answer_endings(self) -> frozenset[str]:
+        """What the names of the files that are graded end in."""
+        return frozenset(Path(name).suffix for name in self.files)
 
     @property
     def answer_names(self) -> tuple[str, ...]:
@@ -244,8 +247,9 @@ class Exercise:
         """
         advice = "Give yourself the right to read it, then run the same command again."
         with refuse_os_errors("it cannot be opened", given or self.folder, advice=advice):
-            whole = find_whole_answer(given, names=self.files, companion_files=self.companion_files)
-            return find_files(whole, folder=self.folder, names=self.files)
+            return find_files(
+                given, folder=self.folder, names=self.files, companion_files=self.companion_files
+            )
 
     def find_consequence(self, grade: Grade) -> Consequence | None:
         """What an answer would do on the robot; None where it is right, or has no visible effect.
@@ -268,7 +272,7 @@ class Exercise:
         except (Refusal, NotRunError, NotReachedError) as refusal:
             return replace(self.skip(str(refusal), student=student), file=file)
         results = run_checks(self.checks, subject)
-        score, most = (sum(points) for points in zip(*_sum_points(results), strict=True))
+        score, most = sum_points(results)
         broken = next((one for one in results if one.status is Status.ERROR), None)
         status = "passed" if score == most else "failed"
         reason = ""
@@ -302,24 +306,39 @@ class Exercise:
             exercise=self.name,
         )
 
-    def skip(self, reason: str, *, student: str) -> Grade:
+    def skip(self, reason: str, *, student: str, status: str = "ungradable") -> Grade:
         """The grade of an answer that is not graded, for a reason of one line."""
         results = tuple(skip_check(one, reason) for one in self.checks)
         most = sum(one.points for one in self.checks)
-        return Grade(self.name, student, 0.0, most, "ungradable", results, reason=reason)
+        return Grade(self.name, student, 0.0, most, status, results, reason=reason)
+
+
+def load_module(path: Path) -> ModuleType:
+    """A file of an exercise or a solution as a module, under a name of its own."""
+    own = hashlib.sha256(str(path).encode("utf-8", "surrogatepass")).hexdigest()[:12]
+    # the same in each process, for the cache of draws
+    name = f"_{path.stem}_of_{path.parent.name}_{own}"
+    spec = importlib.util.spec_from_file_location(
+        name, path, submodule_search_locations=[str(path.parent)]
+    )
+    if spec is None or spec.loader is None:
+        raise ImportError(f"{path} cannot be loaded")
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module  # dataclasses look themselves up there
+    spec.loader.exec_module(module)
+    return module
 
 
 def find_checks(module: ModuleType) -> tuple[Check[Any], ...]:
     """The checks of a module, and those in its tuples of checks, as they are written."""
-    found: list[Check[Any]] = []
-    for value in vars(module).values():
-        several = value if isinstance(value, tuple) else (value,)
-        found += [one for one in several if isinstance(one, Check)]
-    return tuple(found)
+    values = (value if isinstance(value, tuple) else (value,) for value in vars(module).values())
+    return tuple(one for several in values for one in several if isinstance(one, Check))
 
 
-def _sum_points(results: Sequence[Result]) -> list[tuple[float, float]]:
-    return [(result.points, result.max_points) for result in results] or [(0.0, 0.0)]
+def sum_points(results: Iterable[Result]) -> tuple[float, float]:
+    """The points that checks earned, and the points there are."""
+    pairs = [(one.points, one.max_points) for one in results]
+    return sum(points for points, _ in pairs), sum(most for _, most in pairs)
 
 
 def choose_best_grade(grades: Sequence[Grade]) -> Grade:
@@ -327,11 +346,7 @@ def choose_best_grade(grades: Sequence[Grade]) -> Grade:
 
     A file with a syntax error is more likely the one being worked on than an untouched starter.
     """
-
-    def rank(grade: Grade) -> tuple[float, bool]:
-        return grade.score, grade.status == "ungradable"
-
-    return max(grades, key=rank)
+    return max(grades, key=lambda one: (one.score, one.status == "ungradable"))
 
 
 def list_exercises(course: Path) -> tuple[Exercise, ...]:

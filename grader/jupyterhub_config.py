@@ -9,10 +9,8 @@ folder around it has to hold roster.csv, and packages/ as `grade release --roste
 Each student has a system user of their own, whose home nobody else can enter.
 """
 
-import csv
 import hashlib
 import hmac
-import io
 import os
 import pwd
 import secrets
@@ -28,12 +26,12 @@ from typing import Any
 from jupyterhub.auth import LocalAuthenticator
 
 import grader
+from grader.classroom.csv_file import write_csv_file
 from grader.classroom.roster import read_class_roster
 from grader.start import QUIET
-from grader.student_data.variant import make_folder_name, normalize_name
 from sim.core.errors import Refusal
 from sim.physics.engine import load_engine
-from sim.support.atomic_file import write_atomically
+from sim.support.student_names import make_folder_name, normalize_name
 from sim.support.student_table import read_student_table
 from sim.support.work.cache import find_cache_folder
 
@@ -113,9 +111,7 @@ def load_codes(students: list[str]) -> dict[str, str]:
         or "".join(secrets.choice(LETTERS) for _ in range(LENGTH))
         for name in students
     }
-    text = io.StringIO(newline="")
-    csv.writer(text).writerows([("student", "code"), *codes.items()])
-    write_atomically(CODES, text.getvalue(), private=True)
+    write_csv_file(CODES, [("student", "code"), *codes.items()])
     return {normalize_name(name): code for name, code in codes.items()}
 
 

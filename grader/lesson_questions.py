@@ -7,8 +7,9 @@ from collections.abc import Mapping, Sequence
 from html import escape
 from typing import Any
 
-from grader.answers.number_answer import AnswerKey, AskedNumber, Band, judge_number
-from grader.answers.wrong_number import Scene
+from grader.answers.asked_number import AskedNumber, Band
+from grader.answers.number_answer import judge_number
+from grader.answers.wrong_number import AnswerKey, Scene
 from grader.check import WrongAnswer
 from grader.misconception import MISCONCEPTIONS
 from sim.core.errors import BadRequest
@@ -38,7 +39,7 @@ def enable_checkboxes() -> object:
     return HTML(ENABLE)  # type: ignore[no-untyped-call]  # no types
 
 
-def ask_question(name: str, **values: float) -> "ChoiceQuestion | NumberQuestion":
+def ask_question(name: str, **values: float) -> "Question":
     """The question of a lesson, to be shown by a cell.
 
     Args:
@@ -53,8 +54,42 @@ def ask_question(name: str, **values: float) -> "ChoiceQuestion | NumberQuestion
     return NumberQuestion(**asked) if "expected" in asked else ChoiceQuestion(**asked)
 
 
-class ChoiceQuestion:
-    """A question with a few answers as buttons, and feedback as soon as one is clicked.
+class Question:
+    """A question with something to answer it by, and feedback as soon as it is answered.
+
+    Args:
+        question: what is asked.
+        entry: the widget that takes the answer.
+        plain: the lines below the question where no widgets can be shown.
+    """
+
+    def __init__(self, question: str, entry: Any, plain: Sequence[str]) -> None:  # noqa: ANN401 - ipywidgets has no types
+        from ipywidgets import HTML, VBox  # type: ignore[import-untyped]  # noqa: PLC0415 - no types; for notebooks
+
+        self.question, self._entry, self._plain = question, entry, plain
+        self._told = HTML()
+        self._box = VBox([HTML(escape(question)), entry, self._told])
+        entry.observe(self._show_feedback, "value")
+
+    @property
+    def feedback(self) -> str:
+        """The feedback to the answer; empty where there is none."""
+        raise NotImplementedError
+
+    def _show_feedback(self, _: object = None) -> None:
+        said = self.feedback
+        self._told.value = f"<p><b>{escape(said)}</b></p>" if said else ""
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self.question!r})"
+
+    def _repr_mimebundle_(self, **how: object) -> Any:  # noqa: ANN401 - ipywidgets has no types
+        plain = "\n".join((self.question, *(f"  {line}" for line in self._plain)))
+        return self._box._repr_mimebundle_(**how) | {"text/plain": plain}
+
+
+class ChoiceQuestion(Question):
+    """A question with a few answers as buttons.
 
     Without buttons, plain code does the same: ``question.answer("kA")``.
 
@@ -71,17 +106,14 @@ class ChoiceQuestion:
     def __init__(
         self, question: str, options: Mapping[str, str] | Sequence[str], *, right: str
     ) -> None:
-        import ipywidgets  # type: ignore[import-untyped]  # noqa: PLC0415 - no types; for notebooks
+        from ipywidgets import RadioButtons  # noqa: PLC0415 - for notebooks
 
         if right not in options:
             raise BadRequest(f"{right!r} is none of the answers", advice="Add it to the options.")
-        self.question, self._options, self._right = question, options, right
-        self._buttons = ipywidgets.RadioButtons(
-            options=tuple(options), value=None, layout={"width": "max-content"}
-        )
-        self._told = ipywidgets.HTML()
-        self._box = ipywidgets.VBox([ipywidgets.HTML(escape(question)), self._buttons, self._told])
-        self._buttons.observe(self._show_feedback, "value")
+        self._options, self._right = options, right
+        wide = {"width": "max-content"}
+        buttons = RadioButtons(options=tuple(options), value=None, layout=wide)
+        super().__init__(question, buttons, [f"\N{WHITE CIRCLE} {option}" for option in options])
 
     def answer(self, chosen: str) -> str:
         """Choose an answer; returns the feedback to it.
@@ -94,13 +126,13 @@ class ChoiceQuestion:
                 f"{chosen!r} is not one of the answers",
                 advice=f"Choose one of: {', '.join(self._options)}.",
             )
-        self._buttons.value = chosen
+        self._entry.value = chosen
         return self.feedback
 
     @property
     def feedback(self) -> str:
         """The feedback to the chosen answer; empty where none is chosen."""
-        chosen = self._buttons.value
+        chosen = self._entry.value
         if chosen is None:
             return ""
         if isinstance(self._options, Mapping):
@@ -108,19 +140,8 @@ class ChoiceQuestion:
         verdict = RIGHT if chosen == self._right else f"No. The answer is: {self._right}."
         return f"{verdict} Go on, and see why."
 
-    def _show_feedback(self, _: object = None) -> None:
-        self._told.value = f"<p><b>{escape(self.feedback)}</b></p>" if self.feedback else ""
 
-    def __repr__(self) -> str:
-        return f"ChoiceQuestion({self.question!r})"
-
-    def _repr_mimebundle_(self, **how: object) -> Any:  # noqa: ANN401 - ipywidgets has no types
-        answers = (f"  \N{WHITE CIRCLE} {option}" for option in self._options)
-        plain = "\n".join((self.question, *answers))  # where no buttons can be shown
-        return self._box._repr_mimebundle_(**how) | {"text/plain": plain}
-
-
-class NumberQuestion:
+class NumberQuestion(Question):
     """A question for a number; a wrong one is explained.
 
     Without a box to type in, plain code does the same: ``question.answer("0.019 V·s/rad")``.
@@ -144,17 +165,14 @@ class NumberQuestion:
         gain: str = "",
         angular: bool = False,
     ) -> None:
-        import ipywidgets  # noqa: PLC0415 - for notebooks
+        from ipywidgets import Text  # noqa: PLC0415 - for notebooks
 
-        self.question = question
         self._name = gain or "answer"
         asked = AskedNumber(self._name, expected, unit, Band(tolerance, tolerance))
         self._key = AnswerKey({self._name: asked}, Scene(angular=angular))
-        self._typed = ipywidgets.Text(placeholder=f"a number [{unit}]" if unit else "a number",
-                                      continuous_update=False)  # fmt: skip
-        self._told = ipywidgets.HTML()
-        self._box = ipywidgets.VBox([ipywidgets.HTML(escape(question)), self._typed, self._told])
-        self._typed.observe(self._show_feedback, "value")
+        wanted = f"a number [{unit}]" if unit else "a number"
+        typed = Text(placeholder=wanted, continuous_update=False)
+        super().__init__(question, typed, [f"Answer: {wanted}"])
 
     def answer(self, given: object) -> str:
         """The feedback to an answer: a number, or a text with a unit."""
@@ -167,14 +185,8 @@ class NumberQuestion:
             return f"{NOT_YET} {wrong.seen}. {hint} {why}".strip()
         return f"{RIGHT} {note}" if note else RIGHT
 
-    def _show_feedback(self, _: object = None) -> None:
-        given = str(self._typed.value)
-        said = self.answer(given) if given.strip() else ""
-        self._told.value = f"<p><b>{escape(said)}</b></p>" if said else ""
-
-    def __repr__(self) -> str:
-        return f"NumberQuestion({self.question!r})"
-
-    def _repr_mimebundle_(self, **how: object) -> Any:  # noqa: ANN401 - ipywidgets has no types
-        plain = f"{self.question}\n  Answer: {self._typed.placeholder}"  # where there is no box
-        return self._box._repr_mimebundle_(**how) | {"text/plain": plain}
+    @property
+    def feedback(self) -> str:
+        """The feedback to the number that was typed; empty where none was."""
+        given = str(self._entry.value)
+        return self.answer(given) if given.strip() else ""

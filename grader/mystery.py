@@ -8,16 +8,16 @@ so that everybody can grade it.
 import secrets
 import tomllib
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from grader.check import Check, run_checks
-from grader.exercise import Exercise, Grade, list_exercises
-from grader.student_data.variant import make_folder_name
+from grader.exercise import Exercise, Grade, list_exercises, sum_points
 from sim.core.errors import BadRequest
 from sim.support.atomic_file import write_atomically
 from sim.support.os_errors import refuse_os_errors
+from sim.support.student_names import make_folder_name
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -68,6 +68,13 @@ class MysteryState:
     level: int = 1
     seed: int | None = None
 
+    def __post_init__(self) -> None:
+        numbers = (self.number, self.level, self.seed or 0)
+        if min(numbers) < 0 or not (
+            all(isinstance(one, int) for one in numbers) and 0 < self.level <= HIGHEST
+        ):
+            raise ValueError
+
     def close(self, *, solved: bool) -> "MysteryState":
         """The state after a mystery: one level up if it was solved, one down if not."""
         level = min(max(self.level + (1 if solved else -1), 1), HIGHEST)
@@ -82,13 +89,9 @@ def find_mystery_folder(course: Path, student: str) -> Path:
 def load_state(folder: Path) -> MysteryState:
     """How far a learner is; a file that is damaged begins anew."""
     try:
-        found = tomllib.loads((folder / STATE).read_text(encoding="utf-8"))
-    except (OSError, ValueError, RecursionError):
+        return MysteryState(**tomllib.loads((folder / STATE).read_text(encoding="utf-8")))
+    except (OSError, ValueError, TypeError, RecursionError):
         return MysteryState()
-    number, level, seed = (found.get(name) for name in ("number", "level", "seed"))
-    if not (isinstance(number, int) and isinstance(level, int) and 0 < level <= HIGHEST):
-        return MysteryState()
-    return MysteryState(number, level, seed if isinstance(seed, int) and seed >= 0 else None)
 
 
 def save_state(folder: Path, state: MysteryState) -> None:
@@ -97,11 +100,10 @@ def save_state(folder: Path, state: MysteryState) -> None:
     Raises:
         BadRequest: it cannot be written.
     """
-    seed = "" if state.seed is None else f"seed = {state.seed}\n"
+    told = ((name, value) for name, value in asdict(state).items() if value is not None)
     with refuse_os_errors("the mystery cannot be written", folder, advice=WRITE):
         folder.mkdir(parents=True, exist_ok=True)
-        text = f"number = {state.number}\nlevel = {state.level}\n{seed}"
-        write_atomically(folder / STATE, text)
+        write_atomically(folder / STATE, "".join(f"{name} = {value}\n" for name, value in told))
 
 
 def draw_mystery(course: Path, state: MysteryState) -> Mystery:
@@ -156,7 +158,6 @@ def open_mystery(course: Path, folder: Path, state: MysteryState) -> tuple[Myste
 def grade_mystery_answer(mystery: Mystery, answer: str, *, student: str) -> Grade:
     """Grade an answer about a mystery log by the checks of its exercise."""
     results = run_checks(mystery.checks, mystery.read(answer))
-    score = sum(one.points for one in results)
-    most = sum(one.max_points for one in results)
+    score, most = sum_points(results)
     status = "passed" if score == most else "failed"
     return Grade(FOLDER, student, score, most, status, results)

@@ -9,26 +9,22 @@ from typing import Any
 
 from grader.answers.answer_names import find_similar_name
 from grader.answers.submission import read_answers, read_text
-from grader.check import Result, Status
 from grader.consequence import Consequence
-from grader.course import find_course, load_progress, update_progress
+from grader.course import find_course
 from grader.exercise import Exercise, Grade, find_exercise
+from grader.learner import find_learner
 from grader.report import (
-    SPOKEN,
-    UNANSWERED,
-    find_mark,
-    fold_unanswered,
     format_grade,
+    format_points,
     format_receipt,
     judge_grade,
-    list_feedback_lines,
+    render_checks,
 )
-from grader.student_data.class_package import explain_no_grading, find_learner, read_class_package
-from grader.student_data.variant import make_folder_name
 from grader.terminal import Line, print_error, style_line
 from sim.core.errors import BadRequest, Refusal
 from sim.support.atomic_file import write_atomically
 from sim.support.printable import make_printable
+from sim.support.student_names import make_folder_name
 
 
 def escape_html(text: str) -> str:
@@ -39,13 +35,6 @@ def escape_html(text: str) -> str:
 QUESTION = re.compile(r"^### (\w+)\n\n(.+)\n\n((?:- \*\*.+\n?)+)", re.MULTILINE)
 OPTION = re.compile(r"- \*\*(\w)\*\* (.+)")
 WIDE = {"width": "max-content"}
-STYLE = {  # of the line that leads a check; colors that are legible on light and on dark pages
-    Status.PASSED: "#1f9d61",
-    Status.FAILED: "#d1495b",
-    Status.NOT_REACHED: "#808080",
-    Status.NOT_RUN: "#808080",
-    Status.ERROR: "#b060b0",
-}
 
 
 @dataclass(frozen=True)
@@ -54,13 +43,18 @@ class ShownGrade:
 
     Args:
         lines: the same as on a terminal.
-        html: the same for a cell.
         grade: the result itself; None where nothing could be graded here.
+        page: the same as HTML; empty where it is but lines.
     """
 
     lines: tuple[Line, ...]
-    html: str
     grade: Grade | None = None
+    page: str = ""
+
+    @property
+    def html(self) -> str:
+        """The same for a cell."""
+        return self.page or f"<pre style='white-space:pre-wrap'>{escape_html(str(self))}</pre>"
 
     def __str__(self) -> str:
         """As on a terminal."""
@@ -93,34 +87,29 @@ def submit(
         The result, which a cell shows. What cannot be graded is shown in one line, too.
     """
     folder = find_course(Path.cwd()) if course is None else course
-    progress, said = load_progress(folder)
-    if said:
-        print_error(said)
     try:
-        who = find_learner(folder, known=progress.student, student=student)
+        learner = find_learner(folder, student=student, say=print_error)
         one = find_exercise(str(exercise), folder)
         if answers:
             write_answers(one, answers)
-        of_class = read_class_package(folder)
-        if of_class and one.is_personal and of_class.is_for(who):
-            return _show_receipt(one, explain_no_grading(one.name, of_class))
-        one.prepare(who, say=lambda _: None)
-        grade = one.grade(None, student=who)
+        if refusal := learner.find_refusal(one):
+            return ShownGrade((*format_receipt(one, None), style_line(str(refusal))))
+        one.prepare(learner.name, say=lambda _: None)
+        grade = one.grade(None, student=learner.name)
     except Refusal as refusal:
-        return _show_refusal(str(refusal))
+        return ShownGrade((style_line(f"! {refusal}"),))
     if grade.status == "ungradable":
-        return _show_refusal(grade.reason)
-    points = {"score": grade.score, "max_score": grade.max_score}
-    if said := update_progress(folder, lambda now: now.add_score(who, one.name, **points)):
+        return ShownGrade((style_line(f"! {grade.reason}"),))
+    if said := learner.keep_score(grade):
         print_error(said)
     then = one.find_consequence(grade)
     lines = format_grade(
         grade,
-        hints_shown=progress.find_standing(who, one.name).hints,
+        hints_shown=learner.standings[one.name].hints,
         solution=one.solution,
         then=then.words if then else "",
     )
-    return ShownGrade(tuple(lines), _render_grade(grade) + _show_consequence(then), grade)
+    return ShownGrade(tuple(lines), grade, _render_grade(grade) + _render_consequence(then))
 
 
 class ExerciseQuestions:
@@ -143,7 +132,7 @@ class ExerciseQuestions:
             asked = _read_questions(exercise, course)
         except Refusal as refusal:  # a lesson that was opened alone
             asked, names = {}, ()
-            self._graded.value = _show_refusal(str(refusal)).html
+            self._graded.value = ShownGrade((style_line(f"! {refusal}"),)).html
         self._asked = {name: asked[name] for name in names}
         self._chosen = {
             name: ipywidgets.RadioButtons(options=options, value=None, layout=WIDE)
@@ -179,7 +168,7 @@ def _read_questions(
     """
     folder = find_course(Path.cwd()) if course is None else course
     one = find_exercise(exercise, folder)
-    who = find_learner(folder, known=load_progress(folder)[0].student, student=None)
+    who = find_learner(folder, student=None, say=print_error).name
     one.prepare(who, say=lambda _: None)
     text = read_text(one.folder / "data" / make_folder_name(who) / "questions.md")
     return {
@@ -268,48 +257,16 @@ def _make_plain(value: object) -> Any:  # noqa: ANN401 - whatever a learner give
     return value
 
 
-def _show_refusal(said: str) -> ShownGrade:
-    return ShownGrade((style_line(f"! {said}"),), f"<p><b>!</b> {escape_html(said)}</p>")
-
-
-def _show_receipt(exercise: Exercise, said: Refusal) -> ShownGrade:
-    rows = format_receipt(exercise, None)
-    text = "\n".join("".join(span.text for span in row) for row in rows)
-    html = f"<pre>{escape_html(text)}</pre><p>{escape_html(str(said))}</p>"
-    return ShownGrade((*rows, style_line(str(said))), html)
-
-
 def _render_grade(grade: Grade) -> str:
     _, verdict = judge_grade(grade)
-    head = f"{grade.exercise}: {grade.score:g} of {grade.max_score:g} points, {verdict}"
-    shown, more = fold_unanswered(grade.checks)
-    rows = "".join(_render_check(result) for result in shown)
-    if more:
-        rows += f"<li>{UNANSWERED[0]} {more} more not answered yet</li>"
-    listed = f"<ul style='list-style:none;padding-left:0'>{rows}</ul>"
-    warned = "".join(f"<p>{escape_html(one)}</p>" for one in grade.warnings)
-    return f"<p><strong>{escape_html(head)}</strong></p>{warned}{listed}"
+    points = format_points(grade.score, grade.max_score)
+    head = escape_html(f"{grade.exercise}: {points} points, {verdict}")
+    return f"<p><strong>{head}</strong></p>{render_checks(grade)}"
 
 
-def _show_consequence(consequence: Consequence | None) -> str:
+def _render_consequence(consequence: Consequence | None) -> str:
     """What the answer would do, below the checks."""
     if consequence is None:
         return ""
     says = f"<p><strong>On the robot</strong>: {escape_html(consequence.words)}</p>"
     return says + consequence.draw().html
-
-
-def _render_check(result: Result) -> str:
-    mark, _ = find_mark(result)
-    points = f"{result.points:g} of {result.max_points:g}"
-    told = "".join(
-        f"<div style='margin-left:1.6em'>{escape_html(word)}{escape_html(text)}</div>"
-        for word, text in list_feedback_lines(result)
-        if text
-    )
-    color = STYLE[Status.NOT_REACHED if result.is_unanswered else result.status]
-    style = f"margin:0.35em 0;padding-left:0.6em;border-left:4px solid {color}"
-    return (
-        f"<li style='{style}'><span aria-hidden='true'>{mark}</span> {escape_html(SPOKEN[mark])}: "
-        f"<b>{escape_html(result.description)}</b> ({points}){told}</li>"
-    )

@@ -17,12 +17,12 @@ Everything else stays out and is named, so that nobody misses a file without kno
 
 import ast
 import hashlib
-import json
 import tomllib
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 from grader.answers.answer_key import FILE_NAME as KEY
 from grader.answers.submission import explain_restore
@@ -97,12 +97,20 @@ def select_package_files(course: Path, *, with_keys: bool = True) -> PackageFile
             where=str(course),
             advice="Run this in the folder the course was fetched into.",
         )
-    listed = _read_starters(course)
+    starters = _read_starters(course)
+    listed = {
+        f"exercises/{name}/{file}": digest
+        for name, files in starters.items()
+        for file, digest in files.items()
+    }
     chosen = {name: course / name for name in (*TOPS, STARTERS, *listed)}
     keys: dict[str, Path] = {}
     for one in list_exercises(course):
-        chosen |= _name_files(_list_authored_files(one), top=course)
-        keys |= _name_files(_list_key_files(one), top=course)
+        _refuse_unlisted(one, starters.get(one.name, {}), course)
+        checks, key = (find_imported_modules(one.folder / name) for name in ("checks.py", KEY))
+        texts = {one.folder / name for name in AUTHORED if (one.folder / name).is_file()}
+        chosen |= _name_files(checks | texts, top=course)
+        keys |= _name_files(key - checks, top=course)
     chosen |= keys if with_keys else {}
     chosen |= _name_files(_list_lesson_files(course), top=course)
     packages = {one.name: _find_package_folder(course, one) for one in PACKAGES}
@@ -131,67 +139,44 @@ def digest_starter(content: bytes) -> str:
 def read_listed_files(exercise: Exercise) -> dict[str, str]:
     """Name -> digest, of an exercise's files that are listed as starters; empty without a list."""
     try:
-        text = (exercise.folder.parents[1] / STARTERS).read_text(encoding="utf-8")
-        return {str(name): str(one) for name, one in tomllib.loads(text)[exercise.name].items()}
-    except (OSError, ValueError, LookupError, AttributeError):
+        return _read_starters(exercise.folder.parents[1])[exercise.name]
+    except (BadRequest, LookupError):
         return {}
 
 
-def _read_starters(course: Path) -> dict[str, str]:
-    """Path in the course folder -> digest, of every starter.
+def _read_starters(course: Path) -> dict[str, dict[str, str]]:
+    """Exercise -> file name -> digest, of every starter.
 
     Raises:
-        BadRequest: the list cannot be read, a file on it is missing, or a starter is not on it.
+        BadRequest: the list cannot be read.
     """
     path = course / STARTERS
     try:
         raw = tomllib.loads(path.read_text(encoding="utf-8"))
-        listed = {
-            f"exercises/{name}/{file}": str(digest)
-            for name, files in raw.items()
-            for file, digest in files.items()
-        }
-    except (OSError, ValueError, AttributeError):
+        return {name: {**files} for name, files in raw.items()}
+    except (OSError, ValueError, TypeError):
         raise BadRequest(
             "the list of starters cannot be read",
             where=str(path),
             advice=f"Get it back: {explain_restore(course, STARTERS)}",
         ) from None
-    for one in list_exercises(course):
-        for file in (*one.files, *one.companion_files):
-            if f"exercises/{one.name}/{file}" not in listed:
-                raise BadRequest(
-                    f"{one.name} has a starter {file} that is not listed",
-                    where=str(path),
-                    advice="List the unsolved starters again: python .ci/list_starters.py",
-                )
-    return listed
 
 
-def _list_authored_files(one: Exercise) -> set[Path]:
-    """The authored files of an exercise, without its starters and its answer key."""
-    texts = {one.folder / name for name in AUTHORED}
-    return {path for path in texts if path.is_file()} | find_imported_modules(
-        one.folder / "checks.py"
-    )
+def _refuse_unlisted(one: Exercise, listed: Mapping[str, str], course: Path) -> None:
+    """Refuse an exercise with a starter that is not on the list."""
+    unlisted = [file for file in one.starters if file not in listed]
+    if unlisted:
+        raise BadRequest(
+            f"{one.name} has a starter {unlisted[0]} that is not listed",
+            where=str(course / STARTERS),
+            advice="List the unsolved starters again: python .ci/list_starters.py",
+        )
 
 
-def _list_key_files(one: Exercise) -> set[Path]:
-    """The answer key of an exercise, and the modules that only the key imports."""
-    return list_modules(one) - find_imported_modules(one.folder / "checks.py")
-
-
-def list_modules(one: Exercise) -> set[Path]:
-    """The modules of an exercise: checks.py, its answer key, and all that these import and read."""
-    key = one.folder / KEY
-    found = find_imported_modules(one.folder / "checks.py")
-    return found | find_imported_modules(key) if key.is_file() else found
-
-
-def find_imported_modules(module: Path) -> set[Path]:
-    """A module of an exercise, and what it imports and reads beside it, directly or not."""
+def find_imported_modules(*modules: Path) -> set[Path]:
+    """Modules of an exercise, and what they import and read beside them, directly or not."""
     found: set[Path] = set()
-    left = {module}
+    left = {path for path in modules if path.is_file()}
     while left:
         path = left.pop()
         found.add(path)
@@ -253,9 +238,11 @@ def strip_notebook(content: bytes, *, name: str, course: Path) -> bytes:
         BadRequest: it is no notebook, or a cell is not as it was derived; a cell's id is made of a
             digest of its text.
     """
+    from nbformat import reads, v4, writes  # noqa: PLC0415 - only who packs a course needs it
+
     try:
-        raw = json.loads(content)
-        cells = [_strip_cell(cell) for cell in raw["cells"] if "".join(cell["source"]).strip()]
+        notebook = reads(content.decode("utf-8"), 4)
+        cells = [_strip_cell(cell) for cell in notebook.cells if cell.source.strip()]
     except (ValueError, TypeError, LookupError, AttributeError):
         raise BadRequest(
             "the notebook was edited (its cells are not those of the lesson's .py), and students "
@@ -263,35 +250,24 @@ def strip_notebook(content: bytes, *, name: str, course: Path) -> bytes:
             where=name,
             advice="Keep a copy if you need it; then get it back: " + explain_restore(course, name),
         ) from None
-    plain = {
-        "cells": cells,
-        "metadata": {"kernelspec": KERNEL, "language_info": {"name": "python"}},
-        "nbformat": 4,
-        "nbformat_minor": 5,
-    }
-    return (json.dumps(plain, ensure_ascii=False, indent=1, sort_keys=True) + "\n").encode()
+    metadata = {"kernelspec": KERNEL, "language_info": {"name": "python"}}
+    return f"{writes(v4.new_notebook(cells=cells, metadata=metadata))}\n".encode()
 
 
-def _strip_cell(cell: dict[str, object]) -> dict[str, object]:
-    lines = cell["source"]
-    text = "".join(lines) if isinstance(lines, list) else str(lines)
-    digest = hashlib.sha256(text.encode("utf-8")).hexdigest()[:ID]
-    if str(cell["id"]).partition("-")[0] != digest:
+def _strip_cell(cell: Any) -> Any:  # noqa: ANN401 - nbformat has no types
+    """A cell without outputs; of its metadata, whether JupyterLab shows its code folded.
+
+    Raises:
+        ValueError: its text is not the one that its id was made of.
+    """
+    from nbformat import v4  # noqa: PLC0415 - the same
+
+    if cell.id.partition("-")[0] != hashlib.sha256(cell.source.encode()).hexdigest()[:ID]:
         raise ValueError
-    kept = {
-        "cell_type": cell["cell_type"],
-        "id": cell["id"],
-        "metadata": _collapsed(cell.get("metadata")),
-        "source": lines,
-    }
-    return kept | ({"execution_count": None, "outputs": []} if cell["cell_type"] == "code" else {})
-
-
-def _collapsed(metadata: object) -> dict[str, object]:
-    """Of a cell's metadata, whether JupyterLab shows its code collapsed."""
-    flags = metadata.get("jupyter") if isinstance(metadata, dict) else None
-    hidden = isinstance(flags, dict) and flags.get("source_hidden") is True
-    return {"jupyter": {"source_hidden": True}} if hidden else {}
+    hidden = cell.metadata.get("jupyter", {}).get("source_hidden") is True
+    make: Any = v4.new_code_cell if cell.cell_type == "code" else v4.new_markdown_cell
+    kept = {"jupyter": {"source_hidden": True}} if hidden else {}
+    return make(cell.source, id=cell.id, metadata=kept)
 
 
 def _refuse_changed(files: dict[str, bytes], listed: dict[str, str], course: Path) -> None:

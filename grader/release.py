@@ -2,23 +2,24 @@
 
 course.zip               for everybody: no solutions, no tests, no secret; for a class that is
                          graded, no answer keys
-students/NAME.zip        to be unpacked over it: data drawn and sealed with the class's secret
+students/NAME.zip        to be unpacked over it: data drawn with the class's secret
 """
 
 import io
 import tempfile
 import zipfile
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import tomlkit
 
 from grader.classroom.bundle import CourseBundle, zip_files
-from grader.classroom.secret import seal_file, seal_identity
+from grader.classroom.secret import seal_identity
 from grader.exercise import list_exercises
-from grader.student_data.class_package import PLACE, ClassPackage
-from grader.student_data.variant import make_folder_name, use_class_secret
+from grader.student_data.class_package import PLACE
+from grader.student_data.variant import use_class_secret
+from sim.support.student_names import make_folder_name
 
 
 @dataclass(frozen=True)
@@ -33,13 +34,9 @@ class StudentPackage:
     """
 
     student: str
-    secret: bytes
+    secret: bytes = field(repr=False)  # a message may hold this
     name: str
     course: CourseBundle
-
-    def __repr__(self) -> str:
-        """Without the secret: a message may hold this."""
-        return f"Package({self.student!r})"
 
 
 def make_student_package(package: StudentPackage) -> tuple[str, bytes]:
@@ -57,32 +54,15 @@ def make_student_package(package: StudentPackage) -> tuple[str, bytes]:
                 (course / "exercises").glob(f"*/data/{make_folder_name(package.student)}/*")
             )
         }
-    sealed = {
-        name: seal_file(package.secret, student=package.student, content=content)
-        for name, content in made.items()
-    }
     mark = seal_identity(package.secret, student=package.student, name=package.name)
     identity = {"class": package.name, "student": package.student, "seal": mark}
     beside = {Path(name).with_name(PLACE.name).as_posix() for name in made}
-    files = {
-        **made,
-        PLACE.as_posix(): tomlkit.dumps({**identity, "sealed": sealed}).encode(),
-        **dict.fromkeys(sorted(beside), tomlkit.dumps(identity).encode()),
-    }
+    files = made | dict.fromkeys(
+        (PLACE.as_posix(), *sorted(beside)), tomlkit.dumps(identity).encode()
+    )
     return package.student, pack_course_folder(files)
 
 
 def pack_course_folder(files: Mapping[str, bytes]) -> bytes:
     """The content of a zip file with one folder, ``course``."""
     return zip_files({f"course/{name}": content for name, content in files.items()})
-
-
-def find_broken_seals(course: Path, found: ClassPackage, *, secret: bytes) -> list[str]:
-    """The files of a course folder that differ from those the class issued to this student."""
-
-    def whole(path: Path, expected: str) -> bool:
-        if not path.is_file():
-            return False
-        return seal_file(secret, student=found.student, content=path.read_bytes()) == expected
-
-    return [name for name, expected in found.sealed.items() if not whole(course / name, expected)]

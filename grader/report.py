@@ -2,16 +2,18 @@
 
 import json
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 
 from grader.answers.submission import read_answers, read_text
 from grader.check import Result, Status
 from grader.course import Progress, Standing
-from grader.exercise import HINTS, Exercise, Grade
+from grader.exercise import HINTS, Exercise, Grade, list_exercises
+from grader.learner import Learner
 from grader.misconception import MISCONCEPTIONS
 from grader.terminal import Line, StyledText, find_width, style_line, wrap_text
+from sim.support.printable import make_printable
 
 MARKS = {
     Status.PASSED: ("✓", "green"),
@@ -28,9 +30,11 @@ SPOKEN = {
     "–": "not looked at yet",
     "!": "our mistake",
 }
+# Of the line that leads a check on a page; legible on light and on dark ones
+COLORS = {"green": "#1f9d61", "red": "#d1495b", "dim": "#808080", "magenta": "#b060b0"}
 INDENT = "    "
 GRADED = re.compile(r'["`]grade (\w+)(?:\\n)?["`]')  # how a notebook's JSON has such a line
-ONCE = {"", "why  ", "see  "}  # leads of what is said once, however many checks it stands under
+ONCE = {"", "why", "see"}  # labels of what is said once, however many checks it stands under
 
 
 def grade_to_json(grade: Grade) -> str:
@@ -163,10 +167,10 @@ def _format_result(result: Result, said: set[str], *, plain: bool) -> list[Line]
         rows = [style_line(f"{mark} {result.description}, {points} points", style)]
     else:
         rows = _format_row(result.description, points, mark, style)
-    for word, text in list_feedback_lines(result):
-        if text and text not in said:
-            rows += wrap_text(text, lead=f"{INDENT}{word}")
-        if word in ONCE:
+    for label, text in list_feedback(result):
+        if text not in said:
+            rows += wrap_text(text, lead=f"{INDENT}{label:<5}" if label else INDENT)
+        if label in ONCE:
             said.add(text)
     return rows
 
@@ -188,18 +192,41 @@ def _format_row(description: str, points: str, mark: str, style: str) -> list[Li
     return rows
 
 
-def list_feedback_lines(result: Result) -> list[tuple[str, str]]:
-    """The lines of feedback under a check: a label and a text each."""
+def list_feedback(result: Result) -> list[tuple[str, str]]:
+    """The feedback to a check, each text with its label: given answer, next step, reason."""
+    known = MISCONCEPTIONS.get(result.misconception)
     if result.status is Status.PASSED:
-        return [("note ", result.hint)]
-    if result.status is not Status.FAILED:
-        return [("", result.seen)]
-    told = [("try  ", result.hint)]
-    if not result.is_unanswered:
-        told.insert(0, ("got  ", result.seen))
-    if known := MISCONCEPTIONS.get(result.misconception):
-        told += [("why  ", known.says), ("see  ", known.reference)]
-    return told
+        told = [("note", result.hint)]
+    elif result.status is not Status.FAILED:
+        told = [("", result.seen)]
+    else:
+        told = [("got", "" if result.is_unanswered else result.seen), ("try", result.hint)]
+        told += [("why", known.says), ("see", known.reference)] if known else []
+    return [(label, text) for label, text in told if text]
+
+
+def compose_feedback(result: Result) -> str:
+    """The feedback to a check as one text, for other people's systems."""
+    unanswered = [("got", result.seen)] if result.is_unanswered else []
+    return _join_feedback([*unanswered, *list_feedback(result)])
+
+
+def _join_feedback(told: Iterable[tuple[str, str]]) -> str:
+    lines = (f"{label} {text}" if label in {"got", "see"} else text for label, text in told)
+    return make_printable("\n".join(lines))
+
+
+def render_checks(grade: Grade) -> str:
+    """What each check found, as HTML for a page or a notebook's cell."""
+    from sim.report.page_file import load_templates  # noqa: PLC0415 - only who shows pages needs them
+
+    shown, more = fold_unanswered(grade.checks)
+    rows = [(*find_mark(one), one, _join_feedback(list_feedback(one))) for one in shown]
+    template = load_templates(Path(__file__).parent).get_template("checks.html.jinja")
+    return template.render(
+        rows=rows, more=more, warnings=grade.warnings, spoken=SPOKEN, colors=COLORS,
+        format_points=format_points,
+    )  # fmt: skip
 
 
 def _format_next_hint(exercise: str, shown: int) -> str:
@@ -223,54 +250,36 @@ def format_hints(exercise: Exercise, *, shown: int) -> list[Line]:
     return lines
 
 
-def format_overview(
-    course: Path,
-    found: tuple[Exercise, ...],
-    progress: Progress,
-    *,
-    student: str,
-    plain: bool = False,
-) -> list[Line]:
+def format_overview(learner: Learner, *, plain: bool = False) -> list[Line]:
     """Where a learner stands: lessons and exercises."""
-    standings = [progress.find_standing(student, one.name) for one in found]
-    done = sum(standing.is_done for standing in standings)
-    name = f" ({student})" if student != Progress().student else ""
-    lines = [style_line(f"{done} of {len(found)} exercises done{name}", "bold"), style_line()]
-    lessons = sorted((course / "lessons").glob("*.ipynb"))
+    done = sum(standing.is_done for standing in learner.standings.values())
+    name = f" ({learner.name})" if learner.name != Progress().student else ""
+    head = f"{done} of {len(learner.standings)} exercises done{name}"
+    lines = [style_line(head, "bold"), style_line()]
+    lessons = sorted((learner.course / "lessons").glob("*.ipynb"))
     lines += [style_line(f"  {lesson.parent.name}/{lesson.name}") for lesson in lessons]
     lines += [style_line()] if lessons else []
-    for one, standing in zip(found, standings, strict=True):
+    for one in list_exercises(learner.course):
+        standing = learner.standings[one.name]
         tried = standing.max_score > 0
         status = (
             Status.PASSED if standing.is_done else Status.FAILED if tried else Status.NOT_REACHED
         )
-        mark, style = MARKS[status]
         score = format_points(standing.score, standing.max_score) if tried else "not tried yet"
-        room = find_width() - len(score) - 1
-        said = f"{one.name}  {one.title}"[: room - 3]
         if plain:
             lines.append(style_line(f"{one.name}, {one.title}: {score}"))
-            continue
-        lines.append(
-            (
-                StyledText(f"{mark} ", style),
-                StyledText(said.ljust(room - 1)),
-                StyledText(score, style),
-            )
-        )
+        else:
+            lines += _format_row(f"{one.name}  {one.title}", score, *MARKS[status])
     return lines
 
 
-def format_next_step(
-    course: Path, found: tuple[Exercise, ...], progress: Progress, *, student: str
-) -> list[Line]:
+def format_next_step(learner: Learner) -> list[Line]:
     """The one thing to do next, in a line that begins with ``Next``."""
-    standings = {one.name: progress.find_standing(student, one.name) for one in found}
-    lesson, exercise = find_next_step(course, standings)
+    lesson, exercise = find_next_step(learner.course, learner.standings)
     if lesson:
         return [style_line(f"Next: open {lesson}", "cyan")]
     if exercise:
-        word = "go on with" if standings[exercise].max_score > 0 else "do"
+        word = "go on with" if learner.standings[exercise].max_score > 0 else "do"
         return [style_line(f"Next: {word} exercises/{exercise}/README.md", "cyan")]
     return [style_line("Everything here is done.", "bold green")]
 

@@ -8,9 +8,9 @@ import sysconfig
 from pathlib import Path
 from urllib.parse import quote
 
-from grader.course import Progress
 from grader.exec_process import INTERRUPTED, run_process
 from grader.exercise import list_exercises
+from grader.learner import Learner
 from grader.report import find_next_step, format_next_step, format_overview, read_exercises
 from grader.student_data.draw_cache import enable_draw_cache
 from grader.terminal import print_lines, style_line
@@ -28,14 +28,8 @@ QUIET = (
     "--log-level=ERROR",
 )
 IN_JUPYTER = ("JUPYTER_SERVER_URL", "JPY_PARENT_PID")  # of its terminals; of its kernels
-HIDDEN = (
-    "__pycache__",
-    "*.pyc",
-    "*.pyo",
-    ".DS_Store",
-    "*~",
-    "solutions",
-)  # Jupyter's own, and ours
+# Jupyter's own, and ours
+HIDDEN = ("__pycache__", "*.pyc", "*.pyo", ".DS_Store", "*~", "solutions")
 
 
 def is_in_jupyter() -> bool:
@@ -43,13 +37,11 @@ def is_in_jupyter() -> bool:
     return any(name in os.environ for name in IN_JUPYTER)
 
 
-def start(course: Path, progress: Progress, *, student: str, lab: bool) -> int:
+def start(learner: Learner, *, lab: bool) -> int:
     """Show where a learner stands, make their data, and open the first lesson.
 
     Args:
-        course: the course folder.
-        progress: what is known of the learner.
-        student: who.
+        learner: who, and where.
         lab: whether to open JupyterLab.
 
     Returns:
@@ -58,18 +50,18 @@ def start(course: Path, progress: Progress, *, student: str, lab: bool) -> int:
     Raises:
         BadRequest: JupyterLab is wanted, and is not installed.
     """
-    found = list_exercises(course)
+    course = learner.course
     print_lines([style_line("Welcome to the SysId course.", "bold"), style_line()])
-    print_lines([*format_overview(course, found, progress, student=student), style_line()])
+    print_lines([*format_overview(learner), style_line()])
     sys.stdout.flush()
     load_engine()  # what is compiled now, the first lesson need not wait for
     with enable_draw_cache():  # what is drawn now, the first answer need not wait for
-        for one in found:
-            one.prepare(student, say=_print_line)
+        for one in list_exercises(course):
+            one.prepare(learner.name, say=_print_line)
     command = "grade"
     if is_in_jupyter():
-        _print_line(f"Your name is {student} here. JupyterLab is open already, so stay in it.")
-        print_lines(format_next_step(course, found, progress, student=student))
+        _print_line(f"Your name is {learner.name} here. JupyterLab is open already: stay in it.")
+        print_lines(format_next_step(learner))
         return DONE
     if not _is_on_path(command):
         command = "python -m grader"
@@ -79,17 +71,12 @@ def start(course: Path, progress: Progress, *, student: str, lab: bool) -> int:
                 f"{describe_activation(Path(sys.prefix))}"
             )
         _print_line(f"Without that, type  {command} exercise4  for  grade exercise4")
-    standings = {one.name: progress.find_standing(student, one.name) for one in found}
-    lesson, exercise = find_next_step(course, standings)
     if lab:
+        lesson, exercise = find_next_step(course, learner.standings)
         return _open_lab(course, course / lesson if lesson else _find_last_lesson(course, exercise))
-    if lesson:
-        first = "Begin" if not any(how.max_score for how in standings.values()) else "Go on"
-        _print_line(f"Ready. {first} with {lesson}; to open it in JupyterLab:  {command} start")
-    else:
-        _print_line("Ready.")
-        print_lines(format_next_step(course, found, progress, student=student))
-    return 0
+    _print_line(f"Ready. To work in JupyterLab:  {command} start")
+    print_lines(format_next_step(learner))
+    return DONE
 
 
 def _find_last_lesson(course: Path, exercise: str) -> Path:

@@ -3,7 +3,6 @@
 import sys
 import time
 from collections.abc import Callable
-from pathlib import Path
 
 from grader.exercise import Exercise
 
@@ -49,15 +48,3 @@ def snapshot_files(exercise: Exercise) -> tuple[tuple[str, int, int], ...]:
             continue
         found.append((name, told.st_mtime_ns, told.st_size))
     return tuple(found)
-
-
-def find_first_unfinished(
-    exercises: tuple[Exercise, ...], done: Callable[[str], bool]
-) -> Exercise | None:
-    """The first exercise that is not done yet."""
-    return next((one for one in exercises if not done(one.name)), None)
-
-
-def format_path(exercise: Exercise, course: Path) -> str:
-    """Where its files are, seen from the course folder."""
-    return (exercise.folder / exercise.files[0]).relative_to(course).as_posix()

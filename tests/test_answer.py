@@ -6,16 +6,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from grader.answers.number_answer import (
-    BANDS,
-    FAST_KA,
-    AnswerKey,
-    ask_gains,
-    judge_number,
-    read_answer_number,
-)
+from grader.answers.asked_number import BANDS, FAST_KA, ask_gains
+from grader.answers.number_answer import judge_number, read_answer_number
 from grader.answers.quantity import NotAUnitError, read_number, read_unit
-from grader.answers.wrong_number import Lookalike, Scene, WrongNumber
+from grader.answers.wrong_number import AnswerKey, Lookalike, Scene, WrongNumber
 from grader.check import WrongAnswer
 from grader.misconception import MISCONCEPTIONS
 

@@ -17,10 +17,11 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from small_course import HALF, RIGHT, lay_out
 
+from grader.check import Result, Status
 from grader.classroom.grading import GradedStudent, GradingJob, grade_student
 from grader.classroom.submissions import find_submissions, read_submission
 from grader.cli import run_command
-from grader.exercise import find_exercise, list_exercises
+from grader.exercise import Grade, find_exercise, list_exercises
 from grader.package_files import read_listed_files
 
 STARTER = "size = 0\nmore = 1\n"
@@ -321,14 +322,12 @@ def test_whatever_is_handed_in_is_graded_or_listed(course, tmp_path, files, form
         assert text.encode() in graded or any(name in listed for name in {*names, "more"})
     if len({text for text in files.values() if text != STARTER}) == 1 and graded:
         assert graded & {text.encode() for text in files.values() if text != STARTER}
-    job = GradingJob(
-        "ann", "", one.files, one.problems, "ann", ("exercise1",), course, None, run=False
-    )
-    (record,) = grade_student(job).records
-    marked = record["status"] in {"passed", "failed"}
+    job = GradingJob(one, "", ("exercise1",), course, None, run=False)
+    (grade,) = grade_student(job).grades
+    marked = grade.is_graded
 
     assert marked == bool(graded & {RIGHT.encode(), HALF.encode()})
-    assert record["score"] == (0 if not marked else 3 if RIGHT.encode() in graded else 2.5)
+    assert grade.score == (0 if not marked else 3 if RIGHT.encode() in graded else 2.5)
 
 
 @pytest.fixture
@@ -477,9 +476,9 @@ def test_answers_that_are_right_for_both_may_be_alike(course, tmp_path):
     there = find_submissions(tmp_path, exercises)
 
     def graded(*right):
-        checks = [{"id": f"q{number}", "status": "passed"} for number in range(40)]
-        record = {"exercise": "exercise1", "checks": checks}
-        return [GradedStudent(name, "", (record,)) for name in right]
+        checks = tuple(Result(f"q{n}", f"About {n}", Status.PASSED, 1.0, 1.0) for n in range(40))
+        grade = Grade("exercise1", "", 40.0, 40.0, "passed", checks)
+        return [GradedStudent(name, "", (grade,)) for name in right]
 
     assert find_likenesses(there, exercises, graded("ann", "ben")) == ()
     assert len(find_likenesses(there, exercises, graded("ann"))) == 1  # copied, and wrong for ben

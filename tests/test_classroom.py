@@ -92,7 +92,7 @@ def test_every_student_gets_their_points_and_one_that_breaks_stops_nobody(
         "eve,3,3,3,,",
     ]
     reads(said.err)
-    assert "KeyError" in graded(tmp_path / "in-graded", "cat")["records"][0]["reason"]
+    assert "KeyError" in graded(tmp_path / "in-graded", "cat")["grades"][0]["reason"]
     assert course.is_dir()
 
 
@@ -124,9 +124,9 @@ def test_what_is_graded_is_not_graded_again_until_something_changes(course, tmp_
         work = GradedClass(
             find_submissions(there, list_exercises(course)), list_exercises(course), course, secret
         )
-        todo = plan_grading(work, store, travel=False, again=again)
-        grade_class(work, todo, store, processes=1, cluster=None, say=lambda: None)
-        return [job.student for job in todo.jobs]
+        kept, todo = plan_grading(work, store, travel=False, again=again)
+        grade_class(work, kept, todo, store, processes=1, cluster=None, say=lambda: None)
+        return [job.submission.student for job in todo]
 
     assert left() == ["ann", "ben"]
     assert left() == []
@@ -134,7 +134,7 @@ def test_what_is_graded_is_not_graded_again_until_something_changes(course, tmp_
     assert left() == ["ben"]
     for damaged in (
         "{",
-        '{"student": "ann", "digest": "", "records": [{"exercise": "exercise1"}]}',
+        '{"student": "ann", "digest": "", "grades": [{"exercise": "exercise1"}]}',
     ):
         (tmp_path / "out" / "results" / "ann.json").write_text(damaged, encoding="utf-8")
         assert left() == ["ann"]
@@ -184,12 +184,12 @@ def test_who_brings_the_grading_process_down_is_found_out_and_bears_it_alone(cou
 
     assert run_command(["class", str(there), "--processes", "2"]) == 1
     scores = {
-        name: graded(tmp_path / "in-graded", name)["records"][0]["score"]
+        name: graded(tmp_path / "in-graded", name)["grades"][0]["score"]
         for name in (*many, "villain")
     }
 
     assert scores == {**dict.fromkeys(many, 1.0), "villain": 0.0}
-    reason = graded(tmp_path / "in-graded", "villain")["records"][0]["reason"]
+    reason = graded(tmp_path / "in-graded", "villain")["grades"][0]["reason"]
     assert "stopped, perhaps" in reason
 
 
@@ -321,7 +321,7 @@ def test_no_feedback_names_a_folder_that_is_gone(course, tmp_path, capsys):
 
     assert run_command(["class", str(there), "--export", "junit"]) == 1
     records = {
-        name: graded(tmp_path / "in-graded", name)["records"][0]
+        name: graded(tmp_path / "in-graded", name)["grades"][0]
         for name in ("ann", "ben", "cat", "dan", "eve")
     }
     assert records["ann"]["reason"].startswith("answers.toml: the file is empty.")
@@ -348,7 +348,7 @@ def test_an_untouched_starter_is_not_handed_in(course, tmp_path, capsys):
 
     assert run_command(["class", str(there)]) == 1
     status = {
-        name: graded(tmp_path / "in-graded", name)["records"][0]["status"]
+        name: graded(tmp_path / "in-graded", name)["grades"][0]["status"]
         for name in ("ann", "ben", "cat", "dan")
     }
     assert status == {"ann": "passed", "ben": "missing", "cat": "ungradable", "dan": "failed"}

@@ -48,7 +48,7 @@ def course(tmp_path, monkeypatch):
 
 def note(tmp_path):
     text = (tmp_path / "in-graded" / "results" / "ann.json").read_text("utf-8")
-    return json.loads(text)["records"][0]["checks"][0]["hint"]
+    return json.loads(text)["grades"][0]["checks"][0]["hint"]
 
 
 @pytest.fixture

@@ -13,14 +13,10 @@ from small_course import HALF, RIGHT, answer, lay_out
 
 from grader.cli import run_command
 from grader.course import PLACE, Progress, Standing, find_course, load_progress, update_progress
-from grader.student_data.variant import (
-    check_student_name,
-    derive_student_seed,
-    make_folder_name,
-    make_student_rng,
-)
+from grader.student_data.variant import derive_student_seed, make_student_rng
 from sim.core.errors import BadRequest
 from sim.support.atomic_file import make_private_folder, write_atomically
+from sim.support.student_names import check_student_name, make_folder_name
 
 ROOT = Path(__file__).resolve().parents[1]
 

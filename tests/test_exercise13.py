@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 
 from grader.exercise import Exercise
-from grader.student_data.variant import make_folder_name
 from sim.bench.slip import compute_slip_voltage
 from sim.fit import fit
 from sim.inspect.detect_faults import inspect
 from sim.io import list_entries, read, read_motors
+from sim.support.student_names import make_folder_name
 
 ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise13", ROOT / "exercises" / "exercise13")

@@ -12,13 +12,13 @@ import pytest
 from grader.answers.answer_key import load_answer_key
 from grader.check import WrongAnswer
 from grader.exercise import Exercise
-from grader.student_data.variant import make_folder_name
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.fit import fit
 from sim.physics.battery import Battery
 from sim.physics.motors import compute_theoretical_kv, find_motor
+from sim.support.student_names import make_folder_name
 
 ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise2", ROOT / "exercises" / "exercise2")

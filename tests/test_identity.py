@@ -30,7 +30,7 @@ def issue(course: Path, student: str, *, secret: bytes = SECRET) -> None:
     mark = seal_identity(secret, student=student, name="East")
     (course / ".course").mkdir(exist_ok=True)
     (course / ".course" / "class.toml").write_text(
-        f'class = "East"\nstudent = "{student}"\nseal = "{mark}"\n[sealed]\n', encoding="utf-8"
+        f'class = "East"\nstudent = "{student}"\nseal = "{mark}"\n', encoding="utf-8"
     )
 
 

@@ -134,7 +134,7 @@ def test_an_exercise_is_solved_in_a_folder_that_grade_start_made(whole, tmp_path
     started = run(words, whole, cwd=tmp_path)
     assert started.returncode == 0, started.stderr
     mine = tmp_path / "my course"
-    assert "Ready. Begin with lessons/00_guess_or_measure.ipynb" in started.stdout
+    assert "Next: open lessons/00_guess_or_measure.ipynb" in started.stdout
     before = run(["grade", ANSWERED], whole, cwd=mine)
     one = find_exercise(ANSWERED, mine)
     solution = Path(__file__).resolve().parents[1] / "solutions" / one.name

@@ -23,7 +23,8 @@ from wheel import LEFT_OUT, build_wheel
 
 from grader.course_check import list_mistakes, solve
 from grader.exercise import list_exercises
-from grader.student_data.variant import make_folder_name, use_class_secret
+from grader.student_data.variant import use_class_secret
+from sim.support.student_names import make_folder_name
 
 pytestmark = pytest.mark.slow
 

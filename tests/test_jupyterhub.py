@@ -30,7 +30,7 @@ from grader.cli import run_command
 from grader.course import find_course
 from grader.course_check import solve
 from grader.exercise import find_exercise
-from grader.student_data.variant import make_folder_name
+from sim.support.student_names import make_folder_name
 
 pytestmark = pytest.mark.slow
 

@@ -12,11 +12,11 @@ from page_flaws import page_flaws
 from small_course import HALF, RIGHT, answer, lay_out
 
 from grader import ExerciseQuestions, submit
-from grader.check import Status
 from grader.cli import run_command
 from grader.course import load_progress
 from grader.exercise import find_exercise
-from grader.notebook import STYLE, write_answers
+from grader.notebook import write_answers
+from grader.report import COLORS
 from sim.core.errors import BadRequest
 
 STARTER = '# Measure it.\nsize = ""  # in units\ncolor = "" # a word\n'
@@ -129,7 +129,7 @@ def test_a_cell_counts_what_is_not_answered_yet(root, tmp_path, monkeypatch):
 
     assert f"all right so far, {count - 1} not answered" in shown.html
     assert f"{count - 2} more not answered yet" in shown.html
-    assert STYLE[Status.FAILED] not in shown.html
+    assert COLORS["red"] not in shown.html
 
 
 @pytest.mark.parametrize("text", [RIGHT, HALF, "size = 1\n"])
@@ -208,7 +208,7 @@ def test_numbers_of_a_class_are_only_received(course):
     )
     place = course / ".course"
     place.mkdir()
-    (place / "class.toml").write_text('class = "East"\nstudent = "me"\n[sealed]\n', "utf-8")
+    (place / "class.toml").write_text('class = "East"\nstudent = "me"\n', "utf-8")
     shown = submit(1, size=3)
 
     assert "1 of 2 answered" in str(shown)

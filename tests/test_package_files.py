@@ -287,7 +287,7 @@ def test_an_installation_that_is_not_editable_releases_the_folder_it_is_run_in(r
         check=False,
     )  # fmt: skip
     assert (started.returncode, started.stderr) == (0, "")
-    assert "Ready. Begin with lessons/00_guess_or_measure.ipynb" in started.stdout
+    assert "Next: open lessons/00_guess_or_measure.ipynb" in started.stdout
 
 
 def test_other_code_in_the_course_folder_is_said_in_one_line(root, tmp_path):

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from grader.exercise import Exercise
-from grader.student_data.variant import make_folder_name
+from sim.support.student_names import make_folder_name
 
 pytestmark = pytest.mark.slow
 

@@ -8,9 +8,10 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from small_course import answer, lay_out
 
-from grader.classroom.feedback_text import compose_feedback
+from grader.check import Result, Status
 from grader.cli import run_command
 from grader.notebook import submit
+from grader.report import compose_feedback
 from sim.support.printable import DIRECTIONS, make_printable
 
 COMMANDS = re.compile(
@@ -69,5 +70,5 @@ def test_a_page_of_a_class_and_its_exports_hold_no_command(tmp_path):
     assert len(pages) >= 4
     for path in pages:
         assert not COMMANDS.search(path.read_text(encoding="utf-8").replace("\r\n", "\n")), path
-    failed = {"status": "failed", "seen": NASTY, "hint": NASTY, "misconception": ""}
+    failed = Result("size", "The size", Status.FAILED, 0.0, 1.0, NASTY, NASTY)
     assert not COMMANDS.search(compose_feedback(failed))

@@ -110,7 +110,7 @@ def test_the_doctor_says_what_is_missing_and_what_to_do(course, capsys, monkeypa
 
     assert run_command(["doctor"]) == 1
     out = capsys.readouterr().out
-    assert "no-such-package missing" in out
+    assert "no-such-package is not installed" in out
     assert 'python -m pip install "ipywidgets' in out
-    assert "– RobotPy         not installed" in out
+    assert "– RobotPy         no-such-robot is not installed" in out
     assert course.is_dir()

@@ -56,25 +56,22 @@ def hand_in(place, **does):
     return place
 
 
-def grade_answer(course, there, out, *, seconds):
+def grade_answer(course, there, out):
     """Student -> score and reason, and who was graded in this run."""
     work = GradedClass(
         find_submissions(there, list_exercises(course)), list_exercises(course), course
     )
     store = ResultStore(out)
-    left = plan_grading(work, store, travel=False, again=False)
-    store.open()
-    found = list(left.kept)
-    for one in workers.grade_in_workers(left.jobs, processes=2, seconds=seconds):
-        store.put(one)
-        found.append(one)
-    results = {one.student: (one.records[0]["score"], one.records[0]["reason"]) for one in found}
-    return results, [job.student for job in left.jobs]
+    kept, left = plan_grading(work, store, travel=False, again=False)
+    found = grade_class(work, kept, left, store, processes=2, cluster=None, say=lambda: None)
+    results = {one.student: (one.grades[0].score, one.grades[0].reason) for one in found}
+    return results, [job.submission.student for job in left]
 
 
-def test_what_hangs_dies_or_eats_memory_is_named_and_stops_nobody(course, tmp_path):
+def test_what_hangs_dies_or_eats_memory_is_named_and_stops_nobody(course, tmp_path, monkeypatch):
+    monkeypatch.setattr(workers, "SECONDS", 4.0)
     there = hand_in(tmp_path / "in", ann="", ben="hang", cat="die", dan="eat", eve="", fay="")
-    results, _ = grade_answer(course, there, tmp_path / "out", seconds=4.0)
+    results, _ = grade_answer(course, there, tmp_path / "out")
 
     assert {name: score for name, (score, _) in results.items()} == {
         "ann": 3.0, "ben": 0.0, "cat": 0.0, "dan": 0.0, "eve": 3.0, "fay": 3.0,
@@ -83,7 +80,7 @@ def test_what_hangs_dies_or_eats_memory_is_named_and_stops_nobody(course, tmp_pa
     assert results["cat"][1] == workers.ENDED
     assert results["dan"][1] == "grading it needed more memory than this computer has"
     assert multiprocessing.active_children() == []
-    _, again = grade_answer(course, there, tmp_path / "out", seconds=4.0)
+    _, again = grade_answer(course, there, tmp_path / "out")
     assert again == []  # what hung is not tried again
 
 
@@ -93,6 +90,7 @@ def test_ctrl_c_ends_a_run_whose_worker_hangs(course, tmp_path):
         find_submissions(there, list_exercises(course)), list_exercises(course), course
     )
     store = ResultStore(tmp_path / "out")
+    plan = plan_grading(work, store, travel=False, again=False)
     looks = []
 
     def stop_if_asked():
@@ -102,8 +100,8 @@ def test_ctrl_c_ends_a_run_whose_worker_hangs(course, tmp_path):
 
     with pytest.raises(KeyboardInterrupt):
         grade_class(
-            work, plan_grading(work, store, travel=False, again=False), store, processes=1,
-            cluster=None, say=lambda: None, stop_if_asked=stop_if_asked,
+            work, *plan, store, processes=1, cluster=None, say=lambda: None,
+            stop_if_asked=stop_if_asked,
         )  # fmt: skip
     assert multiprocessing.active_children() == []
 
@@ -125,8 +123,7 @@ def corrupt(path):
 
 @pytest.mark.usefixtures("course")
 def test_a_class_of_hostile_files_grades_everybody_else(tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(workers.grade_in_workers, "__kwdefaults__", {
-        **workers.grade_in_workers.__kwdefaults__, "seconds": 4.0})  # fmt: skip
+    monkeypatch.setattr(workers, "SECONDS", 4.0)
     there = hand_in(tmp_path / "in", ann="", ben="hang", zoe="")
     bomb(there / "bomb.zip")
     corrupt(there / "corrupt.zip")

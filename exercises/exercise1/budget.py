@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from grader.answers.number_answer import AskedNumber, Band
+from grader.answers.asked_number import AskedNumber, Band
 
 NEAR = Band(0.02, 0.02)  # arithmetic: within 2 % or not
 SHOWN = {  # kind -> the unit a dashboard shows, and how many of it are one of kV's

@@ -6,7 +6,8 @@ A class's package lacks this module and all that only it imports: see ``grader.a
 from collections.abc import Mapping
 
 from grader.answers.choice_answer import check_choice, read_choice
-from grader.answers.number_answer import AnswerKey, judge_number, read_answer_number
+from grader.answers.number_answer import judge_number, read_answer_number
+from grader.answers.wrong_number import AnswerKey
 from grader.check import NotReachedError, WrongAnswer, shorten
 
 from .drawn import Variant, draw

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from grader.answers.number_answer import AskedNumber, Band
+from grader.answers.asked_number import AskedNumber, Band
 from grader.answers.wrong_number import Lookalike, Slips
 from grader.student_data.variant import cache_draws, make_student_rng
 

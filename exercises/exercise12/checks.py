@@ -8,17 +8,18 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 
-from grader.answers.number_answer import AskedNumber, Band, read_answer_number
+from grader.answers.asked_number import AskedNumber, Band
+from grader.answers.number_answer import read_answer_number
 from grader.answers.submission import StudentAnswers
 from grader.check import NotReachedError, WrongAnswer, check
 from grader.mystery import Mystery
 from grader.student_data.student_files import Made, format_log
-from grader.student_data.variant import make_folder_name
 from sim.core.units import find_unit
 from sim.estimation.likelihood import Estimate
 from sim.physics.effects import EFFECTS
 from sim.physics.model import Part
 from sim.reconcile.by_hand import HandSearch
+from sim.support.student_names import make_folder_name
 
 from .drawn import FLOOR, HIDDEN, Variant, draw, draw_determined
 from .patch import find_bound, read_names, read_parts

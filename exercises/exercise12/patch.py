@@ -4,7 +4,8 @@ import difflib
 import math
 from collections.abc import Mapping
 
-from grader.answers.number_answer import AskedNumber, Band, read_answer_number
+from grader.answers.asked_number import AskedNumber, Band
+from grader.answers.number_answer import read_answer_number
 from grader.check import WrongAnswer, shorten
 from sim.core.units import Unit
 from sim.physics.effect import Parameter

@@ -8,14 +8,9 @@ import numpy as np
 
 from grader.answers.answer_key import load_answer_key
 from grader.answers.choice_answer import check_choice
-from grader.answers.number_answer import (
-    AnswerKey,
-    judge_number,
-    make_number_check,
-    read_answer_number,
-)
+from grader.answers.number_answer import judge_number, make_number_check, read_answer_number
 from grader.answers.submission import StudentAnswers
-from grader.answers.wrong_number import ALIKE, Scene
+from grader.answers.wrong_number import ALIKE, AnswerKey, Scene
 from grader.check import Check, WrongAnswer, check, make_check
 from grader.student_data.student_files import Made
 from sim.bench.routine import Routine

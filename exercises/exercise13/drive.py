@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from grader.answers.number_answer import BANDS, FAST, FAST_KA, AskedNumber, Band
+from grader.answers.asked_number import BANDS, FAST, FAST_KA, AskedNumber, Band
 from sim.bench.slip import compute_slip_voltage
 from sim.bench.swerve import SwerveDrive
 from sim.physics.motors import compute_theoretical_kv, find_motor

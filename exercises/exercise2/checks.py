@@ -3,17 +3,11 @@
 from dataclasses import replace
 
 from grader.answers.answer_key import load_answer_key
+from grader.answers.asked_number import AskedNumber, Band
 from grader.answers.choice_answer import check_choice
-from grader.answers.number_answer import (
-    LARGEST,
-    AnswerKey,
-    AskedNumber,
-    Band,
-    judge_number,
-    read_answer_number,
-)
+from grader.answers.number_answer import LARGEST, judge_number, read_answer_number
 from grader.answers.submission import StudentAnswers
-from grader.answers.wrong_number import Scene
+from grader.answers.wrong_number import AnswerKey, Scene
 from grader.check import WrongAnswer, check
 from grader.student_data.student_files import Made
 

@@ -4,8 +4,9 @@ import math
 from functools import cached_property, partial
 
 from grader.answers.answer_key import load_answer_key
-from grader.answers.number_answer import HALF, AnswerKey, make_number_check, read_answer_number
+from grader.answers.number_answer import HALF, make_number_check, read_answer_number
 from grader.answers.submission import StudentAnswers
+from grader.answers.wrong_number import AnswerKey
 from grader.check import Check, WrongAnswer, check, make_check
 from grader.consequence import Consequence
 from grader.student_data.student_files import Made

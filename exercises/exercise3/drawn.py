@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from grader.answers.number_answer import BANDS, AskedNumber, Band
+from grader.answers.asked_number import BANDS, AskedNumber, Band
 from grader.student_data.variant import cache_draws, draw_until, make_student_rng
 
 from .holds import Hold, Variant

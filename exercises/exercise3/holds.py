@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from grader.answers.number_answer import AskedNumber
+from grader.answers.asked_number import AskedNumber
 
 
 @dataclass(frozen=True)

@@ -4,8 +4,8 @@ import math
 from collections.abc import Iterator
 from pathlib import Path
 
-from grader.answers.number_answer import AnswerKey, diagnose_number
-from grader.answers.wrong_number import ALIKE, Lookalike, Scene, Slips, WrongNumber
+from grader.answers.number_answer import diagnose_number
+from grader.answers.wrong_number import ALIKE, AnswerKey, Lookalike, Scene, Slips, WrongNumber
 
 from .holds import Variant
 

@@ -8,8 +8,9 @@ from functools import partial
 from typing import Any
 
 from grader.answers.answer_key import load_answer_key
+from grader.answers.asked_number import AskedNumber, Band
 from grader.answers.choice_answer import normalize_choice
-from grader.answers.number_answer import AskedNumber, Band, read_answer_number
+from grader.answers.number_answer import read_answer_number
 from grader.answers.submission import StudentAnswers
 from grader.check import NotReachedError, WrongAnswer, check, make_check
 from grader.consequence import Consequence

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from grader.answers.number_answer import AskedNumber, ask_gains
+from grader.answers.asked_number import AskedNumber, ask_gains
 from grader.student_data.draw_cache import cache_generated_data
 from grader.student_data.variant import cache_draws, draw_until, make_student_rng
 from sim.bench.mechanism import Mechanism

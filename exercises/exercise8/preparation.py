@@ -6,7 +6,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from grader.answers.number_answer import HALF, AskedNumber, Band, read_answer_number
+from grader.answers.asked_number import AskedNumber, Band
+from grader.answers.number_answer import HALF, read_answer_number
 from grader.check import WrongAnswer
 from sim.core.errors import Refusal
 from sim.core.log import FOUR_TESTS, Log, Run

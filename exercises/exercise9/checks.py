@@ -8,15 +8,10 @@ from pathlib import Path
 
 import numpy as np
 
-from grader.answers.number_answer import (
-    AnswerKey,
-    AskedNumber,
-    Band,
-    ask_gains,
-    judge_number,
-    read_answer_number,
-)
+from grader.answers.asked_number import AskedNumber, Band, ask_gains
+from grader.answers.number_answer import judge_number, read_answer_number
 from grader.answers.submission import NamedAnswers, read_answers
+from grader.answers.wrong_number import AnswerKey
 from grader.check import WrongAnswer, check, make_check
 from grader.consequence import Consequence
 from grader.student_data.student_files import Made, format_log

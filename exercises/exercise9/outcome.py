@@ -2,7 +2,8 @@
 
 from collections.abc import Mapping
 
-from grader.answers.number_answer import AskedNumber, read_wrong_numbers
+from grader.answers.asked_number import AskedNumber
+from grader.answers.number_answer import read_wrong_numbers
 from grader.consequence import Consequence, follow_profiles
 from sim.feedback import Plant
 from sim.feedback.following import follow_profile

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from grader.answers.number_answer import AskedNumber
+from grader.answers.asked_number import AskedNumber
 from grader.answers.wrong_number import Scene, Slips
 from sim.bench.mechanism import Mechanism
 from sim.core.log import Array, Log

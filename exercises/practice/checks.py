@@ -12,8 +12,9 @@ from typing import Any
 
 import numpy as np
 
+from grader.answers.asked_number import AskedNumber, Band
 from grader.answers.choice_answer import read_choice
-from grader.answers.number_answer import AskedNumber, Band, judge_number, read_answer_number
+from grader.answers.number_answer import judge_number, read_answer_number
 from grader.answers.submission import NamedAnswers, StudentAnswers, read_answers, read_text
 from grader.check import Check, NotReachedError, WrongAnswer, check, make_check
 from grader.course import find_course

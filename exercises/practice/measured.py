@@ -6,9 +6,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from types import ModuleType
 
+from grader.answers.asked_number import AskedNumber, Band, ask_gains
 from grader.answers.choice_answer import normalize_choice
-from grader.answers.number_answer import AnswerKey, AskedNumber, Band, ask_gains, read_answer_number
-from grader.answers.wrong_number import Lookalike, Scene, WrongNumber
+from grader.answers.number_answer import read_answer_number
+from grader.answers.wrong_number import AnswerKey, Lookalike, Scene, WrongNumber
 from grader.check import NotReachedError, WrongAnswer, shorten
 from sim.core.errors import Refusal
 from sim.core.units import find_unit

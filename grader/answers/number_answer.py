@@ -6,11 +6,11 @@ never the distance, and never the key.
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import Any
 
+from grader.answers.asked_number import AskedNumber
 from grader.answers.quantity import NotAUnitError, read_number, read_unit
-from grader.answers.wrong_number import MANY, Scene, WrongNumber, explain_wrong_number
+from grader.answers.wrong_number import MANY, AnswerKey, WrongNumber, explain_wrong_number
 from grader.check import Check, WrongAnswer, make_check, shorten
 
 LARGEST = 1e300  # beyond it a number is infinite, or soon will be
@@ -26,84 +26,6 @@ CALCULATION = re.compile(r"[-+*/·^]+\s*[\d(]")  # how the rest of a number begi
 NO_UNIT = "It has no unit, and it is not in percent: write the number alone."
 UNIT_ASSUMED = " (no unit given, so I assumed "
 OF_BOTH = ("gear", "radius")  # slips that make kV and kA wrong, never kA alone
-FAST = 0.05  # [s] a time constant kA/kV below this fits into two or three samples of 20 ms
-
-
-@dataclass(frozen=True)
-class Band:
-    """The tolerance of an answer: a share of the expected value, or a size, whichever is wider.
-
-    Args:
-        full, partial: share of the expected value, for full and for half credit.
-        full_size, partial_size: in the unit of the answer.
-    """
-
-    full: float
-    partial: float
-    full_size: float = 0.0
-    partial_size: float = 0.0
-
-    def widths(self, expected: float) -> tuple[float, float]:
-        """Half the width of both bands around an expected value, in its unit."""
-        size = abs(expected)
-        return max(self.full * size, self.full_size), max(self.partial * size, self.partial_size)
-
-
-BANDS: dict[str, Band] = {
-    "kS": Band(0.15, 0.35, full_size=0.03, partial_size=0.08),
-    "kV": Band(0.03, 0.08),
-    "kA": Band(0.15, 0.30),
-    "kG": Band(0.04, 0.10),
-}
-FAST_KA = Band(0.25, 0.50)  # kA where the mechanism is FAST
-
-
-@dataclass(frozen=True)
-class AskedNumber:
-    """A number that an exercise asks for: its value, unit and tolerance.
-
-    Args:
-        name: as in the answer file: ``kV``.
-        expected: the key, in ``unit``.
-        unit: ``V·s/m``; empty if it has none.
-        band: how near is near enough.
-    """
-
-    name: str
-    expected: float
-    unit: str
-    band: Band
-
-    def is_right(self, value: float) -> bool:
-        """Whether a value earns full marks."""
-        return abs(value - self.expected) <= self.band.widths(self.expected)[0]
-
-    def describe_tolerance(self, width: float, share: float) -> str:
-        """A band in plain words: ``±3 %``, or ``±0.03 V`` where that is the wider."""
-        if width > share * abs(self.expected):
-            return f"±{width:g} {self.unit}"
-        return f"±{100 * share:g} %"
-
-
-@dataclass(frozen=True)
-class AnswerKey:
-    """The numbers of an exercise, and the mechanism and tests they belong to."""
-
-    asked: Mapping[str, AskedNumber]
-    scene: Scene = field(default_factory=Scene)
-
-
-def ask_gains(gains: Mapping[str, float], *, position: str) -> dict[str, AskedNumber]:
-    """Ask for gains.
-
-    Args:
-        gains: gain -> value, per unit of position.
-        position: that unit's symbol: ``m``, ``rot``.
-    """
-    units = {"kS": "V", "kG": "V", "kV": f"V·s/{position}", "kA": f"V·s²/{position}"}
-    fast = "kA" in gains and gains["kA"] < FAST * gains.get("kV", 0.0)
-    bands = {**BANDS, "kA": FAST_KA} if fast else BANDS
-    return {name: AskedNumber(name, gains[name], units[name], bands[name]) for name in gains}
 
 
 def read_answer_number(raw: object, asked: AskedNumber) -> float:
@@ -225,20 +147,8 @@ def judge_number(
     )
 
 
-class NumberAnswers(Protocol):
-    """Answers with numbers, and what they are compared with."""
-
-    @property
-    def given(self) -> Mapping[str, object]:
-        """Name -> the answer as it stands in the file."""
-
-    @property
-    def key(self) -> AnswerKey:
-        """The right numbers."""
-
-
 def make_number_check(name: str, description: str, *, points: float) -> Check[Any]:
-    """Make a check of one number.
+    """Make a check of one number, of answers that have a ``key``.
 
     Args:
         name: the number's name; in lower case it names the check.
@@ -246,7 +156,7 @@ def make_number_check(name: str, description: str, *, points: float) -> Check[An
         points: for full marks.
     """
 
-    def judge(answers: NumberAnswers) -> str | None:
+    def judge(answers: Any) -> str | None:  # noqa: ANN401 - each exercise has its own
         return judge_number(name, answers.given, answers.key, points=points)
 
     return make_check(name, description, judge, points=points)
@@ -280,10 +190,7 @@ def _find_wrong_numbers(
     asked = key.asked[name]
     if value is None or asked.is_right(value):
         return ()
-    numbers = {other: one.expected for other, one in key.asked.items()}
-    found = explain_wrong_number(
-        name, value, right=asked.is_right, key=numbers, scene=key.scene, unit=asked.unit
-    )
+    found = explain_wrong_number(name, value, key)
     for other, one in key.asked.items():
         theirs = _read_value(other, given, key)
         if other == name or theirs is None or one.is_right(theirs):  # theirs stands where it should

@@ -7,15 +7,15 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import accumulate
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 from sim.core.errors import UnreadableFile
+from sim.support.printable import list_first
 
 LARGEST = 1_000_000  # [bytes] robot code and answers are far smaller; a log or a picture is not
 LARGEST_ANSWERS = 64_000  # [bytes] of a file of answers; the longest solved one has 3,000
 DEEPEST = 50  # [lists in lists] of it; the parser needs a call of Python for each
 LONGEST_LINE = 2_000  # [characters] of it: reading a key takes the square of its length
-SHOWN = 3  # names of files in a message
 _BARE_WORDS = re.compile(r"[\w.]+\s*=\s*\[?\s*[A-Za-z][\w\s,-]*\]?\s*(#.*)?")  # no quotes
 NOT_ANSWERS = {
     "answer_key.toml", "class.toml", "faults.toml", "hints.toml", "progress.toml", "pyproject.toml",
@@ -51,76 +51,64 @@ class StudentAnswers:
     student: str
 
 
-def find_files(given: Path | None, *, folder: Path, names: Sequence[str]) -> tuple[Path, ...]:
+def find_files(
+    given: Path | None, *, folder: Path, names: Sequence[str], companion_files: Sequence[str]
+) -> tuple[Path, ...]:
     """The files to grade.
 
     Args:
         given: the file or folder the learner named; None takes the exercise's own files.
         folder: the exercise's folder.
         names: what the exercise's own files are called, the preferred one first.
+        companion_files: what the files are called that belong to them; whoever names one means
+            the file beside it that it belongs to.
 
     Raises:
         UnreadableFile: there is nothing there, or nothing of the right kind.
     """
     if given is None:
-        return _find_own_files(folder, names)
-    if not given.exists():
-        raise UnreadableFile(
-            "there is no such file",
-            where=str(given),
-            advice=f"Check the name; the exercise's own file is {folder / names[0]}.",
+        return _find_named(folder, names) or _refuse_files(
+            f"{' and '.join(names)} not found", folder, _explain_restore(folder, names[0])
         )
-    if not given.is_dir():
-        if not _may_be_answer(given, names):
-            raise UnreadableFile(
-                "this file cannot be handed in for this exercise",
-                where=str(given),
-                advice=f"Hand in {' or '.join(names)}.",
-            )
-        return (given,)
-    own = [given / name for name in names if (given / name).is_file()]
-    like = sorted(
-        file for file in given.iterdir() if _may_be_answer(file, names) and _is_filled(file)
-    )
-    if own or len(like) == 1:
-        return tuple(own or like)
+    if given.is_dir():
+        return _find_in_folder(given, names)
+    if not given.exists():
+        own = folder / names[0]
+        advice = f"Check the name; the exercise's own file is {own}."
+        return _refuse_files("there is no such file", given, advice)
+    if given.name in companion_files:
+        what = f"{names[0]} is not in the same folder, and the two are graded together"
+        advice = f"Put your {names[0]} into the same folder."
+        return _find_named(given.parent, names)[:1] or _refuse_files(what, given, advice)
+    if not _may_be_answer(given, names):
+        what = "this file cannot be handed in for this exercise"
+        return _refuse_files(what, given, f"Hand in {' or '.join(names)}.")
+    return (given,)
+
+
+def _find_named(folder: Path, names: Sequence[str]) -> tuple[Path, ...]:
+    """The files of these names that are in a folder."""
+    return tuple(folder / name for name in names if (folder / name).is_file())
+
+
+def _find_in_folder(folder: Path, names: Sequence[str]) -> tuple[Path, ...]:
+    """The files of an answer in a folder: those of the exercise's names, else the only one."""
+    like = sorted(file for file in folder.iterdir() if _may_be_answer(file, names))
+    like = [file for file in like if _is_filled(file)]
+    if own := _find_named(folder, names):
+        return own
     if not like:
-        what = f"{' or '.join(names)} is missing"
-        raise UnreadableFile(what, where=str(given), advice="Name the file itself.")
-    named = ", ".join(file.name for file in like[:SHOWN]) + (", …" if len(like) > SHOWN else "")
-    raise UnreadableFile(  # one answer each: the best of many would be a prize for guessing
-        f"{len(like)} files here could be the answer ({named})",
-        where=str(given),
-        advice=f"Name the one that counts, or call it {names[0]}.",
-    )
+        return _refuse_files(f"{' or '.join(names)} is missing", folder, "Name the file itself.")
+    if len(like) > 1:  # one answer each: the best of many would be a prize for guessing
+        named = list_first([file.name for file in like])
+        what = f"{len(like)} files here could be the answer ({named})"
+        advice = f"Name the one that counts, or call it {names[0]}."
+        return _refuse_files(what, folder, advice)
+    return tuple(like)
 
 
-def find_whole_answer(
-    given: Path | None, *, names: Sequence[str], companion_files: Sequence[str]
-) -> Path | None:
-    """What to grade where a learner names a file that is only a part of the answer.
-
-    Args:
-        given: the file or folder the learner named, or None.
-        names: what the exercise's own files are called, the preferred one first.
-        companion_files: what the files are called that belong to them.
-
-    Returns:
-        The file the part belongs to; ``given`` itself where it is no part.
-
-    Raises:
-        UnreadableFile: the part stands alone.
-    """
-    if given is None or given.name not in companion_files or not given.is_file():
-        return given
-    for name in names:
-        if given.with_name(name).is_file():
-            return given.with_name(name)
-    raise UnreadableFile(
-        f"{names[0]} is not in the same folder, and the two are graded together",
-        where=str(given),
-        advice=f"Put your {names[0]} into the same folder.",
-    )
+def _refuse_files(what: str, place: Path, advice: str) -> NoReturn:
+    raise UnreadableFile(what, where=str(place), advice=advice)
 
 
 def _may_be_answer(file: Path, names: Sequence[str]) -> bool:
@@ -132,17 +120,6 @@ def _may_be_answer(file: Path, names: Sequence[str]) -> bool:
 def _is_filled(file: Path) -> bool:
     """Whether there is something in it: a package's empty ``__init__.py`` is nobody's answer."""
     return file.is_file() and file.stat().st_size > 0
-
-
-def _find_own_files(folder: Path, names: Sequence[str]) -> tuple[Path, ...]:
-    found = tuple(folder / name for name in names if (folder / name).is_file())
-    if not found:
-        raise UnreadableFile(
-            f"{' and '.join(names)} not found",
-            where=str(folder),
-            advice=_explain_restore(folder, names[0]),
-        )
-    return found
 
 
 def read_text(path: Path) -> str:

@@ -6,10 +6,11 @@ named, two or three are named side by side, and more say nothing.
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import combinations
 from pathlib import Path
 
+from grader.answers.asked_number import AskedNumber
 from grader.texts import read_texts
 
 MANY = 3  # more suspects than this tell the learner nothing
@@ -127,34 +128,27 @@ class Scene:
 
 
 @dataclass(frozen=True)
-class _Factor:
-    number: float
-    slip: WrongNumber
+class AnswerKey:
+    """The numbers of an exercise, and the mechanism and tests they belong to."""
+
+    asked: Mapping[str, AskedNumber]
+    scene: Scene = field(default_factory=Scene)
 
 
-def explain_wrong_number(
-    name: str,
-    value: float,
-    *,
-    right: Callable[[float], bool],
-    key: Mapping[str, float],
-    scene: Scene,
-    unit: str,
-) -> tuple[WrongNumber, ...]:
+def explain_wrong_number(name: str, value: float, key: AnswerKey) -> tuple[WrongNumber, ...]:
     """The mistakes that would explain a wrong number.
 
     Args:
         name: the gain: ``kV``.
         value: the learner's number, in the unit of the answer.
-        right: whether a value of this gain would earn full marks.
-        key: gain -> its value in the unit of the answer.
-        scene: the mechanism and its tests.
-        unit: the unit of the answer.
+        key: the right numbers, the mechanism and its tests.
     """
-    found = list(_explain_by_factors(name, value, right=right, scene=scene, unit=unit))
+    asked, scene = key.asked, key.scene
+    right = asked[name].is_right
+    found = list(_explain_by_factors(name, value, asked[name], scene))
     rarer = tuple(likely.slip for likely in scene.rarer.get(name, ()) if _looks_like(value, likely))
-    if name == "kS" and {"kV", "kA"} <= key.keys() and not rarer:  # theirs is the narrower band
-        excess = key["kA"] / key["kV"] * scene.ramp
+    if name == "kS" and {"kV", "kA"} <= asked.keys() and not rarer:  # theirs is the narrower band
+        excess = asked["kA"].expected / asked["kV"].expected * scene.ramp
         if excess > 0 and right(value - excess):
             found.append(_INTERCEPT)
     if name == "kV" and value and right(1.0 / value):
@@ -182,62 +176,64 @@ _UPSIDE_DOWN = WrongNumber(
 
 
 def _explain_by_factors(
-    name: str, value: float, *, right: Callable[[float], bool], scene: Scene, unit: str
+    name: str, value: float, asked: AskedNumber, scene: Scene
 ) -> Iterator[WrongNumber]:
-    if right(-value):
+    if asked.is_right(-value):
         says = "the size is right, the sign is not"
-        if scene.ramp and unit.startswith("V"):
+        if scene.ramp and asked.unit.startswith("V"):
             says += (
                 ". Positive volts have to give a positive velocity: does the voltage column or "
                 "the velocity column have the wrong sign?"
             )
         yield WrongNumber("sign", says)
-    factors = [*_list_factors(scene, velocity=name in {"kV", "kA"}, unit=unit)]
+    factors = [*_list_factors(scene, velocity=name in {"kV", "kA"}, unit=asked.unit)]
     if name == "kA" and scene.period:
         says = (
             f"the time between two samples is {scene.period:g} s. Did you divide the change of "
             "velocity by this time?"
         )
-        factors.append(_Factor(1.0 / scene.period, WrongNumber("period", says)))
-    for factor in factors:
-        for times, way in ((factor.number, "small"), (1.0 / factor.number, "large")):
-            if right(value * times):
-                shown = f"{factor.number:.3g}" if factor.number < LARGE else f"{factor.number:.0f}"
-                says = f"about {shown} times too {way}: {factor.slip.says}"
-                yield WrongNumber(factor.slip.code, says, factor.slip.misconception)
+        factors.append((1.0 / scene.period, WrongNumber("period", says)))
+    for factor, slip in factors:
+        for times, way in ((factor, "small"), (1.0 / factor, "large")):
+            if asked.is_right(value * times):
+                shown = f"{factor:.3g}" if factor < LARGE else f"{factor:.0f}"
+                says = f"about {shown} times too {way}: {slip.says}"
+                yield replace(slip, says=says)
 
 
-def _list_factors(scene: Scene, *, velocity: bool, unit: str) -> Iterator[_Factor]:
+def _list_factors(
+    scene: Scene, *, velocity: bool, unit: str
+) -> Iterator[tuple[float, WrongNumber]]:
     """The factors a number may be off by; kS and kG have no velocity in their unit."""
     if scene.computed:
         return
     if unit.startswith("V"):
         duty = "12 V is a full battery. Did you use an output between -1 and 1 in place of volts?"
-        yield _Factor(12.0, WrongNumber("duty", duty, "M-DUTY"))
+        yield (12.0, WrongNumber("duty", duty, "M-DUTY"))
     if not velocity:
         small = {
             "V": "1 V is 1000 mV. Are these millivolts?",
             "m": "1 m is 1000 mm. Is this in mm?",
         }
         if unit in small:
-            yield _Factor(1000.0, WrongNumber("milli", small[unit], "M-UNITS"))
+            yield (1000.0, WrongNumber("milli", small[unit], "M-UNITS"))
         return
     yield from _list_unit_factors(scene)
     gears = max(scene.ratio, 1.0 / scene.ratio)
     if gears > NOTICED:
         says = f"{gears:.3g} is the gear ratio. Is this the motor's velocity, not the mechanism's?"
-        yield _Factor(gears, WrongNumber("gear", says, "M-GEARING"))
+        yield (gears, WrongNumber("gear", says, "M-GEARING"))
     says = "a diameter is 2 times a radius. Did you mix them up?"
-    yield _Factor(2.0, WrongNumber("radius", says, "M-GEARING"))
+    yield (2.0, WrongNumber("radius", says, "M-GEARING"))
     if scene.motors > 1:
         says = (
             f"there are {scene.motors} motors. Did you multiply or divide something by their "
             "number?"
         )
-        yield _Factor(float(scene.motors), WrongNumber("motors", says))
+        yield (float(scene.motors), WrongNumber("motors", says))
 
 
-def _list_unit_factors(scene: Scene) -> Iterator[_Factor]:
+def _list_unit_factors(scene: Scene) -> Iterator[tuple[float, WrongNumber]]:
     angular = (
         (2.0 * math.pi, "turns", "2π = 6.28. Did you mix up radians and rotations?"),
         (180.0 / math.pi, "degrees", "57.3 = 180/π. Did you mix up degrees and radians?"),
@@ -253,4 +249,4 @@ def _list_unit_factors(scene: Scene) -> Iterator[_Factor]:
         (100.0, "centi", "a meter is 100 cm. Is your velocity in centimeters per second?"),
     )
     for number, code, says in angular + (turning if scene.angular else going):
-        yield _Factor(number, WrongNumber(code, says, "M-UNITS"))
+        yield (number, WrongNumber(code, says, "M-UNITS"))

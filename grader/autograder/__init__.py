@@ -14,7 +14,7 @@ import re
 import shlex
 import tomllib
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from grader.classroom.bundle import zip_files
@@ -38,15 +38,11 @@ class AutograderContents:
         secret: of the class; None where everybody's numbers are those of self-study.
     """
 
-    course: Mapping[str, bytes]
+    course: Mapping[str, bytes] = field(repr=False)
     exercises: tuple[str, ...]
     student_from: str
-    roster: bytes | None = None
-    secret: bytes | None = None
-
-    def __repr__(self) -> str:
-        """Without the secret: a message may hold this."""
-        return f"Gradescope({self.exercises!r})"
+    roster: bytes | None = field(default=None, repr=False)
+    secret: bytes | None = field(default=None, repr=False)  # a message may hold this
 
 
 def pack_gradescope(given: AutograderContents) -> bytes:

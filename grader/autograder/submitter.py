@@ -1,12 +1,14 @@
 """Who handed in, as Gradescope says it: run inside the autograder, prints the student's name."""
 
-import argparse
 import json
 import sys
 from pathlib import Path
 
-from grader.student_data.variant import check_student_name
-from sim.core.errors import BadRequest, Refusal
+import click
+
+from sim.core.errors import BadRequest
+from sim.support.command_line import run_command
+from sim.support.student_names import check_student_name
 
 KEYS = ("email", "name", "sid")
 
@@ -54,22 +56,16 @@ def _find_on_roster(found: str, roster: Path) -> str:
     )
 
 
-def main(arguments: list[str]) -> int:
+@click.command()
+@click.argument("metadata", type=click.Path(path_type=Path))
+@click.option("--by", type=click.Choice(KEYS), required=True)
+@click.option("--roster", type=click.Path(path_type=Path))
+def main(metadata: Path, by: str, roster: Path | None) -> None:
     """Print the student's name; exit code 2 and one line on standard error where there is none."""
-    parser = argparse.ArgumentParser(prog="submitter")
-    parser.add_argument("metadata", type=Path)
-    parser.add_argument("--by", choices=KEYS, required=True)
-    parser.add_argument("--roster", type=Path)
-    given = parser.parse_args(arguments)
-    try:
-        name = find_submitter(given.metadata, by=given.by, roster=given.roster)
-    except Refusal as refusal:
-        sys.stderr.write(f"autograder: {refusal}\n")
-        return 2
+    name = find_submitter(metadata, by=by, roster=roster)
     sys.stdout.reconfigure(encoding="utf-8")  # type: ignore[union-attr]  # a text stream, always
     sys.stdout.write(f"{name}\n")
-    return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(run_command(main, name="autograder"))

@@ -16,22 +16,22 @@ answer is listed, too: a person decides.
 import os
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
 from functools import cache
 from pathlib import Path, PurePosixPath
 
+from grader.answers.answer_key import FILE_NAME as KEY
 from grader.answers.submission import LARGEST
 from grader.classroom.submitted_files import MAX_TOTAL, SubmittedFile, format_file_name
 from grader.exercise import Exercise
-from grader.package_files import IGNORED, digest_starter, list_modules, read_listed_files
+from grader.package_files import IGNORED, digest_starter, find_imported_modules, read_listed_files
 from grader.student_data.class_package import PLACE as ISSUED
 from sim.support.printable import list_first
 
 MAX_FILES = 40  # for one exercise
 LARGEST_LOG = 32_000_000  # [bytes] of one robot log; four tests of SysId take less than 10 MB
 LONGEST_NAME = 200  # [bytes] of a file's name; some systems take no more than 255
-SHOWN = 3  # names in a line
 OURS = {"README.md", "hints.toml", "checks.py"}  # of the exercise, whatever a student did to them
 COURSE_FOLDERS = {"lessons", "grader", "sim", "tests"}  # of a whole course
 COURSE_FILES = {
@@ -83,23 +83,40 @@ class _Candidate:
 
 
 @dataclass(frozen=True)
-class AnswerFiles:
-    """The files of one student that are graded, and what has to be looked at by a person.
+class Submission:
+    """What one student handed in.
 
     Args:
+        student: who: as on the roster, or by the name of the folder or zip file.
+        place: where it lies; the first place where there are several.
         files: exercise -> file name -> its content, cut off where it is too large for an answer.
         problems: exercise -> why its files cannot be graded.
+        problem: why nothing of it can be graded; empty if it can.
         identities: what the course itself wrote into it about whose numbers these are: the content
             of ``class.toml`` and of ``progress.toml``.
         data_folders: names of the folders with drawn data in it.
+        worked_as: whose numbers they worked on; empty for their own.
         unused: files that may be answers and were not graded, one line each.
+        late: whether the platform says that a part of it came after the due date.
+        likely: students on the roster who may be meant, where none has its name.
     """
 
-    files: Mapping[str, Files]
-    problems: Mapping[str, str]
-    identities: Mapping[str, bytes]
-    data_folders: frozenset[str]
-    unused: tuple[str, ...]
+    student: str
+    place: Path
+    files: Mapping[str, Files] = field(default_factory=dict, repr=False)
+    problems: Mapping[str, str] = field(default_factory=dict)
+    problem: str = ""
+    identities: Mapping[str, bytes] = field(default_factory=dict, repr=False)
+    data_folders: frozenset[str] = frozenset()
+    worked_as: str = ""
+    unused: tuple[str, ...] = ()
+    late: bool = False
+    likely: tuple[str, ...] = ()
+
+    @property
+    def numbers_owner(self) -> str:
+        """The student whose numbers it is graded on."""
+        return self.worked_as or self.student
 
 
 class AnswerSelector:
@@ -200,8 +217,8 @@ class AnswerSelector:
                 return found
         return None
 
-    def select(self) -> AnswerFiles:
-        """The files that are graded, and a line for each that is not."""
+    def select(self, student: str, place: Path, *, late: bool) -> Submission:
+        """What a student handed in: the files that are graded, and a line for each that is not."""
         files: dict[str, Files] = {}
         problems: dict[str, str] = {}
         unused: list[str] = []
@@ -214,17 +231,21 @@ class AnswerSelector:
             self._unknown += [(one.path, None) for one in self._candidates[name] if one not in mine]
             chosen, problem, lines = _select_answer(mine, exercise)
             if chosen:
-                files[name] = {one.name: one.content for one in sorted(chosen, key=_name_of)}
+                chosen.sort(key=lambda one: one.name)
+                files[name] = {one.name: one.content for one in chosen}
             if problem:
                 problems[name] = problem
             unused += lines
         doubtful, unknown = self._judge_unknown({*files, *problems})
-        return AnswerFiles(
+        return Submission(
+            student,
+            place,
             files,
             {**doubtful, **problems},
             identities=self._identities,
             data_folders=frozenset(self._data),
             unused=(*unused, *unknown),
+            late=late,
         )
 
     def _judge_unknown(self, answered: set[str]) -> tuple[dict[str, str], tuple[str, ...]]:
@@ -250,7 +271,7 @@ class AnswerSelector:
                 certain.setdefault(open_[0], []).append(shown)
             elif open_ and fit:
                 unused.append(
-                    f"{shown} could belong to {list_first(open_, most=SHOWN)}; it was not graded. "
+                    f"{shown} could belong to {list_first(open_)}; it was not graded. "
                     "Put it into a folder with the name of its exercise"
                 )
             elif open_:
@@ -259,10 +280,6 @@ class AnswerSelector:
             name: _explain_wrong_files(self._asked[name], those) for name, those in certain.items()
         }
         return found, tuple(unused)
-
-
-def _name_of(one: _Candidate) -> str:
-    return one.name
 
 
 def _select_answer(
@@ -288,7 +305,7 @@ def _select_answer(
         shown = [format_file_name(one.path.name) for one in pool]
         return [], problem or _explain_wrong_files(exercise, shown), []
     kept = {one.content for one in graded}
-    from_ = list_first([_show_path(one) for one in graded], most=SHOWN)
+    from_ = list_first([_show_path(one) for one in graded])
     lines = [
         f"{_show_path(one)} was not graded: {exercise.name} is graded from {from_}"
         for one in touched
@@ -303,10 +320,10 @@ def _find_read_files(pool: Sequence[_Candidate], exercise: Exercise) -> list[_Ca
     A file of another name is a part of a program of which the exercise's own file was filled in,
     or, where no such file was, perhaps the answer itself.
     """
-    filled = {one.ending for one in pool if one.name in _own_names(exercise)}
-    answers = {Path(name).suffix for name in exercise.files}
+    filled = {one.ending for one in pool if one.name in exercise.starters}
+    answers = exercise.answer_endings
     read = {*filled, *exercise.log_endings} | (set() if filled & answers else answers)
-    best_last = sorted(pool, key=lambda one: one.name in _own_names(exercise))
+    best_last = sorted(pool, key=lambda one: one.name in exercise.starters)
     found = {
         (_find_group(one, exercise), one.content): one for one in best_last if one.ending in read
     }
@@ -321,7 +338,7 @@ def _find_rivals(pool: Sequence[_Candidate], exercise: Exercise) -> str:
         those.setdefault(one.content, _show_path(one))
     for those in rivals.values():
         if len(those) > 1:
-            shown = list_first([*those.values()], most=SHOWN)
+            shown = list_first([*those.values()])
             return (
                 f"there are {len(those)} different files that may be the answer: {shown}. Keep the "
                 "one that counts"
@@ -335,8 +352,7 @@ def _find_group(one: _Candidate, exercise: Exercise) -> str:
     Files of one name are rivals. So are all files of answers, whatever their names are; other
     files of code may belong to one program.
     """
-    answers = {Path(name).suffix for name in exercise.files} & {".toml"}
-    return one.ending if one.ending in answers else one.name
+    return one.ending if one.ending in exercise.answer_endings & {".toml"} else one.name
 
 
 def _find_kept_starters(
@@ -347,8 +363,7 @@ def _find_kept_starters(
     An untouched file to fill in is left out where another file may be the answer instead of it.
     """
     names = {*exercise.companion_files}
-    endings = {Path(name).suffix for name in exercise.files}
-    if not any(one.ending in endings and one.name not in names for one in graded):
+    if not any(one.ending in exercise.answer_endings and one.name not in names for one in graded):
         names |= {*exercise.files}
     names -= {one.name for one in graded}
     return [*{one.name: one for one in mine if one.name in names}.values()]
@@ -360,7 +375,7 @@ def _show_path(one: _Candidate) -> str:
 
 def _explain_wrong_files(exercise: Exercise, names: Sequence[str]) -> str:
     """Why an exercise was not graded where only files of other names were handed in."""
-    shown, name = list_first(names, most=SHOWN), exercise.name
+    shown, name = list_first(names), exercise.name
     if all(_is_own_name(one, exercise) for one in names):
         return f"{shown} may belong to {name}. Put it into a folder {name}"
     needed = " or ".join(exercise.files)
@@ -379,12 +394,7 @@ def _is_harmless(path: PurePosixPath) -> bool:
 
 def _is_own_name(name: str, exercise: Exercise) -> bool:
     """Whether an exercise has a file of this name."""
-    return _restore_name(name, exercise) in _own_names(exercise)
-
-
-def _own_names(exercise: Exercise) -> tuple[str, ...]:
-    """The names of an exercise's files to fill in."""
-    return (*exercise.files, *exercise.companion_files)
+    return _restore_name(name, exercise) in exercise.starters
 
 
 def _strip_copy(name: str) -> str:
@@ -395,15 +405,15 @@ def _strip_copy(name: str) -> str:
 
 def _restore_name(name: str, exercise: Exercise) -> str:
     """An exercise's own name of a file: ``ANSWERS.TOML`` and ``answers (1).toml.txt`` have it."""
-    own = {one.casefold(): one for one in _own_names(exercise)}
+    own = {one.casefold(): one for one in exercise.starters}
     return own.get(name.casefold()) or own.get(_strip_copy(name)) or name
 
 
 def _find_declared(name: str, content: bytes, exercise: Exercise) -> str:
     """The exercise's own name of a Java file that declares its class; else the file's name."""
-    if name in _own_names(exercise) or not name.lower().endswith(".java"):
+    if name in exercise.starters or not name.lower().endswith(".java"):
         return name
-    for own in _own_names(exercise):
+    for own in exercise.starters:
         declares = rf"^\s*(?:public\s+)?(?:final\s+)?class\s+{re.escape(Path(own).stem)}\b"
         if own.endswith(".java") and re.search(declares.encode(), content, re.MULTILINE):
             return own
@@ -413,9 +423,9 @@ def _find_declared(name: str, content: bytes, exercise: Exercise) -> str:
 @cache
 def _name_given_files(exercise: Exercise) -> frozenset[str]:
     """The names of the files of an exercise's folder that nobody fills in."""
-    modules = {path.name for path in list_modules(exercise)}
-    listed = read_listed_files(exercise).keys() - {*_own_names(exercise)}
-    return frozenset({*modules, *listed, *OURS})
+    modules = find_imported_modules(exercise.folder / "checks.py", exercise.folder / KEY)
+    listed = read_listed_files(exercise).keys() - {*exercise.starters}
+    return frozenset({*(path.name for path in modules), *listed, *OURS})
 
 
 def _is_starter(one: _Candidate, exercise: Exercise) -> bool:
@@ -425,7 +435,7 @@ def _is_starter(one: _Candidate, exercise: Exercise) -> bool:
 
 def _list_endings(exercise: Exercise) -> set[str]:
     """What the names of an exercise's files end in."""
-    return {*(Path(file).suffix for file in _own_names(exercise)), *exercise.log_endings}
+    return {*(Path(file).suffix for file in exercise.starters), *exercise.log_endings}
 
 
 def _find_only_holders(exercises: Iterable[Exercise]) -> dict[str, Exercise]:
@@ -434,13 +444,13 @@ def _find_only_holders(exercises: Iterable[Exercise]) -> dict[str, Exercise]:
     A file that several have belongs to the only one that it is the answer to: others have it beside
     their answer.
     """
+    every = [(name, one) for one in exercises for name in one.starters]
+    answered = [(name, one) for one in exercises for name in one.files]
+    return _find_single_holders(every) | _find_single_holders(answered)
+
+
+def _find_single_holders(pairs: Iterable[tuple[str, Exercise]]) -> dict[str, Exercise]:
     holders: dict[str, list[Exercise]] = {}
-    answered: dict[str, list[Exercise]] = {}
-    for one in exercises:
-        for name in _own_names(one):
-            holders.setdefault(name.casefold(), []).append(one)
-        for name in one.files:
-            answered.setdefault(name.casefold(), []).append(one)
-    best = {name: those if len(those := answered.get(name, [])) == 1 else every
-            for name, every in holders.items()}  # fmt: skip
-    return {name: those[0] for name, those in best.items() if len(those) == 1}
+    for name, one in pairs:
+        holders.setdefault(name.casefold(), []).append(one)
+    return {name: those[0] for name, those in holders.items() if len(those) == 1}

@@ -12,7 +12,7 @@ def write_private_file(path: Path, content: str | bytes) -> Path:
     Raises:
         BadRequest: it cannot be written.
     """
-    advice = "Make room there, or name another folder with -o."
+    advice = "Make room there, or name another folder with -o. Then run the same command again."
     with refuse_os_errors("cannot be written", path, advice=advice):
         make_private_folder(path.parent)
         write_atomically(path, content, private=True)

@@ -5,7 +5,7 @@ import io
 import tempfile
 import zipfile
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 from types import MappingProxyType
@@ -25,11 +25,7 @@ class CourseBundle:
     """
 
     digest: str
-    content: bytes
-
-    def __repr__(self) -> str:
-        """Without the content."""
-        return f"Bundle({self.digest[:8]})"
+    content: bytes = field(repr=False)
 
 
 def pack_course(course: Path) -> CourseBundle:
@@ -60,16 +56,13 @@ def zip_files(
 
 def unpack_course(given: Path | CourseBundle) -> Path:
     """The folder of a course: as it is, or unpacked once in each process."""
-    return given if isinstance(given, Path) else _unpack_bundle(given)
+    return given if isinstance(given, Path) else Path(_unpack_bundle(given).name)
 
 
 @cache
-def _unpack_bundle(given: CourseBundle) -> Path:
+def _unpack_bundle(given: CourseBundle) -> tempfile.TemporaryDirectory[str]:
+    """A folder with the exercises, which is removed when this process ends."""
     folder = tempfile.TemporaryDirectory(prefix="course-", ignore_cleanup_errors=True)
-    _KEPT.append(folder)  # removed when this process ends
     with zipfile.ZipFile(io.BytesIO(given.content)) as archive:
         archive.extractall(folder.name)
-    return Path(folder.name)
-
-
-_KEPT: list[tempfile.TemporaryDirectory[str]] = []
+    return folder

@@ -1,17 +1,18 @@
 """Grade a class: known results are reused, and one student's failure never stops the others."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 
+from grader.classroom.answer_files import Submission
 from grader.classroom.bundle import pack_course
-from grader.classroom.grading import GradedStudent, GradingJob, make_ungraded_student
+from grader.classroom.grading import GradedStudent, GradingJob, skip_student
 from grader.classroom.store import ResultStore, digest_job
-from grader.classroom.submissions import Submission
-from grader.classroom.workers import grade_in_workers
+from grader.classroom.workers import grade_within_limits
 from grader.exercise import Exercise
 from grader.student_data.fingerprint import fingerprint_folders
+from sim.support.work.executor import collect_results
 
 
 @dataclass(frozen=True)
@@ -38,16 +39,14 @@ class GradedClass:
         Args:
             travel: whether another machine does them.
         """
-        made_by = self._made_by()
+        made_by = fingerprint_folders(self.course / "exercises")
+        made_by += ", code was run" if self.run else ""
         names = tuple(one.name for one in self.exercises)
         course = pack_course(self.course) if travel else self.course
         return tuple(
             GradingJob(
-                one.student,
+                one,
                 digest_job(one, names=names, made_by=made_by, secret=self.secret),
-                one.files,
-                one.problems,
-                one.numbers_owner,
                 names,
                 course,
                 self.secret,
@@ -57,29 +56,11 @@ class GradedClass:
             if not one.problem
         )
 
-    def _made_by(self) -> str:
-        """What decides the results besides what was handed in."""
-        course = fingerprint_folders(self.course / "exercises")
-        return f"{course}, code was run" if self.run else course
-
-
-@dataclass(frozen=True)
-class GradingPlan:
-    """Which submissions have results already, and which are still to be graded.
-
-    Args:
-        kept: results from before that still hold.
-        jobs: the rest.
-    """
-
-    kept: tuple[GradedStudent, ...]
-    jobs: tuple[GradingJob, ...]
-
 
 def plan_grading(
     asked: GradedClass, store: ResultStore, *, travel: bool, again: bool
-) -> GradingPlan:
-    """Split submissions into those with stored results and those to be graded.
+) -> tuple[list[GradedStudent], list[GradingJob]]:
+    """Stored results that still hold, and the submissions still to be graded.
 
     Args:
         asked: the class.
@@ -87,19 +68,20 @@ def plan_grading(
         travel: whether another machine grades.
         again: grade everything again.
     """
-    kept, todo = [], []
+    kept, left = [], []
     for job in asked.make_jobs(travel=travel):
-        known = None if again else store.get(job.student, job.digest)
+        known = None if again else store.get(job.submission.student, job.digest)
         if known is None:
-            todo.append(job)
+            left.append(job)
         else:
             kept.append(known)
-    return GradingPlan(tuple(kept), tuple(todo))
+    return kept, left
 
 
 def grade_class(
     asked: GradedClass,
-    plan: GradingPlan,
+    kept: Sequence[GradedStudent],
+    left: Sequence[GradingJob],
     store: ResultStore,
     *,
     processes: int,
@@ -111,32 +93,29 @@ def grade_class(
 
     Args:
         asked: the class.
-        plan: what is known, and what is left.
+        kept: results that still hold.
+        left: what is still to be graded.
         store: where results are kept.
         processes: at most so many on this machine.
         cluster: address of a Dask scheduler; None grades on this machine.
-        say: called after each student; what it raises stops the run, with all results whole.
-        stop_if_asked: called every moment while workers are busy; what it raises stops the run.
+        say: called after each student.
+        stop_if_asked: called every moment; what it raises stops the run, with all results whole.
 
     Raises:
         BadRequest: a result cannot be written, or the cluster does not answer.
     """
-    found = list(plan.kept)
-    store.open()
-    grading = grade_in_workers(
-        plan.jobs, processes=processes, cluster=cluster, stop_if_asked=stop_if_asked
+    found = [*kept]
+    grading = collect_results(
+        grade_within_limits, left, processes=processes, cluster=cluster, stop_if_asked=stop_if_asked
     )
     with closing(grading):
         for one in grading:
             store.put(one)
             found.append(one)
             say()
-    everything = {one.name for one in asked.exercises}
-    unread = (
-        make_ungraded_student(
-            one.student, asked.exercises, handed_in=everything, reason=one.problem
-        )
+    found += [
+        skip_student(one.student, asked.exercises, status="ungradable", reason=one.problem)
         for one in asked.handed_in
         if one.problem
-    )
-    return tuple(sorted([*found, *unread], key=lambda one: one.student.casefold()))
+    ]
+    return tuple(sorted(found, key=lambda one: one.student.casefold()))

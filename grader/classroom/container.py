@@ -12,6 +12,7 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -126,16 +127,10 @@ def find_engines() -> list[str]:
     """The engines that answer on this machine."""
     found = []
     for engine in ENGINES:
-        program = shutil.which(engine)
-        if program is None:
-            continue
-        try:
-            said = subprocess.run(  # noqa: S603 - a list, no shell
-                [program, "info"], capture_output=True, timeout=ANSWERS_WITHIN, check=False
+        with suppress(OSError, subprocess.SubprocessError):
+            subprocess.run(  # noqa: S603 - a list, no shell
+                [engine, "info"], capture_output=True, timeout=ANSWERS_WITHIN, check=True
             )
-        except (OSError, subprocess.TimeoutExpired):
-            continue
-        if said.returncode == 0:
             found.append(engine)
     return found
 

@@ -6,17 +6,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType
 
-from grader.classroom.answer_files import PROGRESS
+from grader.classroom.answer_files import PROGRESS, Submission
 from grader.classroom.secret import seal_identity
-from grader.classroom.submissions import Submission
 from grader.course import NOBODY
 from grader.exercise import Exercise
 from grader.student_data.class_package import PLACE, parse_class_package
-from grader.student_data.variant import check_student_name, make_folder_name, normalize_name
 from sim.core.errors import BadRequest, Refusal
 from sim.support.printable import list_first
-
-SHOWN = 5  # names in one line
+from sim.support.student_names import check_student_name, make_folder_name, normalize_name
 
 
 def check_identities(
@@ -66,7 +63,7 @@ def _refuse_unknown_numbers(handed_in: Sequence[Submission], asked: Sequence[Exe
     if unknown:
         raise BadRequest(
             "nothing says which numbers these students worked on: "
-            f"{list_first(unknown, most=SHOWN, separator='; ')}",
+            f"{list_first(unknown, separator='; ')}",
             advice="If they had packages of grade release, add --secret class.secret. If they "
             "worked in the course without packages, add --self-study.",
         )
@@ -94,42 +91,41 @@ def _check_identity(one: Submission, secret: bytes | None, partners: Sequence[st
             f"its {PLACE.name} was changed"
         )
         return replace(one, problem=said)
-    if found.is_for(one.student):
+    return _assign_numbers(one, found.student, partners, what="its package was issued to")
+
+
+def _assign_numbers(
+    one: Submission, owner: str, partners: Sequence[str], *, what: str
+) -> Submission:
+    """The submission, graded on the numbers of whom it says to be of, if the student may do so.
+
+    Args:
+        one: the submission.
+        owner: whose numbers they are.
+        partners: those who may hand in the same work.
+        what: what says so.
+    """
+    name = normalize_name(owner)
+    if name == normalize_name(one.student):
         return one
-    if owner := _find_partner(found.student, partners):
-        return replace(one, worked_as=owner)
+    if mates := [mate for mate in partners if normalize_name(mate) == name]:
+        return replace(one, worked_as=mates[0])
     return replace(
-        one, problem=_explain_other_owner("its package was issued to", found.student, one)
+        one,
+        problem=f"{what} {owner}, and {one.student} handed it in. Ask both. Then give it the name "
+        "of the student who did the work",
     )
-
-
-def _explain_other_owner(what: str, owner: str, one: Submission) -> str:
-    return (
-        f"{what} {owner}, and {one.student} handed it in. Ask both. Then give it the name of the "
-        "student who did the work"
-    )
-
-
-def _find_partner(student: str, partners: Sequence[str]) -> str:
-    """The partner whose name this is; empty if it is nobody's."""
-    name = normalize_name(student)
-    return next((one for one in partners if normalize_name(one) == name), "")
 
 
 def _grade_as_started(one: Submission, partners: Sequence[str]) -> Submission:
     """The same, on the numbers of whoever the course was started as."""
-    started_as = _read_started_student(one)
     if make_folder_name(one.student) in one.data_folders:
         return one
-    if not started_as and make_folder_name(NOBODY) in one.data_folders:
-        started_as = NOBODY
-    if not started_as or normalize_name(started_as) == normalize_name(one.student):
-        return one
-    if started_as == NOBODY:  # these numbers are nobody's: whoever never gave a name has them
-        return replace(one, worked_as=NOBODY)
-    if owner := _find_partner(started_as, partners):
-        return replace(one, worked_as=owner)
-    return replace(one, problem=_explain_other_owner("its course was started as", started_as, one))
+    nobody = NOBODY if make_folder_name(NOBODY) in one.data_folders else one.student
+    started_as = _read_started_student(one) or nobody
+    # NOBODY's numbers are nobody's: whoever never gave a name has them
+    mates = (*partners, NOBODY)
+    return _assign_numbers(one, started_as, mates, what="its course was started as")
 
 
 def _read_started_student(one: Submission) -> str:

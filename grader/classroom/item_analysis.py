@@ -2,16 +2,17 @@
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from statistics import fmean, median
-from typing import Any
+from statistics import correlation, fmean, median
 
+from grader.check import Result
 from grader.classroom.grading import MISSING, GradedStudent
-from grader.classroom.results import is_graded
+from grader.exercise import Grade
 
 MOST = 3  # wrong answers listed of one question
 FEWEST = 5  # [students] below, how a question tells them apart is chance
+DECIMALS = 6  # of sums of points that are compared
 
 
 @dataclass(frozen=True)
@@ -65,24 +66,23 @@ class ExerciseStatistics:
 
 def analyze_items(students: Sequence[GradedStudent]) -> tuple[ItemStatistics, ...]:
     """Every question, in the order of the course."""
-    rows: dict[tuple[str, str], list[tuple[float, float, Mapping[str, Any]]]] = {}
+    rows: dict[tuple[str, str], list[tuple[float, Result]]] = {}
     for one in students:
-        graded = [record for record in one.records if is_graded(record)]
-        total = sum(float(record["score"]) for record in graded)
-        for record in graded:
-            for check in _list_checks(record):
-                key = (str(record["exercise"]), str(check["id"]))
-                points = float(check["points"])
-                rows.setdefault(key, []).append((points, total - points, check))
+        graded = [grade for grade in one.grades if grade.is_graded]
+        total = sum(grade.score for grade in graded)
+        for grade in graded:
+            for check in grade.checks:
+                key = (grade.exercise, check.id)
+                rows.setdefault(key, []).append((total - check.points, check))
     return tuple(_analyze_item(*key, those) for key, those in rows.items())
 
 
 def summarize_exercises(students: Sequence[GradedStudent]) -> tuple[ExerciseStatistics, ...]:
     """Every exercise, in the order of the course."""
-    rows: dict[str, list[Mapping[str, Any]]] = {}
+    rows: dict[str, list[Grade]] = {}
     for one in students:
-        for record in one.records:
-            rows.setdefault(str(record["exercise"]), []).append(record)
+        for grade in one.grades:
+            rows.setdefault(grade.exercise, []).append(grade)
     return tuple(_summarize_exercise(name, those) for name, those in rows.items())
 
 
@@ -91,62 +91,48 @@ def count_misconceptions(students: Sequence[GradedStudent]) -> tuple[tuple[str, 
     return _rank_texts(
         code
         for one in students
-        for code in {
-            str(check["misconception"])
-            for record in one.records
-            for check in _list_checks(record)
-            if check["misconception"]
-        }
+        for code in {check.misconception for grade in one.grades for check in grade.checks}
     )
 
 
-def _summarize_exercise(name: str, records: Sequence[Mapping[str, Any]]) -> ExerciseStatistics:
-    shares = [float(one["score"]) / float(one["max_score"]) for one in records if is_graded(one)]
+def _summarize_exercise(name: str, grades: Sequence[Grade]) -> ExerciseStatistics:
+    shares = [one.score / one.max_score for one in grades if one.is_graded]
     return ExerciseStatistics(
         name,
-        max(float(one["max_score"]) for one in records),
-        sum(one["status"] != MISSING for one in records),
-        sum(one["status"] == "passed" for one in records),
-        sum(one["status"] == "ungradable" for one in records),
+        max(one.max_score for one in grades),
+        sum(one.status != MISSING for one in grades),
+        sum(one.status == "passed" for one in grades),
+        sum(one.status == "ungradable" for one in grades),
         fmean(shares) if shares else math.nan,
         median(shares) if shares else math.nan,
     )
 
 
 def _analyze_item(
-    exercise: str, check: str, rows: Sequence[tuple[float, float, Mapping[str, Any]]]
+    exercise: str, check: str, rows: Sequence[tuple[float, Result]]
 ) -> ItemStatistics:
-    most = max(float(one["max_points"]) for _, _, one in rows)
-    points = [mine for mine, _, _ in rows]
-    seen = _rank_texts(str(one["seen"]) for _, _, one in rows if one["status"] == "failed")
+    """One question, from each student's points of everything else and result of this question."""
+    found = [one for _, one in rows]
+    most = max(one.max_points for one in found)
+    points = [one.points for one in found]
+    seen = _rank_texts(one.seen for one in found if one.status == "failed")
     return ItemStatistics(
         exercise,
         check,
-        str(rows[0][2]["description"]),
+        found[0].description,
         len(rows),
-        sum(one["status"] == "passed" for _, _, one in rows),
+        sum(one.status == "passed" for one in found),
         fmean(points) / most if most else math.nan,
-        _correlate(points, [rest for _, rest, _ in rows]),
-        _rank_texts(str(one["misconception"]) for _, _, one in rows if one["misconception"]),
+        _correlate(points, [round(rest, DECIMALS) for rest, _ in rows]),
+        _rank_texts(one.misconception for one in found),
         tuple((text, count) for text, count in seen[:MOST] if count > 1),
     )
 
 
 def _correlate(one: Sequence[float], other: Sequence[float]) -> float | None:
-    """Pearson's correlation; None if it is undefined."""
-    if len(one) < FEWEST:
-        return None
-    mean_one, mean_other = fmean(one), fmean(other)
-    both = sum((a - mean_one) * (b - mean_other) for a, b in zip(one, other, strict=True))
-    size = math.sqrt(
-        sum((a - mean_one) ** 2 for a in one) * sum((b - mean_other) ** 2 for b in other)
-    )
-    return both / size if size > 1e-9 else None  # noqa: PLR2004 - all alike, but for rounding
-
-
-def _list_checks(record: Mapping[str, Any]) -> Sequence[Mapping[str, Any]]:
-    found: Sequence[Mapping[str, Any]] = record["checks"]
-    return found
+    """Pearson's correlation; None if there are too few, or all are alike."""
+    told = len(one) >= FEWEST and len({*one}) > 1 and len({*other}) > 1
+    return correlation(one, other) if told else None
 
 
 def _rank_texts(texts: Iterable[str]) -> tuple[tuple[str, int], ...]:

@@ -14,13 +14,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 from pathlib import Path
-from typing import Any
 
+from grader.check import Result
+from grader.classroom.answer_files import Submission
 from grader.classroom.grading import GradedStudent
-from grader.classroom.submissions import Submission
 from grader.exercise import Exercise
-from grader.student_data.variant import make_folder_name
 from sim.core.errors import BadRequest
+from sim.support.student_names import make_folder_name
 
 MIN_BITS = 24.0  # of what two answers share: far beyond chance in the pairs of any class
 MIN_SHARE = 0.8  # of the bits of the longer one
@@ -54,14 +54,12 @@ def find_likenesses(
     Returns:
         A line for each pair, with the exercises.
     """
-    records = {
-        (one.student, record["exercise"]): record for one in graded for record in one.records
-    }
+    checks = {(one.student, grade.exercise): grade.checks for one in graded for grade in one.grades}
     found: dict[tuple[str, str], list[str]] = {}
     for exercise in exercises:
         answers = {
             one.student: _read_answer(
-                one.files[exercise.name], records.get((one.student, exercise.name), {})
+                one.files[exercise.name], checks.get((one.student, exercise.name), ())
             )
             for one in handed_in
             if exercise.name in one.files and not one.problem
@@ -97,8 +95,8 @@ def _find_pairs(
             yield name, other_name
 
 
-def _read_answer(files: Mapping[str, bytes], record: Mapping[str, Any]) -> _Answer:
-    passed = {one["id"] for one in record.get("checks", ()) if one["status"] == "passed"}
+def _read_answer(files: Mapping[str, bytes], checks: Sequence[Result]) -> _Answer:
+    passed = {one.id for one in checks if one.status == "passed"}
     lines: set[str] = set()
     right: set[str] = set()
     for name, content in files.items():
@@ -119,11 +117,9 @@ def _read_answer(files: Mapping[str, bytes], record: Mapping[str, Any]) -> _Answ
 
 
 def _list_starter_lines(exercise: Exercise) -> frozenset[str]:
-    names = (*exercise.files, *exercise.companion_files)
-    paths = [exercise.folder / name for name in names]
-    return _read_answer(
-        {path.name: path.read_bytes() for path in paths if path.is_file()}, {}
-    ).lines
+    paths = [exercise.folder / name for name in exercise.starters]
+    files = {path.name: path.read_bytes() for path in paths if path.is_file()}
+    return _read_answer(files, ()).lines
 
 
 def find_foreign_logs(handed_in: Sequence[Submission], packages: Path) -> tuple[str, ...]:

@@ -13,10 +13,11 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from grader.classroom.grading import GradedStudent, Record
-from grader.exercise import Exercise
-from grader.student_data.variant import normalize_name
+from grader.check import Status
+from grader.classroom.grading import GradedStudent
+from grader.exercise import Exercise, Grade
 from sim.core.errors import BadRequest, Refusal, refusals_at
+from sim.support.student_names import normalize_name
 from sim.support.student_table import read_student_table
 
 COLUMNS = ("student", "check", "points", "why")
@@ -127,26 +128,30 @@ def apply_overrides(
     """
     found = {normalize_name(one.student): one for one in students}
     for one in overrides:
-        records = [
-            _set_points(record, one) if record["exercise"] == one.exercise else record
-            for record in found[one.student].records
-        ]
-        found[one.student] = replace(found[one.student], records=tuple(records))
+        grades = (
+            _set_points(grade, one) if grade.exercise == one.exercise else grade
+            for grade in found[one.student].grades
+        )
+        found[one.student] = replace(found[one.student], grades=tuple(grades))
     return tuple(found.values())
 
 
-def _set_points(record: Record, override: Override) -> Record:
-    """The record with the points of the whole exercise, or of one check of it, set."""
+def _set_points(grade: Grade, override: Override) -> Grade:
+    """The grade with the points of the whole exercise, or of one check of it, set."""
     said = f"Your instructor gave {override.points:g} points: {override.why}"
-    checks, warnings, score = [*record["checks"]], [*record["warnings"]], override.points
+    checks, warnings, score = grade.checks, grade.warnings, override.points
     if override.check:
-        number = next(n for n, one in enumerate(checks) if one["id"] == override.check)
-        status = "passed" if score >= float(checks[number]["max_points"]) else "failed"
-        new = {"points": score, "status": status, "hint": said, "misconception": ""}
-        checks[number] = {**checks[number], **new}
-        score = sum(float(one["points"]) for one in checks)
+        checks = tuple(
+            replace(
+                one, points=score, hint=said, misconception="",
+                status=Status.PASSED if score >= one.max_points else Status.FAILED,
+            )
+            if one.id == override.check
+            else one
+            for one in checks
+        )  # fmt: skip
+        score = sum(one.points for one in checks)
     else:
-        warnings.append(said)
-    status = "passed" if score >= float(record["max_score"]) else "failed"
-    new = {"checks": checks, "warnings": warnings, "score": score, "status": status, "reason": ""}
-    return {**record, **new}
+        warnings = (*warnings, said)
+    status = "passed" if score >= grade.max_score else "failed"
+    return replace(grade, checks=checks, warnings=warnings, score=score, status=status, reason="")

@@ -1,13 +1,11 @@
 """The overview of a class, and a page for each student: HTML that asks the network for nothing."""
 
 import math
-from collections.abc import Mapping
 from pathlib import Path
 from statistics import median
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from grader.classroom.atomic_files import write_private_file
-from grader.classroom.feedback_text import compose_feedback
 from grader.classroom.grading import MISSING, GradedStudent
 from grader.classroom.item_analysis import (
     FEWEST,
@@ -21,50 +19,36 @@ from grader.classroom.results import (
     find_status,
     find_total,
     has_handed_in,
-    is_graded,
 )
 from grader.misconception import MISCONCEPTIONS
-from grader.student_data.variant import make_folder_name
-from sim.support.printable import make_printable
-
-if TYPE_CHECKING:
-    from jinja2 import Environment
+from grader.report import format_points, render_checks
+from sim.support.student_names import make_folder_name
 
 FOLDER = Path(__file__).parent
 PEOPLE = "students"
-MARKS = {"passed": "✓ right:", "failed": "✗ not right yet:", "error": "! our mistake:"}
 TENTHS = 10  # of all points, in each of which students are counted
 SIGNS = {MISSING: "–", "ungradable": "!"}
 
 
-def write_pages(results: ClassResults, folder: Path) -> Path:
+def write_pages(results: ClassResults, folder: Path) -> tuple[Path, ...]:
     """Write ``index.html``, and ``students/NAME.html`` for each of them.
 
     Returns:
-        The overview's path.
+        The paths of all pages, the overview's first.
 
     Raises:
         BadRequest: they cannot be written.
     """
-    templates = _load_templates()
-    for one in results.students:
-        text = templates.get_template("student.html.jinja").render(_fill_student_page(one, results))
-        write_private_file(folder / _name_page(one), text)
-    text = templates.get_template("class.html.jinja").render(_fill_class_page(results))
-    return write_private_file(folder / "index.html", text)
-
-
-def list_pages(results: ClassResults, folder: Path) -> tuple[Path, ...]:
-    """The paths of all pages that ``write_pages`` writes."""
-    return (folder / "index.html", *(folder / _name_page(one) for one in results.students))
-
-
-def _load_templates() -> "Environment":
     from sim.report.page_file import load_templates  # noqa: PLC0415 - only who writes pages needs them
 
-    found = load_templates(FOLDER)
-    found.filters |= {"percent": _format_percent, "signed": _format_signed}
-    return found
+    templates = load_templates(FOLDER)
+    templates.filters |= {"percent": _format_percent, "signed": _format_signed}
+    pages = []
+    for one in results.students:
+        text = templates.get_template("student.html.jinja").render(_fill_student_page(one, results))
+        pages.append(write_private_file(folder / _name_page(one), text))
+    text = templates.get_template("class.html.jinja").render(_fill_class_page(results))
+    return (write_private_file(folder / "index.html", text), *pages)
 
 
 def _name_page(one: GradedStudent) -> str:
@@ -99,12 +83,9 @@ def _fill_class_page(results: ClassResults) -> dict[str, Any]:
         analyze_items(results.students), key=lambda one: (one.share, one.exercise, one.check)
     )
     return {
-        "name": results.name,
+        "results": results,
         "verdict": summarize_class(results),
-        "numbers": results.numbers,
-        "likenesses": results.likenesses,
         "open": _list_open_cases(results),
-        "count": len(results.students),
         "columns": summarize_exercises(results.students),
         "spread": [
             sum(min(int(TENTHS * one), TENTHS - 1) == k for one in shares) for k in range(TENTHS)
@@ -132,11 +113,11 @@ def _list_open_cases(results: ClassResults) -> list[dict[str, str]]:
     found = []
     for one in results.students:
         unread: dict[str, list[str]] = {}  # reason -> exercises
-        for record in one.records:
-            if record["status"] == "ungradable":
-                unread.setdefault(str(record["reason"]), []).append(str(record["exercise"]))
+        for grade in one.grades:
+            if grade.status == "ungradable":
+                unread.setdefault(grade.reason, []).append(grade.exercise)
         for reason, names in unread.items():
-            everything = len(names) > 1 and len(names) == len(one.records)
+            everything = len(names) > 1 and len(names) == len(one.grades)
             exercises = "" if everything else ", ".join(names)
             found.append({"student": one.student, "exercise": exercises, "why": reason})
     found += [
@@ -175,37 +156,12 @@ def _format_total(one: GradedStudent, results: ClassResults) -> str:
 def _fill_student_page(one: GradedStudent, results: ClassResults) -> dict[str, Any]:
     total = _format_total(one, results)
     return {
-        "student": one.student,
+        "one": one,
         "name": results.name,
         "verdict": f"{total} points." if " of " in total else "Not everything was graded yet.",
-        "records": [_describe_record(record) for record in one.records],
+        "format_points": format_points,
+        "render_checks": render_checks,
     }
-
-
-def _describe_record(record: Mapping[str, Any]) -> dict[str, Any]:
-    graded = is_graded(record)
-    checks = record["checks"] if graded else []
-    return {
-        "exercise": record["exercise"],
-        "points": f"{record['score']:g} of {record['max_score']:g} points"
-        if graded
-        else "no points",
-        "reason": "" if graded else _end_sentence(str(record["reason"])),
-        "warnings": [make_printable(str(one)) for one in record["warnings"]],
-        "told": [
-            {
-                "mark": MARKS.get(check["status"], "– not looked at:"),
-                "description": check["description"],
-                "points": f"{check['points']:g} of {check['max_points']:g}",
-                "lines": compose_feedback(check).splitlines(),
-            }
-            for check in checks
-        ],
-    }
-
-
-def _end_sentence(text: str) -> str:
-    return text if text.endswith((".", "?", "!")) else f"{text}."
 
 
 def _format_percent(value: float) -> str:

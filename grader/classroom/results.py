@@ -1,15 +1,15 @@
 """The results of a class: what the overview and every export are made of."""
 
+from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
 
-from grader.classroom.grading import MISSING, GradedStudent, make_ungraded_student
+from grader.classroom.answer_files import Submission
+from grader.classroom.grading import MISSING, NOTHING, GradedStudent, skip_student
 from grader.classroom.roster import Roster
-from grader.classroom.submissions import Submission
 from grader.exercise import Exercise
-from grader.student_data.variant import normalize_name
 from sim.support.printable import list_first
+from sim.support.student_names import normalize_name
 
 
 @dataclass(frozen=True)
@@ -21,7 +21,6 @@ class ClassResults:
         students: their results, in order of their names.
         exercises: the exercises' names, in order.
         roster: student -> the row of the roster, by its header; empty without one.
-        header: the roster's header.
         remarks: student, or a name that is not on the roster -> what a person has to look at
             besides what could not be graded, one line each.
         late: student -> what the platform or the roster says of a late submission.
@@ -33,7 +32,6 @@ class ClassResults:
     students: tuple[GradedStudent, ...]
     exercises: tuple[str, ...]
     roster: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
-    header: tuple[str, ...] = ()
     remarks: Mapping[str, Sequence[str]] = field(default_factory=dict)
     late: Mapping[str, str] = field(default_factory=dict)
     numbers: str = ""
@@ -44,29 +42,18 @@ class ClassResults:
         """Exercise -> points there are."""
         found = dict.fromkeys(self.exercises, 0.0)
         for one in self.students:
-            for record in one.records:
-                most: Any = record["max_score"]
-                found[str(record["exercise"])] = float(most)
+            found |= {grade.exercise: grade.max_score for grade in one.grades}
         return found
 
 
 def collect_scores(one: GradedStudent) -> dict[str, float]:
     """Exercise -> points of one student, of the exercises of which an answer was graded."""
-    return {
-        str(record["exercise"]): float(record["score"])
-        for record in one.records
-        if is_graded(record)
-    }
-
-
-def is_graded(record: Mapping[str, Any]) -> bool:
-    """Whether there was an answer, and it could be graded."""
-    return record["status"] in {"passed", "failed"}
+    return {grade.exercise: grade.score for grade in one.grades if grade.is_graded}
 
 
 def find_status(one: GradedStudent) -> dict[str, str]:
     """Exercise -> passed, failed, missing or ungradable."""
-    return {str(record["exercise"]): str(record["status"]) for record in one.records}
+    return {grade.exercise: grade.status for grade in one.grades}
 
 
 def find_total(one: GradedStudent, results: ClassResults) -> float | None:
@@ -88,7 +75,7 @@ def list_ungraded(one: GradedStudent, results: ClassResults) -> list[str]:
 def collect_results(
     title: str,
     graded: Sequence[GradedStudent],
-    known: Roster | None,
+    known: Roster,
     *,
     asked: Sequence[Exercise],
     handed_in: Sequence[Submission],
@@ -105,52 +92,48 @@ def collect_results(
         asked: the exercises.
         handed_in: what was handed in.
     """
-    rows, header = (known.rows, known.header) if known else ({}, ())
-    strangers = {
-        one.student: one.problem for one in handed_in if known and one.problem
-        and one.student not in rows
-    }  # fmt: skip
+    rows = known.rows
+    strangers = {one.student for one in handed_in if one.problem and one.student not in rows}
+    strangers = strangers if rows else set()
     found = {normalize_name(one.student): one for one in graded if one.student not in strangers}
-    remarks = {name: [problem] for name, problem in strangers.items()}
-    remarks |= {one.student: [*one.unused] for one in handed_in if one.unused and not one.problem}
+    remarks: dict[str, list[str]] = defaultdict(list)
     for one in handed_in:
+        if one.student in strangers:
+            remarks[one.student].append(one.problem)
+        elif not one.problem:
+            remarks[one.student] += one.unused
         for student in one.likely:
             maybe = f"perhaps {one.place.name} is theirs; it was not graded"
-            remarks.setdefault(student, []).append(maybe)
+            remarks[student].append(maybe)
     present = dict(found)
     for student in rows:
         if normalize_name(student) not in present:
             own, said = _grade_absent(student, present, known, asked)
             found[normalize_name(student)] = own
-            remarks.setdefault(student, []).extend(said)
-    remarks = {name: lines for name, lines in remarks.items() if lines}
+            remarks[student] += said
     late = {one.student: "late" for one in handed_in if one.late}
-    late |= known.late if known else {}
+    late |= known.late
     return ClassResults(
         title,
         tuple(sorted(found.values(), key=lambda one: one.student.casefold())),
         tuple(one.name for one in asked),
         rows,
-        header,
-        remarks,
+        {name: lines for name, lines in remarks.items() if lines},
         late,
     )
 
 
 def _grade_absent(
-    student: str,
-    found: Mapping[str, GradedStudent],
-    known: Roster | None,
-    asked: Sequence[Exercise],
+    student: str, found: Mapping[str, GradedStudent], known: Roster, asked: Sequence[Exercise]
 ) -> tuple[GradedStudent, list[str]]:
     """The results of who handed nothing in: those of the partner who did, if there is one."""
-    partners = known.partners.get(student, ()) if known else ()
+    partners = known.partners.get(student, ())
     theirs = [found[key] for one in partners if (key := normalize_name(one)) in found]
     if len(theirs) == 1:
         return replace(theirs[0], student=student), []
     names = list_first([one.student for one in theirs], most=len(theirs), separator="; ")
     said = f"nothing is theirs, and several of their group handed something in: {names}"
-    nothing = make_ungraded_student(student, asked, handed_in=(), reason="")
+    nothing = skip_student(student, asked, status=MISSING, reason=NOTHING)
     return nothing, [said] if theirs else []
 
 

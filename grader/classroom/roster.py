@@ -1,7 +1,7 @@
 """Who is in a class: a column of a CSV file, or Canvas's own export."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from grader.classroom.submission_names import Identities
@@ -17,11 +17,11 @@ class Roster:
 
     Args:
         header: of the roster.
-        rows: student -> their row, by the header.
+        rows: student -> their row, by the header; empty where there is no roster.
     """
 
-    header: tuple[str, ...]
-    rows: Mapping[str, Mapping[str, str]]
+    header: tuple[str, ...] = ()
+    rows: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
 
     @property
     def partners(self) -> dict[str, tuple[str, ...]]:
@@ -51,9 +51,9 @@ class Roster:
         return {student: text for student, text in texts.items() if text}
 
     @property
-    def identities(self) -> Identities:
-        """The students, and the names each of them may be called by."""
-        return Identities(self.rows)
+    def identities(self) -> Identities | None:
+        """The students, and the names each of them may be called by; None without a roster."""
+        return Identities(self.rows) if self.rows else None
 
 
 def read_class_roster(path: Path) -> Roster:

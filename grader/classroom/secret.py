@@ -1,4 +1,4 @@
-"""What a class's secret identifies and seals: whose numbers, whose file, whose package."""
+"""What a class's secret identifies and seals: whose numbers, whose package."""
 
 import hashlib
 import hmac
@@ -16,18 +16,16 @@ def describe_numbers(secret: bytes | None) -> str:
     return f"Graded with the secret {identify_secret(secret)}, on each student's numbers from it."
 
 
-def seal_file(secret: bytes, *, student: str, content: bytes) -> str:
-    """The seal (HMAC) of one student's file, which only the holder of the secret can compute."""
-    message = student.casefold().encode() + b"\0" + hashlib.sha256(content).digest()
-    return hmac.digest(secret, b"seal\0" + message, hashlib.sha256).hex()
-
-
 def seal_identity(secret: bytes, *, student: str, name: str) -> str:
     """The seal (HMAC) of the student that a package was issued to.
+
+    Only the holder of the secret can compute it.
 
     Args:
         secret: of the class.
         student: to whom.
         name: of the class.
     """
-    return seal_file(secret, student=student, content=b"identity\0" + name.encode())
+    of_class = hashlib.sha256(b"identity\0" + name.encode()).digest()
+    message = b"seal\0" + student.casefold().encode() + b"\0" + of_class
+    return hmac.digest(secret, message, hashlib.sha256).hex()

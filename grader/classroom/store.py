@@ -7,17 +7,17 @@ from collections.abc import Iterable
 from contextlib import suppress
 from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
+from grader.check import Result, Status
+from grader.classroom.answer_files import Submission
+from grader.classroom.atomic_files import write_private_file
 from grader.classroom.grading import GradedStudent
-from grader.classroom.submissions import Submission
-from grader.student_data.variant import make_folder_name
-from sim.support.atomic_file import make_private_folder, write_atomically
+from grader.exercise import Grade
 from sim.support.os_errors import refuse_os_errors
+from sim.support.student_names import make_folder_name
 
 RESULTS = "results"
-RECORD_NAMES = {
-    "exercise", "student", "score", "max_score", "status", "file", "reason", "warnings", "checks"
-}  # fmt: skip
 WRITTEN = "written.txt"  # there: the files of the last run that ended, one path in each line
 
 
@@ -52,23 +52,12 @@ class ResultStore:
     def __init__(self, folder: Path) -> None:
         self.folder = folder
 
-    def open(self) -> None:
-        """Make the folder.
-
-        Raises:
-            BadRequest: it cannot be made.
-        """
-        advice = "Name another folder with -o."
-        with refuse_os_errors("the results cannot be written", self.folder, advice=advice):
-            make_private_folder(self.folder / RESULTS)
-
     def get(self, student: str, expected: str) -> GradedStudent | None:
         """A student's results, if they are there whole and nothing they depend on has changed."""
         try:
             kept = json.loads(self._path(student).read_text(encoding="utf-8"))
-            found = GradedStudent(kept["student"], kept["digest"], tuple(kept["records"]))
-            if not all({*record} >= RECORD_NAMES for record in found.records):
-                return None
+            grades = tuple(map(_parse_grade, kept["grades"]))
+            found = GradedStudent(kept["student"], kept["digest"], grades)
         except (OSError, ValueError, KeyError, TypeError):
             return None
         return found if (found.student, found.digest) == (student, expected) else None
@@ -79,11 +68,9 @@ class ResultStore:
         Raises:
             BadRequest: they cannot be written.
         """
-        path = self._path(graded.student)
-        text = json.dumps(asdict(graded), ensure_ascii=False, indent=1, allow_nan=False)
-        advice = "Make room there, then run the same command again: what is graded is kept."
-        with refuse_os_errors("the results cannot be written", path, advice=advice):
-            write_atomically(path, text + "\n", private=True)
+        raw = asdict(graded)  # of paths, there are only names of files
+        text = json.dumps(raw, ensure_ascii=False, indent=1, allow_nan=False, default=str)
+        write_private_file(self._path(graded.student), text + "\n")
 
     def remove_outdated(self, written: Iterable[Path], *, students: Iterable[str]) -> None:
         """Remove the files that the run before this one wrote and this one did not.
@@ -109,8 +96,14 @@ class ResultStore:
                     path.unlink()
                 with suppress(OSError):  # it is not empty
                     path.parent.rmdir()
-        with refuse_os_errors("cannot be replaced", kept, advice=advice):
-            write_atomically(kept, "".join(f"{name}\n" for name in sorted(now)), private=True)
+        write_private_file(kept, "".join(f"{name}\n" for name in sorted(now)))
 
     def _path(self, student: str) -> Path:
         return self.folder / RESULTS / f"{make_folder_name(student)}.json"
+
+
+def _parse_grade(raw: dict[str, Any]) -> Grade:
+    """A grade from a stored file; whatever does not fit raises."""
+    checks = tuple(Result(**{**one, "status": Status(one["status"])}) for one in raw["checks"])
+    file = Path(raw["file"]) if raw["file"] else None
+    return Grade(**{**raw, "checks": checks, "file": file, "warnings": tuple(raw["warnings"])})

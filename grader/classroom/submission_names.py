@@ -17,8 +17,8 @@ from dataclasses import dataclass
 from pathlib import PurePath
 
 from grader.classroom.submitted_files import ARCHIVES
-from grader.student_data.variant import make_folder_name, normalize_name
 from sim.core.errors import Refusal
+from sim.support.student_names import make_folder_name, normalize_name
 
 CANVAS = re.compile(r"(?P<name>[^_]+)(?P<late>_LATE)?_(?P<id>\d+)_\d+_(?P<file>.+)")
 MOODLE = re.compile(r"(?P<name>.+?)_(?P<id>\d+)_assignsubmission_[a-z]+_?(?P<file>.*)")

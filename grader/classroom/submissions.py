@@ -6,55 +6,18 @@ Each student's folder or zip file may hold single answers, folders of exercises 
 
 import hashlib
 import os
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path, PurePath
 
-from grader.classroom.answer_files import AnswerSelector, Files
+from grader.classroom.answer_files import AnswerSelector, Submission
 from grader.classroom.submission_names import Identities, SubmissionName, parse_name
 from grader.classroom.submitted_files import UNREADABLE, format_file_name, list_submitted_files
 from grader.exercise import Exercise
-from grader.student_data.variant import check_student_name
 from sim.core.errors import BadRequest, Refusal
+from sim.support.student_names import check_student_name
 
 SHOWN = 40  # [characters] of a name that is none
-
-
-@dataclass(frozen=True)
-class Submission:
-    """What one student handed in.
-
-    Args:
-        student: who: as on the roster, or by the name of the folder or zip file.
-        place: where it lies; the first place where there are several.
-        files: exercise -> file name -> its content, cut off where it is too large for an answer.
-        problems: exercise -> why its files cannot be graded.
-        problem: why nothing of it can be graded; empty if it can.
-        identities: what the course itself wrote into it about whose numbers these are: the content
-            of ``class.toml`` and of ``progress.toml``.
-        data_folders: names of the folders with drawn data in it.
-        worked_as: whose numbers they worked on; empty for their own.
-        unused: files that may be answers and were not graded, one line each.
-        late: whether the platform says that a part of it came after the due date.
-        likely: students on the roster who may be meant, where none has its name.
-    """
-
-    student: str
-    place: Path
-    files: Mapping[str, Files] = field(default_factory=dict)
-    problems: Mapping[str, str] = field(default_factory=dict)
-    problem: str = ""
-    identities: Mapping[str, bytes] = field(default_factory=dict)
-    data_folders: frozenset[str] = frozenset()
-    worked_as: str = ""
-    unused: tuple[str, ...] = ()
-    late: bool = False
-    likely: tuple[str, ...] = ()
-
-    @property
-    def numbers_owner(self) -> str:
-        """The student whose numbers it is graded on."""
-        return self.worked_as or self.student
 
 
 @dataclass(frozen=True)
@@ -109,7 +72,10 @@ def find_submissions(
             where=str(folder),
             advice="Put a folder or zip file there for each student, with the student's name.",
         )
-    each = [_identify(parts, exercises, asked, roster) for parts in found.values()]
+    each = [
+        _identify(parts, AnswerSelector(exercises, asked or exercises), roster)
+        for parts in found.values()
+    ]
     return tuple(sorted(each, key=lambda one: one.student.casefold()))
 
 
@@ -133,18 +99,14 @@ def _list_parts(folder: Path, roster: Identities | None) -> Iterator[_Part]:
 
 
 def _identify(
-    parts: Sequence[_Part],
-    exercises: Sequence[Exercise],
-    asked: Sequence[Exercise] | None,
-    roster: Identities | None,
+    parts: Sequence[_Part], selector: AnswerSelector, roster: Identities | None
 ) -> Submission:
     """What one student handed in, by the name on the roster; a stranger's is not read."""
     first = parts[0]
     if roster is None:
-        return _read(parts, exercises, asked, student=first.name.student)
-    student = roster.find(first.name)
-    if student is not None:
-        return _read(parts, exercises, asked, student=student)
+        return _read(parts, selector, student=first.name.student)
+    if student := roster.find(first.name):
+        return _read(parts, selector, student=student)
     likely = roster.propose(first.name)
     perhaps = f". Perhaps it is {' or '.join(likely)}" if likely else ""
     problem = (
@@ -170,16 +132,11 @@ def read_submission(
         student: who; None takes the name of the place.
     """
     name = SubmissionName(place.stem if place.is_file() else place.name)
-    return _read([_Part(place, name)], exercises, asked, student=student or name.student)
+    selector = AnswerSelector(exercises, asked or exercises)
+    return _read([_Part(place, name)], selector, student=student or name.student)
 
 
-def _read(
-    parts: Sequence[_Part],
-    exercises: Sequence[Exercise],
-    asked: Sequence[Exercise] | None,
-    *,
-    student: str,
-) -> Submission:
+def _read(parts: Sequence[_Part], selector: AnswerSelector, *, student: str) -> Submission:
     place = parts[0].path
     try:
         student = check_student_name(student)
@@ -187,7 +144,6 @@ def _read(
         return Submission(_make_legible(student), place, problem=str(refusal))
     at, late = "", any(part.name.late for part in parts)
     try:
-        selector = AnswerSelector(exercises, asked or exercises)
         for part in parts:
             at = format_file_name(part.path.name)
             for one in list_submitted_files(part.path, name=part.name.file):
@@ -198,17 +154,7 @@ def _read(
         inside = "" if file == part.path.name else f", {file}"
         said = f"{at}{format_file_name(inside)} cannot be read: {reason}"
         return Submission(student, place, problem=format_file_name(said, most=300), late=late)
-    found = selector.select()
-    return Submission(
-        student,
-        place,
-        found.files,
-        found.problems,
-        identities=found.identities,
-        data_folders=found.data_folders,
-        unused=found.unused,
-        late=late,
-    )
+    return selector.select(student, place, late=late)
 
 
 def _make_legible(name: str) -> str:

@@ -12,7 +12,7 @@ import struct
 import zipfile
 import zlib
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from typing import BinaryIO
 
@@ -62,18 +62,6 @@ class SubmittedFile:
         return self.read(most + 1)
 
 
-@dataclass
-class _FileCounter:
-    """Counts the files of one submission, whatever they are packed in."""
-
-    count: int = field(default=0)
-
-    def add(self) -> None:
-        self.count += 1
-        if self.count > MAX_FILES:
-            raise ValueError(f"more than {MAX_FILES} files")
-
-
 def list_submitted_files(place: Path, *, name: str = "") -> Iterator[SubmittedFile]:
     """All files of one thing that was handed in.
 
@@ -86,13 +74,16 @@ def list_submitted_files(place: Path, *, name: str = "") -> Iterator[SubmittedFi
             no zip file. Damaged zip files and files that cannot be opened raise other errors;
             ``UNREADABLE`` lists them all.
     """
-    counter = _FileCounter()
-    for one in _list_outer_files(place, PurePosixPath(name or place.name)):
-        if one.path.suffix.lower() == ".zip":
-            yield from _read_inner_zip(one, counter)
-        else:
-            counter.add()
+    for number, one in enumerate(_list_all_files(place, PurePosixPath(name or place.name))):
+        if number >= MAX_FILES:
+            raise ValueError(f"more than {MAX_FILES} files")
+        if one.path.suffix.lower() != ".zip":  # in a zip file in a zip file is nobody's answer
             yield one
+
+
+def _list_all_files(place: Path, name: PurePosixPath) -> Iterator[SubmittedFile]:
+    for one in _list_outer_files(place, name):
+        yield from _read_inner_zip(one) if one.path.suffix.lower() == ".zip" else (one,)
 
 
 def _list_outer_files(place: Path, name: PurePosixPath) -> Iterator[SubmittedFile]:
@@ -107,18 +98,15 @@ def _list_outer_files(place: Path, name: PurePosixPath) -> Iterator[SubmittedFil
         yield SubmittedFile(name, lambda size: _read_file(os.open(place, _OPEN), size))
 
 
-def _read_inner_zip(found: SubmittedFile, counter: _FileCounter) -> Iterator[SubmittedFile]:
-    """Files of a zip file inside what was handed in; zip files in that are nobody's answer."""
+def _read_inner_zip(found: SubmittedFile) -> Iterator[SubmittedFile]:
+    """Files of a zip file inside what was handed in."""
     content = found.content(MAX_TOTAL)
     if len(content) > MAX_TOTAL:
         raise ValueError(
             f"{format_file_name(found.path.name)} is larger than {MAX_TOTAL / 1e6:g} MB"
         )
     with zipfile.ZipFile(io.BytesIO(content)) as archive:
-        for one in _read_zip(archive, found.path.with_suffix("")):
-            counter.add()
-            if one.path.suffix.lower() != ".zip":
-                yield one
+        yield from _read_zip(archive, found.path.with_suffix(""))
 
 
 # A link is never followed, and a pipe never waited for; Windows knows neither flag.

@@ -4,19 +4,11 @@ Whatever an answer does to the process that grades it, only that answer bears it
 replaced, and the exercise is reported as not graded.
 """
 
-from collections.abc import Callable, Generator, Sequence
 from dataclasses import replace
-from functools import partial
 
-from grader.classroom.grading import (
-    GradedStudent,
-    GradingJob,
-    Record,
-    grade_student,
-    make_ungraded_record,
-)
+from grader.classroom.grading import GradedStudent, GradingJob, grade_student
+from grader.exercise import Grade
 from sim.support.work.child import ChildEnded, run_in_child
-from sim.support.work.executor import collect_results
 
 SECONDS = 50.0  # [s] for one exercise of one student; an honest one takes 0.1 to 4 s
 MEMORY = 4 * 1024**3  # [bytes] of address space; an honest worker uses a quarter of it
@@ -27,46 +19,21 @@ TOO_LONG = (
 ENDED = "the process that graded it stopped, perhaps because the memory was full"
 
 
-def grade_in_workers(
-    jobs: Sequence[GradingJob],
-    *,
-    processes: int,
-    cluster: str | None = None,
-    stop_if_asked: Callable[[], None] = lambda: None,
-    seconds: float = SECONDS,
-) -> Generator[GradedStudent, None, None]:
-    """Grade students, each as soon as all their exercises are graded.
-
-    Args:
-        jobs: the students.
-        processes: at most so many workers on this machine.
-        cluster: address of a Dask scheduler; None grades on this machine.
-        stop_if_asked: called every moment; what it raises ends the workers at once.
-        seconds: [s] for one exercise of one student.
-    """
-    return collect_results(
-        partial(grade_within_limits, seconds=seconds),
-        jobs,
-        processes=processes,
-        cluster=cluster,
-        stop_if_asked=stop_if_asked,
-    )
-
-
-def grade_within_limits(job: GradingJob, *, seconds: float) -> GradedStudent:
+def grade_within_limits(job: GradingJob) -> GradedStudent:
     """Grade all exercises of a student, each with a time limit, in the child of this thread."""
-    records = tuple(_grade_exercise(job, name, seconds) for name in job.names)
-    return GradedStudent(job.student, job.digest, records)
+    grades = tuple(_grade_exercise(job, name) for name in job.names)
+    return GradedStudent(job.submission.student, job.digest, grades)
 
 
-def _grade_exercise(job: GradingJob, name: str, seconds: float) -> Record:
+def _grade_exercise(job: GradingJob, name: str) -> Grade:
     """The result of one exercise, or why there is none."""
-    files = {name: job.files[name]} if name in job.files else {}
-    part = replace(job, names=(name,), files=files)
+    given = job.submission
+    files = {one: content for one, content in given.files.items() if one == name}
+    part = replace(job, names=(name,), submission=replace(given, files=files))
     try:
-        (record,) = run_in_child(grade_student, part, seconds=seconds, memory=MEMORY).records
+        return run_in_child(grade_student, part, seconds=SECONDS, memory=MEMORY).grades[0]
     except TimeoutError:
-        return make_ungraded_record(job, name, TOO_LONG)
+        reason = TOO_LONG
     except ChildEnded:
-        return make_ungraded_record(job, name, ENDED)
-    return record
+        reason = ENDED
+    return job.find_exercise(name).skip(reason, student=given.student)

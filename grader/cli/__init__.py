@@ -10,12 +10,12 @@ from dataclasses import replace
 from difflib import get_close_matches
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 import click
 from click.shell_completion import CompletionItem
 
-from grader.cli.course_here import find_course_here
+from grader.cli.course_here import PATH, PLAIN, STUDENT, find_course_here
 from grader.terminal import print_error, print_lines
 from sim.core.errors import BadRequest
 from sim.support import command_line
@@ -26,8 +26,8 @@ from sim.support.lazy_package import lazy_modules
 
 if TYPE_CHECKING:
     from grader.consequence import Consequence
-    from grader.course import Progress
     from grader.exercise import Exercise
+    from grader.learner import Learner
 
 __getattr__ = lazy_modules(__name__)
 
@@ -56,8 +56,10 @@ class ExerciseOrCommand(click.Group):
         """The command of this name, or None."""
         if cmd_name not in OWN_MODULE:
             return super().get_command(ctx, cmd_name)
-        module = {"class": "classroom"}.get(cmd_name, cmd_name.replace("-", "_"))
-        return cast("click.Command", import_module(f"{__name__}.{module}").COMMAND)
+        name = {"class": "classroom"}.get(cmd_name, cmd_name.replace("-", "_"))
+        found = vars(import_module(f"{__name__}.{name}")).values()
+        commands = (one for one in found if isinstance(one, click.Command))
+        return next(one for one in commands if one.name == cmd_name)
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Take everything that does not begin with a command as a request to grade."""
@@ -135,19 +137,14 @@ def complete_exercise(
 
 @grade.command(hidden=True)
 @click.argument("exercise", required=False, shell_complete=complete_exercise)
-@click.argument("file", required=False, type=click.Path(path_type=Path))
-@click.option("--student", metavar="NAME", help="Who you are; your numbers depend on it.")
+@click.argument("file", required=False, type=PATH)
+@STUDENT
 @click.option("--json", "as_json", is_flag=True, help="Write the result as JSON.")
 @click.option("--hint", is_flag=True, help="Show the next of three hints. You lose no points.")
 @click.option(
-    "--picture",
-    metavar="FILE",
-    type=click.Path(path_type=Path),
-    help="Draw what a wrong answer would do: .svg, .png.",
+    "--picture", metavar="FILE", type=PATH, help="Draw what a wrong answer would do: .svg, .png."
 )
-@click.option(
-    "--plain", is_flag=True, help="For screen readers: words instead of symbols, no columns."
-)
+@PLAIN
 def exercise(
     exercise: str | None,
     file: Path | None,
@@ -159,18 +156,16 @@ def exercise(
     plain: bool,
 ) -> int:
     """Grade an exercise, or show your progress."""
-    from grader.exercise import find_exercise, list_exercises  # noqa: PLC0415 - --help has to start at once
+    from grader.exercise import find_exercise  # noqa: PLC0415 - --help has to start at once
 
-    folder, progress, who = locate_course(student)
+    learner = locate_learner(student)
     if exercise is not None:
-        one = find_exercise(exercise, folder)
+        one = find_exercise(exercise, learner.course)
         if hint:
-            return _show_hint(one, folder, progress, who)
-        code = grade_file(
-            one, file, folder, progress, who, as_json=as_json, plain=plain, picture=picture
-        )
+            return _show_hint(one, learner)
+        code = grade_file(one, file, learner, as_json=as_json, plain=plain, picture=picture)
         if code == DONE and not as_json:
-            _show_next_step(folder, who)
+            show_next_step(learner)
         return code
     if as_json or hint or picture:
         option = "json" if as_json else "hint" if hint else f"picture {picture}"
@@ -178,24 +173,22 @@ def exercise(
         raise BadRequest("no exercise was named", advice=advice)
     from grader.report import format_overview  # noqa: PLC0415 - the same
 
-    print_lines(format_overview(folder, list_exercises(folder), progress, student=who, plain=plain))
-    _show_next_step(folder, who)
+    print_lines(format_overview(learner, plain=plain))
+    show_next_step(learner)
     return 0
 
 
-def _show_next_step(folder: Path, who: str) -> None:
+def show_next_step(learner: "Learner") -> None:
     """End with the one thing to do next."""
-    from grader.course import load_progress  # noqa: PLC0415 - --help has to start at once
-    from grader.exercise import list_exercises  # noqa: PLC0415 - the same
+    from grader.learner import find_learner  # noqa: PLC0415 - --help has to start at once
     from grader.report import format_next_step  # noqa: PLC0415 - the same
 
-    progress, _ = load_progress(folder)
-    step = format_next_step(folder, list_exercises(folder), progress, student=who)
-    print_lines([(), *step])
+    now = find_learner(learner.course, student=learner.name, say=print_error)
+    print_lines([(), *format_next_step(now)])
 
 
 @grade.command()
-@click.argument("folder", required=False, type=click.Path(path_type=Path))
+@click.argument("folder", required=False, type=PATH)
 @click.option("--no-lab", is_flag=True, help="Do not open JupyterLab.")
 @click.option("--student", metavar="NAME", help="Who you are, from now on.")
 def start(folder: Path | None, student: str | None, *, no_lab: bool) -> int:
@@ -214,19 +207,19 @@ def start(folder: Path | None, student: str | None, *, no_lab: bool) -> int:
 
         if unpack_course(folder):
             _print_message(f"lessons and exercises are in {folder}. Grade inside it: cd {folder}")
-    folder, progress, who = locate_course(student, inside=folder)
-    of_class = read_class_package(folder)
-    if student is None and not no_lab and of_class is None and progress == Progress():
+    learner = locate_learner(student, inside=folder)
+    who, before = learner.name, learner.progress
+    of_class = read_class_package(learner.course)
+    if student is None and not no_lab and of_class is None and before == Progress():
         who = _ask_name(who)
-    if who != progress.student and (of_class is None or of_class.is_for(who)):
-        progress = replace(progress, student=who)
-        _print_message(update_progress(folder, lambda now: replace(now, student=who)))
-    return begin(folder, progress, student=who, lab=not no_lab)
+    if who != before.student and (of_class is None or of_class.is_for(who)):
+        _print_message(update_progress(learner.course, lambda now: replace(now, student=who)))
+    return begin(replace(learner, name=who), lab=not no_lab)
 
 
 def _ask_name(known: str) -> str:
     """Who is learning, typed on the terminal; ``known`` where nobody can type."""
-    from grader.student_data.variant import check_student_name  # noqa: PLC0415 - the same
+    from sim.support.student_names import check_student_name  # noqa: PLC0415 - the same
 
     if not sys.stdin.isatty() or "JPY_PARENT_PID" in os.environ:  # a notebook cell takes no typing
         return known
@@ -241,10 +234,8 @@ def _ask_name(known: str) -> str:
     return click.prompt(question, default=known, value_proc=read_name)
 
 
-def locate_course(
-    student: str | None, *, inside: Path | None = None
-) -> "tuple[Path, Progress, str]":
-    """The course folder, the progress kept there, and who is learning.
+def locate_learner(student: str | None, *, inside: Path | None = None) -> "Learner":
+    """Who is learning, and in which course folder.
 
     Args:
         student: who was named on the command line.
@@ -253,48 +244,38 @@ def locate_course(
     Raises:
         BadRequest: there is no course here, or the name is none.
     """
-    from grader.course import load_progress  # noqa: PLC0415 - --help must not wait
-    from grader.student_data.class_package import find_learner  # noqa: PLC0415 - the same
+    from grader.learner import find_learner  # noqa: PLC0415 - --help must not wait
 
-    folder = find_course_here(inside)
-    progress, said = load_progress(folder)
-    _print_message(said)
-    return folder, progress, find_learner(folder, known=progress.student, student=student)
+    return find_learner(find_course_here(inside), student=student, say=print_error)
 
 
 def grade_file(
     one: "Exercise",
     file: Path | None,
-    folder: Path,
-    progress: "Progress",
-    who: str,
+    learner: "Learner",
     *,
     as_json: bool = False,
     plain: bool = False,
     picture: Path | None = None,
 ) -> int:
     """Grade an answer, note the score, and show the result; the exit code."""
-    from grader.course import update_progress  # noqa: PLC0415 - --help has to start at once
-    from grader.report import format_grade, format_receipt, grade_to_json  # noqa: PLC0415 - the same
-    from grader.student_data.class_package import explain_no_grading, read_class_package  # noqa: PLC0415 - the same
+    from grader.report import format_grade, format_receipt, grade_to_json  # noqa: PLC0415 - --help has to start at once
     from grader.student_data.draw_cache import enable_draw_cache  # noqa: PLC0415 - the same
 
-    of_class = read_class_package(folder)
-    if of_class and one.is_personal and of_class.is_for(who):
+    if refusal := learner.find_refusal(one):
         print_lines(format_receipt(one, file))
-        raise explain_no_grading(one.name, of_class)
+        raise refusal
     with enable_draw_cache():
-        one.prepare(who, say=print_error)
-        result = one.grade(file, student=who)
+        one.prepare(learner.name, say=print_error)
+        result = one.grade(file, student=learner.name)
     gradable = result.status != "ungradable"
     if gradable:  # kept before anything is shown: a reader may stop reading
-        points = {"score": result.score, "max_score": result.max_score}
-        _print_message(update_progress(folder, lambda now: now.add_score(who, one.name, **points)))
+        _print_message(learner.keep_score(result))
     then = None if as_json and picture is None else one.find_consequence(result)
     if as_json:
         click.echo(grade_to_json(result))
     elif result.is_readable:
-        shown, words = progress.find_standing(who, one.name).hints, then.words if then else ""
+        shown, words = learner.standings[one.name].hints, then.words if then else ""
         print_lines(
             format_grade(result, hints_shown=shown, solution=one.solution, plain=plain, then=words)
         )
@@ -317,15 +298,15 @@ def _draw_consequence(then: "Consequence | None", picture: Path) -> None:
     _print_message(f"what your answer would do: {picture}")
 
 
-def _show_hint(one: "Exercise", folder: Path, progress: "Progress", who: str) -> int:
+def _show_hint(one: "Exercise", learner: "Learner") -> int:
     from grader.course import update_progress  # noqa: PLC0415 - --help has to start at once
     from grader.report import format_hints  # noqa: PLC0415 - the same
 
-    standing = progress.find_standing(who, one.name)
-    print_lines(format_hints(one, shown=standing.hints))
-    if standing.hints < len(one.hints):
-        shown = standing.hints + 1
-        _print_message(update_progress(folder, lambda now: now.add_hints(who, one.name, shown)))
+    shown, who = learner.standings[one.name].hints, learner.name
+    print_lines(format_hints(one, shown=shown))
+    if shown < len(one.hints):
+        said = update_progress(learner.course, lambda now: now.add_hints(who, one.name, shown + 1))
+        _print_message(said)
     return 0
 
 

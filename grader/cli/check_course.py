@@ -30,6 +30,3 @@ def check_course(exercises: tuple[str, ...]) -> int:
         for flaw in flaws:
             print_lines(wrap_text(flaw, lead="  "))
     return NOT_RIGHT if bad else DONE
-
-
-COMMAND = check_course

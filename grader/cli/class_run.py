@@ -1,30 +1,28 @@
 """``grade class``: everything a class handed in, graded at one go."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
+from types import ModuleType
 
 import click
 
+from grader.classroom.answer_files import Submission
 from grader.classroom.class_grading import GradedClass, grade_class, plan_grading
 from grader.classroom.container import grade_in_container
-from grader.classroom.exports import ExportFormat, choose_exports
+from grader.classroom.exports import choose_exports
 from grader.classroom.grading import GradedStudent
 from grader.classroom.identity import check_identities
 from grader.classroom.likeness import find_foreign_logs, find_likenesses
-from grader.classroom.overrides import Override, apply_overrides, read_overrides
-from grader.classroom.result_pages import list_pages, summarize_class, write_pages
+from grader.classroom.overrides import apply_overrides, read_overrides
+from grader.classroom.result_pages import summarize_class, write_pages
 from grader.classroom.results import ClassResults, collect_results, list_ungraded
 from grader.classroom.roster import Roster, read_class_roster
 from grader.classroom.secret import describe_numbers
 from grader.classroom.store import ResultStore
-from grader.classroom.submissions import (
-    Submission,
-    find_stray_files,
-    find_submissions,
-    read_submission,
-)
+from grader.classroom.submissions import find_stray_files, find_submissions, read_submission
 from grader.cli.course_here import choose_exercises, find_course_here
+from grader.course import NOBODY
 from grader.exercise import Exercise, list_exercises
 from grader.isolation import find_isolation_level
 from grader.terminal import print_error, print_lines, style_line, wrap_text
@@ -35,8 +33,6 @@ from sim.support.secret import find_secret
 from sim.support.work.executor import count_available_cores
 from sim.support.work.interrupt import deferred_interrupt
 from sim.support.work.progress_bar import progress_bar
-
-SHOWN = 5  # names in one line
 
 
 def grade_folder(  # noqa: PLR0917 - click passes options by name
@@ -64,59 +60,41 @@ def grade_folder(  # noqa: PLR0917 - click passes options by name
     Raises:
         Refusal: the folder, or a file that an option names, cannot be used.
     """
-    known = read_class_roster(roster) if roster else None
-    formats = choose_exports(wanted, roster=known)
+    known = read_class_roster(roster) if roster else Roster()
+    formats = choose_exports(wanted, known)
     course = find_course_here()
     out = output or folder.with_name(f"{folder.resolve().name.removesuffix('.zip')}-graded")
     if engine:
         return grade_in_container(click.get_current_context(), course=course, output=out)
     value = kept.value if (kept := find_secret(secret, make=False)) else None
     asked = choose_exercises(only, course)
-    there = _find_submissions(folder, course, asked, known, student=student)
-    there = _check_submissions(there, asked, known, secret=value, self_study=self_study)
-    marks = _read_marks(overrides, there, asked, known)
+    found = _find_submissions(folder, course, asked, known, student=student)
+    there = check_identities(
+        found, asked, secret=value, self_study=self_study, partners=known.partners
+    )
+    _tell_problems(there)
+    known_names = [one.student for one in there if not (known.rows and one.problem)]
+    everybody = [*known_names, *known.rows]
+    # before an hour of grading
+    marks = read_overrides(overrides, students=everybody, exercises=asked) if overrides else ()
     work = GradedClass(there, asked, course, value, _decide_running(asked, run, cluster))
     graded = _run(work, out, processes=processes, cluster=cluster, again=again)
     if graded is None:
         return INTERRUPTED
     title = name or folder.resolve().stem
     results = collect_results(title, graded, known, asked=asked, handed_in=there)
-    alike = _find_alike(there, asked, packages, graded)
+    foreign = find_foreign_logs(there, packages) if packages else ()
+    alike = (*foreign, *find_likenesses(there, asked, graded))
     changed = apply_overrides(results.students, marks)
     results = replace(results, students=changed, numbers=describe_numbers(value), likenesses=alike)
     return _write_results(results, out, formats)
-
-
-def _read_marks(
-    path: Path | None,
-    there: Sequence[Submission],
-    asked: Sequence[Exercise],
-    known: Roster | None,
-) -> tuple[Override, ...]:
-    """The marks set by hand, checked before an hour of grading; none if no file is named."""
-    if path is None:
-        return ()
-    graded = [one.student for one in there if known is None or not one.problem]
-    everybody = [*graded, *(known.rows if known else ())]
-    return read_overrides(path, students=everybody, exercises=asked)
-
-
-def _find_alike(
-    there: Sequence[Submission],
-    asked: Sequence[Exercise],
-    packages: Path | None,
-    graded: Sequence[GradedStudent],
-) -> tuple[str, ...]:
-    """What is alike in the work of two students, one line each."""
-    foreign = find_foreign_logs(there, packages) if packages else ()
-    return (*foreign, *find_likenesses(there, asked, graded))
 
 
 def _find_submissions(
     folder: Path,
     course: Path,
     asked: Sequence[Exercise],
-    known: Roster | None,
+    known: Roster,
     *,
     student: str | None,
 ) -> tuple[Submission, ...]:
@@ -125,7 +103,7 @@ def _find_submissions(
     if student:
         named = folder.resolve()  # whoever names a link means what it leads to
         return (read_submission(named, everything, asked=asked, student=student),)
-    roster = known.identities if known else None
+    roster = known.identities
     advice = "Give yourself the right to open it, then run the same command again."
     with refuse_os_errors("what the class handed in cannot be opened", folder, advice=advice):
         there = find_submissions(folder, everything, asked=asked, roster=roster)
@@ -135,33 +113,18 @@ def _find_submissions(
     return there
 
 
-def _check_submissions(
-    there: Sequence[Submission],
-    asked: Sequence[Exercise],
-    known: Roster | None,
-    *,
-    secret: bytes | None,
-    self_study: bool,
-) -> tuple[Submission, ...]:
-    """The submissions, with whose numbers they are about; prints what is not as it should be."""
-    partners = known.partners if known else {}
-    found = check_identities(there, asked, secret=secret, self_study=self_study, partners=partners)
-    _tell_problems(found)
-    return found
-
-
 def _tell_problems(there: Sequence[Submission]) -> None:
     """Say before the grading who is graded otherwise than their folder's name says."""
     for one in there:
         if one.problem:
             print_error(f"{one.student}: {one.problem}")
         elif one.unused:
-            print_error(f"{one.student}: {list_first(one.unused, most=SHOWN, separator='; ')}")
-    nameless = [one.student for one in there if one.worked_as]
+            print_error(f"{one.student}: {list_first(one.unused, separator='; ')}")
+    nameless = [one.student for one in there if one.worked_as == NOBODY]
     if nameless:
         print_error(
             "these students worked without a name, so they are graded on the numbers for no name: "
-            f"{list_first(nameless, most=SHOWN, separator='; ')}"
+            f"{list_first(nameless, separator='; ')}"
         )
     matched = [
         f"{one.place.name} as {one.student}"
@@ -169,7 +132,7 @@ def _tell_problems(there: Sequence[Submission]) -> None:
         if not one.problem and one.student.casefold() not in one.place.name.casefold()
     ]
     if matched:
-        print_error(f"found on the roster: {list_first(matched, most=SHOWN, separator='; ')}")
+        print_error(f"found on the roster: {list_first(matched, separator='; ')}")
 
 
 def _decide_running(asked: Sequence[Exercise], run: bool | None, cluster: str | None) -> bool:  # noqa: FBT001 - as the option
@@ -198,22 +161,17 @@ def _run(
 ) -> tuple[GradedStudent, ...] | None:
     """Grade what is left; None where it was stopped."""
     store = ResultStore(out)
-    left = plan_grading(work, store, travel=cluster is not None, again=again)
-    total = len(left.kept) + len(left.jobs)
+    kept, left = plan_grading(work, store, travel=cluster is not None, again=again)
+    total = len(kept) + len(left)
     with (
-        progress_bar("students", total, done=len(left.kept)) as (step, done),
+        progress_bar("students", total, done=len(kept)) as (step, done),
         deferred_interrupt() as stop_if_noted,
     ):
-
-        def say() -> None:
-            step()
-            stop_if_noted()
-
         try:  # one more than there are cores, for while one waits for a learner's code
             return grade_class(
-                work, left, store, cluster=cluster,
+                work, kept, left, store, cluster=cluster,
                 processes=processes or count_available_cores() + 1,
-                say=say, stop_if_asked=stop_if_noted,
+                say=step, stop_if_asked=stop_if_noted,
             )  # fmt: skip
         except KeyboardInterrupt:
             count = done()
@@ -223,22 +181,21 @@ def _run(
     return None
 
 
-def _write_results(results: ClassResults, out: Path, formats: Sequence[ExportFormat]) -> int:
-    page = write_pages(results, out)
-    files = [path for one in formats for path in one.write(results, out)]
+def _write_results(results: ClassResults, out: Path, formats: Mapping[str, ModuleType]) -> int:
+    pages = write_pages(results, out)
+    files = [path for one in formats.values() for path in one.write(results, out)]
     ResultStore(out).remove_outdated(
-        [*list_pages(results, out), *files], students=[one.student for one in results.students]
+        [*pages, *files], students=[one.student for one in results.students]
     )
     unread = {one.student for one in results.students if list_ungraded(one, results)}
     unread |= results.remarks.keys()
     print_lines(wrap_text(results.numbers, lead=""))
     print_lines(wrap_text(summarize_class(results), lead=""))
-    print_lines([style_line(f"Overview: {page}")])
+    print_lines([style_line(f"Overview: {pages[0]}")])
     tops = dict.fromkeys(path.relative_to(out).parts[0] for path in files)
     print_lines([style_line(f"In the same folder: {', '.join([*tops, 'students', 'results'])}")])
-    for said in filter(None, (one.warn(results) for one in formats)):
-        print_error(said)
-    for said in results.likenesses:
+    warnings = (one.warn(results) for one in formats.values() if hasattr(one, "warn"))
+    for said in (*filter(None, warnings), *results.likenesses):
         print_error(said)
     if unread:
         count = f"{len(unread)} student{'s' if len(unread) > 1 else ''}"

@@ -1,13 +1,11 @@
 """``grade class``: its options."""
 
-from pathlib import Path
 from typing import Any
 
 import click
 
 from grader import cli
-
-PATH = click.Path(path_type=Path)
+from grader.cli.course_here import ONLY, PATH
 
 
 @click.command("class")
@@ -22,7 +20,7 @@ PATH = click.Path(path_type=Path)
 @click.option("--overrides", type=PATH, help="CSV file of marks that you set by hand: student, "
               "check, points, why.")  # fmt: skip
 @click.option("--student", metavar="NAME", help="FOLDER is what this one student handed in.")
-@click.option("--exercise", "only", multiple=True, help="Only this exercise; may be repeated.")
+@ONLY
 @click.option("--export", "wanted", multiple=True, metavar="FORMAT", help="canvas, github, "
               "gradescope, junit; may be repeated.")  # fmt: skip
 @click.option("--name", help="Name of the class, for the overview.  [default: the folder's]")
@@ -52,6 +50,3 @@ def class_(**options: Any) -> Any:  # noqa: ANN401 - passed on
     Exit codes: 0 all answers were graded, 1 some could not be graded, 2 could not do it.
     """
     return cli.class_run.grade_folder(**options)
-
-
-COMMAND = class_

@@ -1,14 +1,27 @@
-"""The course folder that a command is typed in, and the exercises that it is about."""
+"""The course folder that a command is typed in, the exercises that it is about, and options."""
 
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+import click
 
 from grader.terminal import print_error
 from sim.core.errors import BadRequest
 
 if TYPE_CHECKING:
     from grader.exercise import Exercise
+
+PATH = click.Path(path_type=Path)
+STUDENT = click.option(
+    "--student", metavar="NAME", help="Who you are; your numbers and progress depend on it."
+)
+PLAIN = click.option(
+    "--plain", is_flag=True, help="For screen readers: words instead of symbols, no columns."
+)
+ONLY = click.option(
+    "--exercise", "only", multiple=True, help="Only this exercise; may be repeated."
+)
 
 
 def find_course_here(inside: Path | None = None) -> Path:

@@ -28,6 +28,3 @@ def doctor() -> int:
             print_lines(wrap_text(one.advice, lead="    ", style="cyan"))
         bad = bad or (one.needed and not one.right)
     return NOT_RIGHT if bad else DONE
-
-
-COMMAND = doctor

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import click
 
+from grader.cli.course_here import PATH
 from grader.course import find_course
 from grader.edition import build_pages
 from grader.terminal import print_error, print_lines, style_line
@@ -11,9 +12,7 @@ from sim.support.command_line import DONE
 
 
 @click.command()
-@click.option(
-    "-o", "--output", type=click.Path(path_type=Path), required=True, help="Folder of the pages."
-)
+@click.option("-o", "--output", type=PATH, required=True, help="Folder of the pages.")
 @click.option(
     "--lesson", "only", multiple=True, metavar="NN", help="Only this lesson; may be repeated."
 )
@@ -27,10 +26,6 @@ def edition(output: Path, only: tuple[str, ...]) -> int:
     chosen = [path for path in notebooks if not asked or path.name.startswith(asked)]
     build_pages(chosen, output, lambda name: print_error(f"running {name}"))
     index = output / "index.html"
-    print_lines(
-        [style_line(f"{index}: {len(chosen)} lessons, their slides, and handout.html to print")]
-    )
+    said = f"{index}: {len(chosen)} lessons, their slides, and handout.html to print"
+    print_lines([style_line(said)])
     return DONE
-
-
-COMMAND = edition

@@ -7,25 +7,17 @@ import click
 from grader.autograder import AutograderContents, make_workflow, pack_gradescope
 from grader.classroom.atomic_files import write_private_file
 from grader.classroom.roster import read_class_roster
-from grader.cli.course_here import choose_exercises, find_course_here
-from grader.cli.release import PATH, refuse_secret_inside, report_left_out
+from grader.cli.course_here import ONLY, PATH, choose_exercises, find_course_here
+from grader.cli.release import choose_files, refuse_secret_inside
 from grader.exercise import Exercise
-from grader.package_files import select_package_files
 from grader.terminal import print_error, print_lines, style_line
 from sim.support.command_line import DONE
 from sim.support.secret import find_secret
-
-ONLY = click.option(
-    "--exercise", "only", multiple=True, help="Only this exercise; may be repeated."
-)
 
 
 @click.group()
 def export() -> None:
     """Make an autograder for Gradescope or GitHub Classroom, or a configuration of JupyterHub."""
-
-
-COMMAND = export
 
 
 @export.command()
@@ -59,15 +51,13 @@ def gradescope(
     kept = find_secret(secret, make=False) if secret else None
     if roster is not None:
         read_class_roster(roster)  # what is wrong with it is said here, and not on Gradescope
-    chosen = select_package_files(course)
-    chosen.refuse_secret(kept.value if kept else b"")
-    report_left_out(chosen.left_out)
+    files = choose_files(course, kept, with_keys=True)
     value = kept.value if kept else None
     listed = roster.read_bytes() if roster else None
     names = tuple(one.name for one in asked)
     write_private_file(
         output,
-        pack_gradescope(AutograderContents(chosen.files, names, student_from, listed, value)),
+        pack_gradescope(AutograderContents(files, names, student_from, listed, value)),
     )
     _tell_gradescope(asked, output, with_secret=value is not None)
     return DONE

@@ -4,7 +4,8 @@ from pathlib import Path
 
 import click
 
-from grader.cli import locate_course
+from grader.cli import locate_learner
+from grader.cli.course_here import PLAIN, STUDENT
 from grader.mystery import (
     HIGHEST,
     Mystery,
@@ -25,10 +26,8 @@ from sim.support.command_line import DONE, NOT_RIGHT
 @click.command()
 @click.argument("answer", nargs=-1)
 @click.option("--give-up", is_flag=True, help="Show the answer; the next one is easier.")
-@click.option("--student", metavar="NAME", help="Who you are; each learner has a level.")
-@click.option(
-    "--plain", is_flag=True, help="For screen readers: words instead of symbols, no columns."
-)
+@STUDENT
+@PLAIN
 def mystery(answer: tuple[str, ...], student: str | None, *, give_up: bool, plain: bool) -> int:
     """Make a log with a hidden problem, or grade your ANSWER to it.
 
@@ -36,7 +35,8 @@ def mystery(answer: tuple[str, ...], student: str | None, *, give_up: bool, plai
 
     For example: grade mystery "hard-stop, dynamic-forward, 1.20 to 1.66, trim"
     """
-    course, _, who = locate_course(student)
+    learner = locate_learner(student)
+    course, who = learner.course, learner.name
     folder = find_mystery_folder(course, who)
     state = load_state(folder)
     place = folder.relative_to(course)
@@ -48,26 +48,20 @@ def mystery(answer: tuple[str, ...], student: str | None, *, give_up: bool, plai
     one = draw_mystery(course, state)
     if give_up:
         save_state(folder, state.close(solved=False))
-        print_lines(
-            [
-                *wrap_text(one.solution, lead="The answer was: ", style="bold"),
-                style_line("Next: grade mystery", "cyan"),
-            ]
-        )
+        print_lines(wrap_text(one.solution, lead="The answer was: ", style="bold"))
+        print_lines([style_line("Next: grade mystery", "cyan")])
         return DONE
     if not answer:
         print_lines(_format_task(state, one, place))
         return DONE
     result = grade_mystery_answer(one, " ".join(answer), student=who)
     print_lines(format_checks(result, plain=plain))
-    if result.status != "passed":
-        print_lines(
-            [(), style_line("Next: look again, or give up: grade mystery --give-up", "cyan")]
-        )
-        return NOT_RIGHT
-    save_state(folder, state.close(solved=True))
-    print_lines([(), style_line("Next: grade mystery", "cyan")])
-    return DONE
+    solved = result.status == "passed"
+    if solved:
+        save_state(folder, state.close(solved=True))
+    then = "grade mystery" if solved else "look again, or give up: grade mystery --give-up"
+    print_lines([(), style_line(f"Next: {then}", "cyan")])
+    return DONE if solved else NOT_RIGHT
 
 
 def _format_task(state: MysteryState, one: Mystery, place: Path) -> list[Line]:
@@ -82,6 +76,3 @@ def _format_task(state: MysteryState, one: Mystery, place: Path) -> list[Line]:
         style_line(f"  To look at it: {one.tool.format(folder=place.as_posix())}"),
         style_line(f'Next: grade mystery "{one.example}"  (with your own answer)', "cyan"),
     ]
-
-
-COMMAND = mystery

@@ -9,31 +9,24 @@ from grader.classroom.atomic_files import write_private_file
 from grader.classroom.bundle import pack_course
 from grader.classroom.roster import read_class_roster
 from grader.classroom.secret import identify_secret
-from grader.cli.course_here import find_course_here
+from grader.cli.course_here import PATH, find_course_here
 from grader.package_files import select_package_files
-from grader.release import (
-    StudentPackage,
-    find_broken_seals,
-    make_student_package,
-    pack_course_folder,
-)
-from grader.student_data.class_package import read_class_package
-from grader.student_data.variant import make_folder_name
+from grader.release import StudentPackage, make_student_package, pack_course_folder
 from grader.terminal import print_error, print_lines, style_line
 from sim.core.errors import BadRequest
-from sim.support.command_line import DONE, NOT_RIGHT
+from sim.support.command_line import DONE
 from sim.support.printable import list_first
 from sim.support.secret import Secret, find_secret
+from sim.support.student_names import make_folder_name
 from sim.support.work.executor import count_available_cores, run_jobs
 from sim.support.work.progress_bar import progress_bar
 
-PATH = click.Path(path_type=Path)
 NAMED = 8  # files left out that are named
 WORTH = 3  # [students] that a further process has to save, to be worth its start
 
 
 @click.command()
-@click.option("-o", "--output", type=PATH, help="Folder for the packages.")
+@click.option("-o", "--output", type=PATH, required=True, help="Folder for the packages.")
 @click.option(
     "--roster",
     type=PATH,
@@ -46,16 +39,8 @@ WORTH = 3  # [students] that a further process has to save, to be worth its star
 @click.option(
     "--processes", type=click.IntRange(min=1), help="Number of processes.  [default: every core]"
 )
-@click.option(
-    "--check", type=PATH, help="Only check whether a student's COURSE folder is unchanged."
-)
-def release(  # noqa: PLR0917 - click passes options by name
-    output: Path | None,
-    roster: Path | None,
-    secret: Path | None,
-    name: str,
-    processes: int | None,
-    check: Path | None,
+def release(
+    output: Path, roster: Path | None, secret: Path | None, name: str, processes: int | None
 ) -> int:
     """Make the students' package.
 
@@ -63,13 +48,6 @@ def release(  # noqa: PLR0917 - click passes options by name
     logs of their own, and no answer keys. Only the owner of the secret can make these numbers
     again, and grade them: grade class FOLDER --secret FILE.
     """
-    if check is not None:
-        kept = find_secret(secret, make=False)
-        if kept is None:
-            raise BadRequest("no secret was named", advice="Name its file with --secret.")
-        return _check(check, kept.value)
-    if output is None:
-        raise BadRequest("no folder was named", advice="Say where: grade release -o FOLDER")
     if roster and not secret:
         raise BadRequest(
             "numbers for a class need a secret",
@@ -79,11 +57,18 @@ def release(  # noqa: PLR0917 - click passes options by name
     course = find_course_here()
     if secret:
         refuse_secret_inside(secret, {"folder of the packages": output, "course folder": course})
-    kept = find_secret(secret, make=True) if roster else find_secret(secret, make=False)
-    return _release(course, output, roster, kept, name=name, processes=processes)
-
-
-COMMAND = release
+    kept = find_secret(secret, make=roster is not None)
+    students = tuple(read_class_roster(roster).rows) if roster else ()
+    everybody = pack_course_folder(choose_files(course, kept, with_keys=not students))
+    if kept and kept.new:
+        kept.save()
+        print_error(f"{kept.new}: a new secret. Keep this file, and show it to nobody.")
+    write_private_file(output / "course.zip", everybody)
+    value, packed = kept.value if kept else b"", pack_course(course)
+    packages = [StudentPackage(student, value, name, packed) for student in students]
+    _write_packages(packages, output / "students", processes or count_available_cores())
+    _tell_made(output, len(everybody), len(students), kept)
+    return DONE
 
 
 def refuse_secret_inside(secret: Path, folders: Mapping[str, Path]) -> None:
@@ -106,45 +91,30 @@ def refuse_secret_inside(secret: Path, folders: Mapping[str, Path]) -> None:
             )
 
 
-def report_left_out(left_out: Sequence[str]) -> None:
-    """Print which files of the course folder students do not get."""
-    if left_out:
-        print_error(f"left out, as no part of the course: {list_first(left_out, most=NAMED)}")
+def choose_files(course: Path, secret: Secret | None, *, with_keys: bool) -> dict[str, bytes]:
+    """The files of a course that students get; prints which files of its folder they do not get.
 
-
-def _release(
-    course: Path,
-    output: Path,
-    roster: Path | None,
-    secret: Secret | None,
-    *,
-    name: str,
-    processes: int | None,
-) -> int:
-    students = tuple(read_class_roster(roster).rows) if roster else ()
-    chosen = select_package_files(course, with_keys=not students)
+    Args:
+        course: the course folder.
+        secret: of the class, which is in none of them.
+        with_keys: also the exercises' answer keys.
+    """
+    chosen = select_package_files(course, with_keys=with_keys)
     chosen.refuse_secret(secret.value if secret else b"")
-    report_left_out(chosen.left_out)
-    everybody = pack_course_folder(chosen.files)
-    if secret and secret.new:
-        secret.save()
-        print_error(f"{secret.new}: a new secret. Keep this file, and show it to nobody.")
-    packed = pack_course(course)
-    value = secret.value if secret else b""
-    packages = [StudentPackage(student, value, name, packed) for student in students]
-    write_private_file(output / "course.zip", everybody)
-    with progress_bar("students", len(packages)) as (step, _):
-        made = run_jobs(
-            make_student_package,
-            packages,
-            processes=processes or count_available_cores(),
-            worth=WORTH,
+    if chosen.left_out:
+        print_error(
+            f"left out, as no part of the course: {list_first(chosen.left_out, most=NAMED)}"
         )
-        for student, content in made:
-            write_private_file(output / "students" / f"{make_folder_name(student)}.zip", content)
+    return chosen.files
+
+
+def _write_packages(packages: Sequence[StudentPackage], folder: Path, processes: int) -> None:
+    with progress_bar("students", len(packages)) as (step, _):
+        for student, content in run_jobs(
+            make_student_package, packages, processes=processes, worth=WORTH
+        ):
+            write_private_file(folder / f"{make_folder_name(student)}.zip", content)
             step()
-    _tell_made(output, len(everybody), len(students), secret)
-    return DONE
 
 
 def _tell_made(output: Path, size: int, students: int, secret: Secret | None) -> None:
@@ -159,25 +129,3 @@ def _tell_made(output: Path, size: int, students: int, secret: Secret | None) ->
         mark = identify_secret(secret.value)
         lines.append(f"Made with the secret {mark}; grade class shows the same characters.")
     print_lines([style_line(one) for one in lines])
-
-
-def _check(place: Path, secret: bytes) -> int:
-    """Say what is not as the class issued it."""
-    found = read_class_package(place)
-    if found is None:
-        raise BadRequest(
-            "no class issued this",
-            where=str(place),
-            advice="Name the folder that holds .course and exercises.",
-        )
-    wrong = find_broken_seals(place, found, secret=secret)
-    print_lines([style_line(f"{name}: changed since it was issued") for name in wrong])
-    if not wrong:
-        print_lines(
-            [
-                style_line(
-                    f"{place}: issued to {found.student}; all {len(found.sealed)} files unchanged."
-                )
-            ]
-        )
-    return NOT_RIGHT if wrong else DONE

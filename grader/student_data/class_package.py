@@ -4,8 +4,8 @@ import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.student_data.variant import check_student_name, normalize_name
 from sim.core.errors import BadRequest, Refusal
+from sim.support.student_names import check_student_name, normalize_name
 
 PLACE = Path(".course") / "class.toml"
 
@@ -17,13 +17,11 @@ class ClassPackage:
     Args:
         name: of the class.
         student: whose numbers these are.
-        sealed: file, seen from the course folder -> the class's seal of it.
         seal: the class's seal of the two names.
     """
 
     name: str
     student: str
-    sealed: dict[str, str]
     seal: str
 
     def is_for(self, student: str) -> bool:
@@ -59,33 +57,9 @@ def parse_class_package(content: bytes) -> ClassPackage:
     try:
         raw = tomllib.loads(content.decode("utf-8"))
         name, student = str(raw["class"]), check_student_name(str(raw["student"]))
-        return ClassPackage(name, student, dict(raw.get("sealed", {})), str(raw.get("seal", "")))
+        return ClassPackage(name, student, str(raw.get("seal", "")))
     except (TypeError, LookupError, RecursionError, Refusal) as error:
         raise ValueError(str(error)) from None
-
-
-def find_learner(course: Path, *, known: str, student: str | None) -> str:
-    """Who is learning in a course folder.
-
-    Args:
-        course: the course folder.
-        known: who it was before, as progress keeps it.
-        student: who a command says it is; None in a class's package is whom it was issued to.
-
-    Raises:
-        BadRequest: the name is none, the class's file cannot be read, or the name that was known is
-            lost.
-    """
-    if student is not None:
-        return check_student_name(student)
-    of_class = read_class_package(course)
-    if of_class is None and not known:
-        raise BadRequest(
-            "your progress was damaged, and with it your name, which decides your numbers",
-            advice="Say your name once more, as before: grade start --student NAME. If you never "
-            "gave a name: grade start --student me",
-        )
-    return of_class.student if of_class else known
 
 
 def explain_no_grading(exercise: str, found: ClassPackage) -> BadRequest:

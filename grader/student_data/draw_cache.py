@@ -16,7 +16,8 @@ from pathlib import Path
 from typing import TypeVar
 
 from grader.student_data.fingerprint import fingerprint_folders
-from grader.student_data.variant import is_self_study, normalize_name
+from grader.student_data.variant import is_self_study
+from sim.support.student_names import normalize_name
 from sim.support.work import cache as kept_files
 
 Drawn = TypeVar("Drawn")

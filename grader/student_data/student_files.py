@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 
 from grader.student_data.class_package import ClassPackage, read_class_package
 from grader.student_data.draw_cache import find_cache_path, write_cached_data
-from grader.student_data.variant import make_folder_name
 from sim.core.errors import BadRequest
 from sim.support.os_errors import refuse_os_errors
+from sim.support.student_names import make_folder_name
 from sim.support.work.cache import read_cached
 
 if TYPE_CHECKING:

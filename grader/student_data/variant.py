@@ -14,25 +14,10 @@ from contextvars import ContextVar
 from functools import lru_cache, wraps
 from typing import TYPE_CHECKING, TypeVar
 
-from sim.support.student_names import check_student_name, make_folder_name, normalize_name
+from sim.support.student_names import normalize_name
 
 if TYPE_CHECKING:
     import numpy as np
-
-__all__ = [
-    "SELF_STUDY",
-    "cache_draws",
-    "check_student_name",
-    "choose",
-    "derive_student_seed",
-    "draw_until",
-    "is_self_study",
-    "make_folder_name",
-    "make_student_rng",
-    "normalize_name",
-    "round_digits",
-    "use_class_secret",
-]  # fmt: skip
 
 Drawn = TypeVar("Drawn")
 

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 KEPT = "\n\t"
 DIRECTIONS = frozenset("\u061c\u200e\u200f\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069")
 REPLACEMENT = "\ufffd"  # the Unicode replacement character
+SHOWN = 5  # names in one line
 
 
 def make_printable(text: str) -> str:
@@ -24,7 +25,7 @@ def make_printable(text: str) -> str:
     return "".join(REPLACEMENT if _is_control(character) else character for character in text)
 
 
-def list_first(names: Sequence[str], *, most: int, separator: str = ", ") -> str:
+def list_first(names: Sequence[str], *, most: int = SHOWN, separator: str = ", ") -> str:
     """Text with the first names of a list, and the number of the others.
 
     Args:

@@ -79,7 +79,7 @@ def grade_class(
 def outcomes(results: Path) -> Counter[str]:
     """What became of every answer: how many are of each status."""
     kept = [json.loads(path.read_text(encoding="utf-8")) for path in results.glob("*.json")]
-    return Counter(record["status"] for one in kept for record in one["records"])
+    return Counter(record["status"] for one in kept for record in one["grades"])
 
 
 def through_a_cluster(handed_in: Path, secret: Path, *, only: Sequence[str]) -> None:

@@ -27,7 +27,7 @@ import psutil
 
 from grader.course import load_progress
 from grader.exercise import find_exercise
-from grader.student_data.variant import make_folder_name
+from sim.support.student_names import make_folder_name
 
 ROOT = Path(__file__).resolve().parents[2]
 READ, FUNCTION, JAVA, PYTHON = 0.4, 1.5, 2.0, 4.0  # [s]

@@ -17,7 +17,8 @@ from types import ModuleType
 import numpy as np
 
 from grader.exercise import Exercise, list_exercises
-from grader.student_data.variant import make_folder_name, use_class_secret
+from grader.student_data.variant import use_class_secret
+from sim.support.student_names import make_folder_name
 from sim.support.work.executor import run_jobs
 
 ROOT = Path(__file__).resolve().parents[2]

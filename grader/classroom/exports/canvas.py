@@ -6,19 +6,14 @@ of a student with work that was not graded is empty, and so is that of one who h
 0 would be a mark that nobody gave.
 """
 
-import csv
-import io
 from pathlib import Path
 
-from grader.classroom.atomic_files import write_private_file
-from grader.classroom.csv_cells import escape_formula
+from grader.classroom.csv_file import escape_formula, write_csv_file
 from grader.classroom.results import ClassResults, find_total, list_ungraded
 from sim.support.printable import list_first
 
-SUMMARY = "canvas.csv: to be imported into Canvas; give its own export as --roster"
 ROSTER = ("ID", "SIS User ID", "SIS Login ID")  # Canvas finds nobody by the name alone
 IDENTITY = ("Student", "ID", "SIS User ID", "SIS Login ID", "Section")
-SHOWN = 5  # names in one line
 
 
 def write(results: ClassResults, folder: Path) -> tuple[Path, ...]:
@@ -27,19 +22,17 @@ def write(results: ClassResults, folder: Path) -> tuple[Path, ...]:
     Raises:
         BadRequest: it cannot be written.
     """
-    stream = io.StringIO(newline="")
-    table = csv.writer(stream)
     most = sum(results.max_scores.values())
-    table.writerow([*IDENTITY, results.name])
-    table.writerow(["    Points Possible", *[""] * (len(IDENTITY) - 1), f"{most:g}"])
+    points = ["    Points Possible", *[""] * (len(IDENTITY) - 1), f"{most:g}"]
+    rows = [[*IDENTITY, results.name], points]
     for one in results.students:
         cells = results.roster.get(one.student, {})
         row = {name.strip().casefold(): cell for name, cell in cells.items()}
         row.setdefault("student", one.student)
         who = [row.get(name.casefold(), "") for name in IDENTITY]
         total = find_total(one, results)
-        table.writerow([*map(escape_formula, who), "" if total is None else f"{total:g}"])
-    return (write_private_file(folder / "canvas.csv", stream.getvalue()),)
+        rows.append([*map(escape_formula, who), "" if total is None else f"{total:g}"])
+    return (write_csv_file(folder / "canvas.csv", rows),)
 
 
 def warn(results: ClassResults) -> str:
@@ -49,5 +42,5 @@ def warn(results: ClassResults) -> str:
         return ""
     return (
         "canvas.csv has no points for these students, because some of their work was not graded: "
-        f"{list_first(names, most=SHOWN, separator='; ')}. Check their work, then run this again"
+        f"{list_first(names, separator='; ')}. Check their work, then run this again"
     )

@@ -10,13 +10,13 @@ from pathlib import Path
 from typing import Any
 
 from grader.classroom.atomic_files import write_private_file
-from grader.classroom.feedback_text import compose_feedback
 from grader.classroom.grading import GradedStudent
 from grader.classroom.results import ClassResults
-from grader.student_data.variant import make_folder_name
+from grader.exercise import Grade
+from grader.report import compose_feedback
 from sim.support.printable import make_printable
+from sim.support.student_names import make_folder_name
 
-SUMMARY = "github/STUDENT.txt: result=…, a line for $GITHUB_OUTPUT"
 LONGEST = 500  # [characters] of an output, says the reporter
 STATUS = {"passed": "pass", "failed": "fail", "missing": "fail", "ungradable": "error"}
 
@@ -42,31 +42,31 @@ def _line(one: GradedStudent, results: ClassResults) -> str:
 
 def _result(one: GradedStudent, results: ClassResults) -> dict[str, Any]:
     unused = results.remarks.get(one.student, ())
-    tests = [_test(number, record) for number, record in enumerate(one.records)]
+    tests = [_test(number, grade) for number, grade in enumerate(one.grades)]
     told = {test["status"] for test in tests}
     return {
         "version": 1,
         "status": next((status for status in ("error", "fail") if status in told), "pass"),
         "message": "; ".join(unused)[:LONGEST] or None,
-        "max_score": sum(float(record["max_score"]) for record in one.records),
+        "max_score": sum(grade.max_score for grade in one.grades),
         "tests": tests,
     }
 
 
-def _test(number: int, record: dict[str, Any]) -> dict[str, Any]:
-    wrong = [check for check in record["checks"] if check["status"] != "passed"]
-    told = [make_printable(str(text)) for text in record["warnings"]]
-    told += [f"{check['description']}: {compose_feedback(check)}" for check in wrong]
+def _test(number: int, grade: Grade) -> dict[str, Any]:
+    wrong = [check for check in grade.checks if check.status != "passed"]
+    told = [make_printable(text) for text in grade.warnings]
+    told += [f"{check.description}: {compose_feedback(check)}" for check in wrong]
     output = "\n".join(told)
     return {
-        "name": str(record["exercise"]),
-        "status": STATUS[str(record["status"])],
-        "message": str(record["reason"]),
+        "name": grade.exercise,
+        "status": STATUS[grade.status],
+        "message": grade.reason,
         "test_code": "",
         "task_id": number,
-        "filename": str(record["file"]),
+        "filename": str(grade.file or ""),
         "line_no": 0,
         "duration": 0.0,
-        "score": float(record["score"]),
+        "score": grade.score,
         "output": output if len(output) <= LONGEST else output[: LONGEST - 1] + "…",
     }

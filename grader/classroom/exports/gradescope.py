@@ -10,13 +10,11 @@ from pathlib import Path
 from typing import Any
 
 from grader.classroom.atomic_files import write_private_file
-from grader.classroom.feedback_text import compose_feedback
 from grader.classroom.grading import GradedStudent
 from grader.classroom.results import ClassResults
-from grader.student_data.variant import make_folder_name
+from grader.report import compose_feedback
 from sim.support.printable import make_printable
-
-SUMMARY = "gradescope/STUDENT/results.json: as Gradescope reads it"
+from sim.support.student_names import make_folder_name
 
 
 def write(results: ClassResults, folder: Path) -> tuple[Path, ...]:
@@ -36,14 +34,12 @@ def write(results: ClassResults, folder: Path) -> tuple[Path, ...]:
 
 def _result(one: GradedStudent, results: ClassResults) -> dict[str, Any]:
     warnings = [
-        f"{record['exercise']} was not graded, so its 0 points are no mark: {record['reason']}"
-        for record in one.records
-        if record["status"] == "ungradable"
+        f"{grade.exercise} was not graded, so its 0 points are no mark: {grade.reason}"
+        for grade in one.grades
+        if grade.status == "ungradable"
     ]
     warnings += [f"not graded: {text}" for text in results.remarks.get(one.student, ())]
-    warnings += [
-        f"{record['exercise']}: {text}" for record in one.records for text in record["warnings"]
-    ]
+    warnings += [f"{grade.exercise}: {text}" for grade in one.grades for text in grade.warnings]
     return {
         "output_format": "text",
         "visibility": "visible",
@@ -51,17 +47,17 @@ def _result(one: GradedStudent, results: ClassResults) -> dict[str, Any]:
         **({"output": make_printable("\n".join(warnings))} if warnings else {}),
         "tests": [
             {
-                "name": f"{record['exercise']}: {check['description']}",
+                "name": f"{grade.exercise}: {check.description}",
                 "number": f"{place}.{number}",
-                "score": check["points"],
-                "max_score": check["max_points"],
-                "status": "passed" if check["status"] == "passed" else "failed",
+                "score": check.points,
+                "max_score": check.max_points,
+                "status": "passed" if check.status == "passed" else "failed",
                 "output": compose_feedback(check),
                 "output_format": "text",
-                "tags": [tag for tag in (check["misconception"],) if tag],
+                "tags": [tag for tag in (check.misconception,) if tag],
                 "visibility": "visible",
             }
-            for place, record in enumerate(one.records, start=1)
-            for number, check in enumerate(record["checks"], start=1)
+            for place, grade in enumerate(one.grades, start=1)
+            for number, check in enumerate(grade.checks, start=1)
         ],
     }

@@ -6,15 +6,15 @@ What it may hold: the schema of Jenkins, junit-10.xsd. Points stand in propertie
 import re
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 from xml.etree import ElementTree as ET
 
+from grader.check import Result
 from grader.classroom.atomic_files import write_private_file
-from grader.classroom.feedback_text import compose_feedback
 from grader.classroom.grading import GradedStudent
 from grader.classroom.results import ClassResults
+from grader.exercise import Grade
+from grader.report import compose_feedback
 
-SUMMARY = "junit.xml: a suite for each student, as build servers read it"
 NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
@@ -34,7 +34,7 @@ def write(results: ClassResults, folder: Path) -> tuple[Path, ...]:
 
 
 def _suite(one: GradedStudent, unused: Sequence[str]) -> ET.Element:
-    cases = [_case(record, check) for record in one.records for check in record["checks"]]
+    cases = [_case(grade, check) for grade in one.grades for check in grade.checks]
     cases += [_unused_case(text) for text in unused]
     count = {tag: sum(case.find(tag) is not None for case in cases) for tag in _KINDS}
     suite = ET.Element(
@@ -59,19 +59,17 @@ def _unused_case(text: str) -> ET.Element:
 _KINDS = ("failure", "error", "skipped")
 
 
-def _case(record: dict[str, Any], check: dict[str, Any]) -> ET.Element:
-    case = ET.Element(
-        "testcase", classname=_plain(record["exercise"]), name=_plain(check["description"])
-    )
+def _case(grade: Grade, check: Result) -> ET.Element:
+    case = ET.Element("testcase", classname=_plain(grade.exercise), name=_plain(check.description))
     points = ET.SubElement(case, "properties")
     for name in ("points", "max_points", "misconception"):
-        ET.SubElement(points, "property", name=name, value=_plain(check[name]))
+        ET.SubElement(points, "property", name=name, value=_plain(getattr(check, name)))
     said = _plain(compose_feedback(check))
-    if check["status"] == "failed":
+    if check.status == "failed":
         ET.SubElement(case, "failure", message=said)
-    elif record["status"] == "ungradable" or check["status"] == "error":
+    elif grade.status == "ungradable" or check.status == "error":
         ET.SubElement(case, "error", message=said)
-    elif check["status"] != "passed":
+    elif check.status != "passed":
         ET.SubElement(case, "skipped", message=said)
     return case
 
