@@ -143,6 +143,23 @@ def test_what_the_validation_does_not_confirm_is_not_named():
     assert (load.admitted, load.why) == (False, "widens the gap")
 
 
+def test_what_inspect_saw_is_told_only_where_no_effect_explains_the_log():
+    slip = DamagedInterval(2, 0.0, 0.3, "wheel-slip", 0.9, "The wheels spin.", "Halve the step.")
+    seen = {"log": (slip, replace(slip, fault="brownout", confidence=0.5))}
+    sessions = logs("elevator", "constant-load", simple=True)
+    clean = session(bench("elevator", simple=True), "validation")  # without the weight
+
+    explained, unexplained = (
+        reconcile(sessions["log"], validation=one, type="simple", damages=seen)
+        for one in (sessions["validation"], clean)
+    )
+
+    assert named(explained) == ["constant-load"]
+    assert [one.effect for one in explained.findings if one.kind == "fault"] == []
+    assert [(one.effect, one.size) for one in unexplained.findings] == [("wheel-slip", "minor")]
+    assert "inspect sees in the log: wheel-slip" in write_headline(unexplained)
+
+
 def test_a_gap_that_does_not_shrink_on_the_held_out_log_is_said():
     # the held-out session is of a mechanism without the weight that the others have
     weightless = session(bench("elevator", simple=True), "held_out")

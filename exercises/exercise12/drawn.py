@@ -109,9 +109,9 @@ def draw_determined(rng: np.random.Generator, among: Sequence[Recipe]) -> Varian
 
 
 def is_determined(variant: Variant) -> bool:
-    """Whether the right effects predict the held-out log, and each is missed, the first most."""
+    """Whether trying the right effects finds them, and each is missed, the first most."""
     search, truth = variant.make_search(), variant.mechanism.model
-    found = search.fit_near(truth)
+    found = search.fit(variant.hidden)
     floor = max(1.0, search.measure_gap(search.evaluate_model(truth), "held_out"))
     if search.measure_gap(found, "held_out") > SNUG * FLOOR * floor:
         return False

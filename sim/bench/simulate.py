@@ -30,6 +30,7 @@ __all__ = ["move_gains_only", "read_sensor", "simulate"]
 
 PAUSE = 1.0  # [s] between two tests, in which the mechanism comes to rest
 FASTEST, SLOWEST = 0.0005, 0.5  # [s] limits of the loop period
+DIGITS = 6  # of a time [s]: a roboRIO counts microseconds
 MIN_SAMPLES = 10  # [samples] of a test
 STEPS_PER_LOOP = 8  # recorded steps of a loop, for a sensor that measures between loops
 MARGIN = 0.04  # [share of the travel] distance to a stop at which a test ends
@@ -90,7 +91,7 @@ def simulate(
             track, state = _move(active, time, voltage, begin=begin, wires=wires)
         loops, seen = time[::parts], _delay_limits(track.truncate(end), voltage, time, model)
         run = _record_run(mechanism, test, time, seen, loops=loops, rng=rng, electrical=electrical)
-        runs.append(replace(run, time=start + loops))
+        runs.append(replace(run, time=np.round(start + loops, DIGITS)))
         cool_down(state, model, PAUSE)
         start, last = start + float(time[-1]) + PAUSE, float(track.position[end - 1])
     log = Log(tuple(runs), units=mechanism.units, mechanism=mechanism.name, type=mechanism.type)
@@ -228,7 +229,8 @@ def _loop_times(
             advice="Ask for a longer timeout or a shorter period.",
         )
     late = np.clip(jitter * rng.standard_normal(count), -0.2 * period, 0.2 * period)
-    return np.asarray((np.arange(count) + LOOPS_BEFORE_DRIVE) * period + late)
+    times = (np.arange(count) + LOOPS_BEFORE_DRIVE) * period + late
+    return np.asarray(np.round(times, DIGITS))
 
 
 def _find_start(mechanism: Mechanism, test: str, last: float) -> float:

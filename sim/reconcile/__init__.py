@@ -20,7 +20,7 @@ from sim.estimation.likelihood import PredictionErrorProblem
 from sim.reconcile.backward_elimination import remove_needless_effects
 from sim.reconcile.base_model import fit_base_model, make_data_folds
 from sim.reconcile.damage import DamagedInterval, judge_damage
-from sim.reconcile.findings import make_findings
+from sim.reconcile.findings import make_findings, make_suspicions
 from sim.reconcile.forward_selection import select_effects
 from sim.reconcile.gains import estimate_gains, fit_without_effects
 from sim.reconcile.held_out import HeldOutLog
@@ -31,7 +31,7 @@ from sim.reconcile.remarks import list_remarks, select_reported_rounds
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound
-from sim.reconcile.story import Story
+from sim.reconcile.story import UNEXPLAINED, Story
 from sim.reconcile.thresholds import SEARCH_BUDGET
 from sim.reconcile.verdict import reach_verdict
 
@@ -138,6 +138,8 @@ def _make_story(
         refuted=refuted,
         unit=unit,
     )
+    if verdict == UNEXPLAINED:
+        findings += make_suspicions(recordings.damage.suspected, findings, chapters[0].gap)
     return Story(
         verdict=verdict, findings=findings, remainder=remainder, remains=remains,
         noise_floor=shown.noise_floor,

@@ -5,6 +5,7 @@ run starts depends on the motion before it, which is not recorded.
 """
 
 import math
+from itertools import pairwise
 
 import numpy as np
 
@@ -67,3 +68,12 @@ def _costs_by_run(
     squares = np.square(problem.whiten(point, innovations)).reshape(-1, 2).sum(axis=1)
     costs: Array = np.add.reduceat(squares, problem.run_edges[:-1]) + nuisance.backlash_phase_costs
     return costs
+
+
+def reverses_within_run(problem: PredictionErrorProblem) -> bool:
+    """Whether a run moves in both directions, and so crosses all of a backlash."""
+    signs = [
+        np.sign(problem.measured[first:last, 1][problem.moving[first:last]])
+        for first, last in pairwise(problem.run_edges.tolist())
+    ]
+    return any((one > 0.0).any() and (one < 0.0).any() for one in signs)

@@ -32,8 +32,7 @@ from sim.reconcile.two_body_starts import TwoBodyStarts
 TRIED, KEPT = 8, 4  # candidates that are optimized for a few steps, and to a local minimum
 FEW_STEPS = 2  # Levenberg-Marquardt steps before candidates are compared
 FURTHER = 6  # the same from a start of a joint
-FRICTION_SHARES = (0.0, 0.3, 0.6, 1.0)  # [1] of friction at the motor: start values of a joint
-NEAR_FRICTION = 0.15  # [1] shares of friction that differ by less lead to one minimum
+FRICTION_SHARES = (0.0, 0.2, 0.4, 0.7, 1.0)  # [1] of friction at the motor: start values of a joint
 THRESHOLD_SHARES = (0.93, 0.96, 0.98, 1.02, 1.04, 1.07)  # [1] of a threshold that are tried, too
 TRIED_CALM = 3  # candidates that are also tried with less process noise
 INCOMPATIBLE: dict[str, tuple[str, ...]] = {
@@ -174,15 +173,15 @@ def _refine_motor_friction(problem: PredictionErrorProblem, point: Estimate) -> 
     minimum for each share.
     """
     name = f"{point.structure.effects[-1]}.motor_friction"
-    best = point
-    for share in FRICTION_SHARES:
-        if abs(share - best.values[name]) < NEAR_FRICTION:
-            continue
-        moved = problem.evaluate(
-            point.structure, {**best.values, name: share}, best.nuisance, best.process_noise
+    moved = (
+        problem.evaluate(
+            point.structure, {**point.values, name: share}, point.nuisance, point.process_noise
         )
-        best = min(best, minimize(problem, moved), key=lambda one: one.cost)
-    return best
+        for share in FRICTION_SHARES
+    )
+    descended = [levenberg_marquardt(problem, one, steps=FURTHER) for one in moved]
+    best = min(descended, key=lambda one: one.cost)
+    return min(point, minimize(problem, best), key=lambda one: one.cost)
 
 
 def descend_candidate(problem: PredictionErrorProblem, start: Estimate) -> Estimate:

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from sim.estimation.run_records import ExcludedInterval
-from sim.reconcile.thresholds import DAMAGED
+from sim.reconcile.thresholds import DAMAGED, SURE_FAULT
 
 STOP_FAULTS = ("hard-stop",)
 """Faults after which the rest of a run is useless: the mechanism leans on a stop."""
@@ -48,33 +48,42 @@ class DamageDecision:
     Args:
         excluded: log name -> intervals that are excluded.
         reported: the surest interval of each fault, which is reported as a finding.
+        suspected: the same of faults that look like missing physics. They are reported if no effect
+            explains the log.
     """
 
     excluded: Mapping[str, tuple[ExcludedInterval, ...]] = field(default_factory=dict)
     reported: tuple[DamagedInterval, ...] = ()
+    suspected: tuple[DamagedInterval, ...] = ()
 
 
 def judge_damage(damages: Mapping[str, Sequence[DamagedInterval]]) -> DamageDecision:
     """Decide about the damage that an inspection found in each log.
 
     An interval is excluded if it is at a hard stop, or if its fault is one of ``RECORD_FAULTS``
-    with a confidence of at least ``DAMAGED``.
+    with a confidence of at least ``DAMAGED``. Any other fault of a run is suspected if its
+    confidence is at least ``SURE_FAULT``.
     """
     excluded: dict[str, list[ExcludedInterval]] = {}
     found: dict[str, DamagedInterval] = {}
+    suspected: dict[str, DamagedInterval] = {}
     for name, every in damages.items():
         flipped = {one.run for one in every if one.fault in WHOLE_RUN_FAULTS}
         for one in every:
             stopped = one.fault in STOP_FAULTS
             damaged = one.fault in RECORD_FAULTS and one.confidence >= DAMAGED
-            if not (damaged or stopped) or (one.fault in WHOLE_RUN_FAULTS and len(flipped) > 1):
+            if one.fault in WHOLE_RUN_FAULTS and len(flipped) > 1:
                 continue
-            if one.run is not None:
+            if (damaged or stopped) and one.run is not None:
                 interval = ExcludedInterval(one.run, one.start, one.end, stopped)
                 excluded.setdefault(name, []).append(interval)
-            best = found.get(one.fault)
-            if name != "held_out" and (best is None or one.confidence > best.confidence):
-                found[one.fault] = one
+            told = found if damaged or stopped else suspected
+            sure = damaged or stopped or (one.run is not None and one.confidence >= SURE_FAULT)
+            best = told.get(one.fault)
+            if name != "held_out" and sure and (best is None or one.confidence > best.confidence):
+                told[one.fault] = one
     return DamageDecision(
-        {name: tuple(some) for name, some in excluded.items()}, tuple(found.values())
+        {name: tuple(some) for name, some in excluded.items()},
+        tuple(found.values()),
+        tuple(suspected.values()),
     )

@@ -10,6 +10,7 @@ from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.run_variation import compute_standard_errors
 from sim.physics.effect import LATER, UNTIL
 from sim.physics.effects import EFFECTS
+from sim.reconcile.backlash_phase import reverses_within_run
 from sim.reconcile.backward_elimination import find_separating_test
 from sim.reconcile.cross_validation import Gap, count_noise_floors
 from sim.reconcile.damage import DamagedInterval
@@ -112,7 +113,10 @@ def _classify_size(
     them are minor at first. If together they closed the gap, the one that closed most is major.
     """
     least = MAJOR_UNEXPLAINED if incomplete else MAJOR
-    errors = compute_standard_errors(problem, rounds[-1].candidate.estimate)
+    last = rounds[-1].candidate.estimate
+    errors = compute_standard_errors(problem, last)
+    if not reverses_within_run(problem):  # a run that starts within a backlash crosses a part of it
+        errors |= {name: last.values[name] for name in last.structure.backlash_names}
     probabilities = {one.effect: one.probability for one in judged}
     found = [
         _make_effect_finding(
@@ -157,6 +161,24 @@ def _make_fault_finding(one: DamagedInterval, gap: float) -> Finding:
         gap_before=gap, gap_after=gap, sentence=one.sentence, inspect=one.advice,
         separating_test="", probability=one.confidence,
     )  # fmt: skip
+
+
+def make_suspicions(
+    suspected: Sequence[DamagedInterval], findings: Sequence[Finding], gap: float
+) -> tuple[Finding, ...]:
+    """Minor findings of faults that may be what no effect explains, and have no finding yet.
+
+    Args:
+        suspected: faults that look like missing physics.
+        findings: the effects and faults that are reported already.
+        gap: [log's unit/s] of the base model on the shown log.
+    """
+    named = {one.effect for one in findings}
+    return tuple(
+        replace(_make_fault_finding(one, gap), size="minor")
+        for one in suspected
+        if one.fault not in named
+    )
 
 
 def _make_effect_finding(

@@ -1,11 +1,9 @@
 """Remarks: effects of the last model that are no findings, and what the data do not determine."""
 
 from collections.abc import Sequence
-from itertools import pairwise
-
-import numpy as np
 
 from sim.estimation.likelihood import PredictionErrorProblem
+from sim.reconcile.backlash_phase import reverses_within_run
 from sim.reconcile.judgement import is_contradicted, is_narrower_with
 from sim.reconcile.model_selection import is_ordinary_size
 from sim.reconcile.probability import JudgedEffect
@@ -63,7 +61,7 @@ def list_remarks(
             "the model leaves it out."
         )
     remarks += [CONTRADICTED.format(name) for name in contradicted]
-    if structure.has_backlash and not _reverses_within_run(problem):
+    if structure.has_backlash and not reverses_within_run(problem):
         remarks.append(NO_REVERSAL)
     return tuple(remarks)
 
@@ -96,12 +94,3 @@ def _describe_small_share(share: float) -> str:
 def _list_unlikely(judged: Sequence[JudgedEffect]) -> dict[str, float]:
     """Effect -> probability, of the effects that are less likely than not."""
     return {one.effect: one.probability for one in judged if one.probability < LEAST_PROBABILITY}
-
-
-def _reverses_within_run(problem: PredictionErrorProblem) -> bool:
-    """Whether the mechanism moves in both directions within a run."""
-    signs = [
-        np.sign(problem.measured[first:last, 1][problem.moving[first:last]])
-        for first, last in pairwise(problem.run_edges.tolist())
-    ]
-    return any((one > 0.0).any() and (one < 0.0).any() for one in signs)

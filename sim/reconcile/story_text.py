@@ -27,7 +27,9 @@ def write_headline(story: Story) -> str:
 
 
 def _write_verdict(story: Story) -> str:
-    faults = [one for one in story.findings if one.kind == FAULT]
+    found = [one for one in story.findings if one.kind == FAULT]
+    suspected = [one for one in found if one.size == MINOR and story.verdict == UNEXPLAINED]
+    faults = [one for one in found if one not in suspected]
     majors = [one for one in story.findings if one.kind != FAULT and one.size == MAJOR]
     damaged = _describe_damage(faults, also="also " if majors else "")
     if story.verdict == UNEXPLAINED:
@@ -35,6 +37,9 @@ def _write_verdict(story: Story) -> str:
         gaps = _gaps(story)
         cause = "no known effect explains" if story.complete else "the search has not found so far"
         said = [f"The model is missing {known}something that {cause}.", gaps]
+        if suspected:
+            names = _join([one.effect for one in suspected])
+            said.append(f"It may be what sysid inspect sees in the log: {names}.")
     elif majors:
         missing = _join([_name_with_rivals(one) for one in majors])
         doubt = "; these logs cannot tell which" if story.verdict == AMBIGUOUS else ""
