@@ -123,7 +123,7 @@ def test_a_damaged_file_begins_anew(tmp_path, text):
     assert load_state(tmp_path) == MysteryState()
 
 
-def test_an_answer_without_a_mystery_is_refused_in_one_line(course, capsys):
+def test_an_answer_without_a_mystery_is_one_line(course, capsys):
     assert course.is_dir()
     assert run_command(["mystery", "clean"]) == 2
     assert "Draw one: grade mystery" in capsys.readouterr().err
