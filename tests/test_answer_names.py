@@ -138,7 +138,7 @@ def test_the_command_says_it_under_the_verdict_and_in_its_json(course, monkeypat
     assert told["warnings"] == [SAID]
 
 
-def test_a_notebook_says_it_and_proposes_a_name(course):
+def test_a_notebook_shows_the_warning_and_proposes_a_name(course):
     assert SAID in submit("exercise1", course=course).html
     assert "Did you mean color?" in str(submit("exercise1", course=course, colour="green"))
 

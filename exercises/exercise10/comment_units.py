@@ -18,12 +18,12 @@ def find_commented_units(comment: str, name: str = "") -> Iterator[Quantity]:
     words = text.split()
     for start in range(len(words)):
         for end in range(start + 1, min(start + MOST_WORDS, len(words)) + 1):
-            yield from _read(" ".join(words[start:end]))
+            yield from _read_units(" ".join(words[start:end]))
     camel = re.findall(r"[A-Z][a-z]+", re.sub(r"^k_?[A-Za-z](?=[A-Z])", "", name))
-    yield from _read(" ".join(camel))
+    yield from _read_units(" ".join(camel))
 
 
-def _read(text: str) -> Iterator[Quantity]:
+def _read_units(text: str) -> Iterator[Quantity]:
     bare = text.strip(" ,;:.![]")
     for one in dict.fromkeys((bare, bare.strip("()"))):
         try:

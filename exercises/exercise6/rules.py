@@ -47,7 +47,7 @@ def _find_dangers(machine: Machine, plan: Plan) -> Iterator[BrokenRule]:
         yield BrokenRule(f"your ramp reaches {asks:.1f} V; the battery has {BATTERY:g} V")
     for name, test in (("ramp", slow), ("step", dynamic(machine, plan))):
         if machine.travel is not None and test.rests > MORE * machine.travel:
-            yield BrokenRule(_too_far(name, test, machine.travel))
+            yield BrokenRule(_explain_long_run(name, test, machine.travel))
     amps = plan.step / BATTERY * machine.stall
     if amps > MORE * machine.limit:
         says = f"at standstill your step draws {amps:.0f} A; the limit is {machine.limit:g} A. The "
@@ -62,7 +62,7 @@ def _find_dangers(machine: Machine, plan: Plan) -> Iterator[BrokenRule]:
         yield BrokenRule(says, BIG)
 
 
-def _too_far(name: str, test: Test, travel: float) -> str:
+def _explain_long_run(name: str, test: Test, travel: float) -> str:
     """The run a test needs, and how it ends."""
     symbol = test.machine.symbol
     says = f"your {name} needs {test.rests:.2f} {symbol}; you have {travel:g} {symbol}. "

@@ -134,10 +134,10 @@ def _overlap(claim: Claim, damaged: Damaged, case: Case) -> float:
         runs = case.log.runs
         truth = [(i, float(runs[i].time[0]), float(runs[i].time[-1])) for i, _, _ in truth]
     ways = claim.spans(case.log, whole=damaged.whole)
-    return max((_shared(way, truth) for way in ways), default=0.0)
+    return max((_compute_overlap(way, truth) for way in ways), default=0.0)
 
 
-def _shared(one: Sequence[Span], other: Sequence[Span]) -> float:
+def _compute_overlap(one: Sequence[Span], other: Sequence[Span]) -> float:
     mine, others = ({run: ends for run, *ends in spans} for spans in (one, other))
     if mine.keys() == others.keys() and all(
         abs(a - b) <= SLACK for run in mine for a, b in zip(mine[run], others[run], strict=True)

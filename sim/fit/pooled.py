@@ -110,10 +110,12 @@ def merge_doubts(fits: Mapping[str, Fit]) -> tuple[Doubt, ...]:
     for name, one in fits.items():
         for doubt in one.doubts:
             found.setdefault(doubt.code, {}).setdefault(name, []).append(doubt)
-    return tuple(doubt for several in found.values() for doubt in _merged(several, whole=len(fits)))
+    return tuple(
+        doubt for several in found.values() for doubt in _merge_doubts(several, whole=len(fits))
+    )
 
 
-def _merged(several: Mapping[str, list[Doubt]], *, whole: int) -> list[Doubt]:
+def _merge_doubts(several: Mapping[str, list[Doubt]], *, whole: int) -> list[Doubt]:
     """The doubts of one code: one for all parts if they are equal, else those of the worst part."""
     kinds = {tuple(doubts) for doubts in several.values()}
     if len(kinds) == 1 and len(several) == whole:

@@ -243,7 +243,7 @@ _CLASSES: dict[Any, Class] = {}
 
 
 def class_named(name: str, cls: Any = None) -> Class:
-    """The only Class of a class, or of the name of a type that is none, such as ``int``."""
+    """Java's Class object of a class, or of a type like ``int``; each type has only one."""
     full = full_name(cls) if isinstance(cls, type) else name
     key = JAVA.get(full, cls if isinstance(cls, type) else name)
     return _CLASSES.setdefault(key, Class(full, cls))

@@ -115,7 +115,7 @@ def _find_problems(root: Node, text: str) -> tuple[ParseProblem, ...]:
 
 
 def _find_code_line(text: str, row: int) -> int:
-    """The last line, counted from 1, up to a row, counted from 0, that is no comment."""
+    """The line (from 1) of the last code at or before a row (from 0), without comments."""
     lines = [line.strip() for line in text.split("\n")[: row + 1]]
     code = (at for at in range(row, -1, -1) if lines[at] and lines[at][:2] not in _COMMENT)
     return next(code, row) + 1

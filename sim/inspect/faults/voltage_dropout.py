@@ -76,13 +76,13 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
         if run.kind not in FAULT.kinds or len(run) < NARROWEST:
             continue
         drops = _drops(run, features.period)
-        answers = [_answer(run, drop) for drop in drops]
+        answers = [_measure_loss(run, drop) for drop in drops]
         if len(drops) < SERIES:
             drops = [
                 drop
                 for drop, answer in zip(drops, answers, strict=True)
                 if run.moving[max(drop.first - 1, 0)]  # only motion can contradict it
-                and answer < _least_answer(run, drop, features.timescale)
+                and answer < _find_least_loss(run, drop, features.timescale)
                 and not _launches(run, drop)
             ]
         for where, group in _group_drops(index, run, drops):
@@ -133,7 +133,7 @@ def _returns(voltage: Array, first: int, last: int, expected: Array) -> bool:
     )
 
 
-def _answer(run: Run, drop: _Drop) -> float:
+def _measure_loss(run: Run, drop: _Drop) -> float:
     """[share of the speed] loss of speed in and after a drop-out."""
     speed = np.abs(run.velocity)
     before = float(np.median(speed[max(drop.first - 2, 0) : drop.first + 1]))
@@ -142,7 +142,7 @@ def _answer(run: Run, drop: _Drop) -> float:
     return 1.0 - slowest / before if before > 0.0 else 0.0
 
 
-def _least_answer(run: Run, drop: _Drop, timescale: float) -> float:
+def _find_least_loss(run: Run, drop: _Drop, timescale: float) -> float:
     """[share of the speed] loss from which on the velocity follows the drop-out."""
     lasted = float(run.time[drop.last + 1] - run.time[drop.first])
     lost = 1.0 - abs(float(np.mean(run.voltage[drop.first : drop.last + 1]) / drop.expected))
