@@ -499,7 +499,8 @@ else:
         panels=(Panel("velocity", "speed [m/s or rad/s]"),),
         slow=20.0,
         alt="Your log and WPILib's simulation in a ramp test. With kV and kA alone, WPILib moves "
-        "before your mechanism does, and stays too fast. With kS taken from the volts, both are the same.",
+        "before your mechanism does, and stays too fast. With kS taken from the volts, both are "
+        "the same.",
     )
     display(moving)
 
