@@ -665,10 +665,10 @@ animate_mechanism(
         for shown, kp in STIFF.items()
     },
     choices=(Choice("gains of", tuple(TOLD)), Choice("kP", tuple(STIFF))),
-    panels=(Panel("position", "angle [°]", low=-40.0, high=5.0, scale=180 / math.pi),),
+    panels=(Panel("position", "angle [°]", low=-10.0, high=2.0, scale=180 / math.pi),),
     alt="A level arm with a game piece. With the gains of the empty arm and a kP of 1 V/rad it "
-    "sinks by about 20 degrees. With a larger kP it sinks less. With those of the loaded arm it "
-    "does not sink.",
+    f"sinks by {-math.degrees(hold_level(1.0, bare).position[-1]):.1f} degrees. With a larger kP "
+    "it sinks less. With those of the loaded arm it does not sink.",
 )
 
 # %% [markdown]

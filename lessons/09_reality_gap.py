@@ -483,7 +483,7 @@ else:
     gains, run = fit(own).gains, own.list_runs_of_test("quasistatic-forward")[0]
     speeds = {
         "kV and kA alone": spin_in_wpilib(gains, run, 0.0),
-        "minus kS": spin_in_wpilib(gains, run, gains["kS"]),
+        "kS taken from the volts": spin_in_wpilib(gains, run, gains["kS"]),
     }
     for name, speed in speeds.items():
         print(f"{name}: the typical error is {np.sqrt(np.mean((speed - run.velocity) ** 2)):.3g}")
@@ -495,11 +495,12 @@ else:
     moving = animate_mechanism(
         "drivetrain" if own.units == "meters" else "flywheel",
         scenes,
-        choices=(Choice("FlywheelSim gets the volts,", tuple(speeds)),),
+        choices=(Choice("FlywheelSim with", tuple(speeds)),),
         panels=(Panel("velocity", "speed [m/s or rad/s]"),),
         slow=20.0,
         alt="Your log and WPILib's simulation in a ramp test. With kV and kA alone, WPILib moves "
-        "before your mechanism does, and stays too fast. Minus kS, both are the same.",
+        "before your mechanism does, and stays too fast. With kS taken from the volts, both are "
+        "the same.",
     )
     display(moving)
 
