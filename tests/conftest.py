@@ -61,6 +61,26 @@ def browser():
         yield chromium
 
 
+@pytest.fixture(scope="module")
+def robot_code_once():
+    """Each robot program is run once: nothing in the answers beside it changes its run."""
+    from grader.robotcode import running  # noqa: PLC0415 - as above
+
+    run, kept = running._run, {}
+
+    def run_once(path, kind, mounts, **options):
+        beside = (one for one in sorted(path.parent.iterdir()) if one.suffix == path.suffix)
+        texts = tuple((one.name, one.read_bytes()) for one in beside)
+        key = (path.name, kind, repr(mounts), *options.items(), texts)
+        if key not in kept:
+            kept[key] = run(path, kind, mounts, **options)
+        return kept[key]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(running, "_run", run_once)
+        yield
+
+
 @pytest.fixture
 def reads(request, tmp_path):
     """Asserts that a text is the one that was kept for this test in ``tests/snapshots``.
