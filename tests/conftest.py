@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from hypothesis import settings
+from small_course import lay_out
 
 # A machine may be busy: how long an example takes says nothing about whether it is right.
 settings.register_profile("course", deadline=None)
@@ -116,3 +117,21 @@ def copy(request, tmp_path, monkeypatch):
     (tmp_path / "lessons").mkdir()
     monkeypatch.chdir(tmp_path)
     return type(own)(own.name, folder)
+
+
+@pytest.fixture
+def course(tmp_path, monkeypatch):
+    """A small course, in whose folder the command runs."""
+    lay_out(tmp_path)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.fixture
+def all_exercises(tmp_path, monkeypatch):
+    """A copy of the course's exercises, in whose folder the command runs."""
+    ignored = shutil.ignore_patterns("data", "__pycache__")
+    shutil.copytree(ROOT / "exercises", tmp_path / "exercises", ignore=ignored)
+    (tmp_path / "lessons").mkdir()
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
