@@ -587,14 +587,3 @@ def test_a_real_pair_of_logs_in_different_units_is_told_by_the_lever(real, capsy
 
     assert code == 1
     assert "lever" in {one["code"] for one in json.loads(said)["warnings"]}
-
-
-@pytest.mark.shared
-def test_wheels_read_while_turning_need_a_lever(real, capsys):
-    code, _, why = run(
-        capsys, "fit", real / f"{EDWIN}-angular.json", "--straight", real / f"{EDWIN}.json",
-        "--mass", 55,
-    )  # fmt: skip
-
-    assert code == 2
-    assert "Give --lever as well: trackwidth/√2" in why
