@@ -11,7 +11,6 @@ from gain_styles import BODY, IMPORTS, PYTHON_BODY, PYTHON_STYLES, STYLES
 from grader.course_check import list_mistakes, solve
 from grader.exercise import Exercise
 from grader.robotcode.running import run_gains
-from sim.core.errors import UnreadableFile
 
 ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise10", ROOT / "exercises" / "exercise10")
@@ -345,21 +344,6 @@ def test_a_gain_in_the_code_and_in_the_motor_controller_is_a_double_feedforward(
     assert ("This is a double feedforward" in found.hint) == bool(double)
 
 
-@pytest.mark.parametrize("place", ["", *BOTH])
-def test_no_damage_to_a_file_brings_the_grader_down(tmp_path, place):
-    text = in_place("ann", place) if place else written("ann")
-    path = tmp_path / JAVA
-    for found in [*re.finditer(r"\w+|[^\w\s]", text)][1::15]:
-        for broken in (text[: found.start()] + text[found.end() :], text[: found.start()]):
-            path.write_text(broken, "utf-8")
-            try:
-                grade = OWN.grade(path, student="ann")
-            except UnreadableFile:
-                continue
-
-            assert "error" not in {one.status for one in grade.checks}
-
-
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_mistake_is_named_whatever_the_mechanism(checked, tmp_path, kind):
     student = of(kind=kind, duty=kind in KINDS[::2])
@@ -383,17 +367,14 @@ PID = "Constants.kA);\n  PIDController pid = new PIDController("
 @pytest.mark.parametrize(
     ("old", "new", "check", "points", "code"),
     [
-        ("{kV} / (2 * Math.PI)", "{kA}", "kv", 0, ""),
         ("{kV} / (2 * Math.PI)", "-{kV}", "kv", 0, ""),
         ("{kV} / (2 * Math.PI)", "{kV} / (2 * 3)", "kv", 0, ""),
         ("{kV} / (2 * Math.PI)", "{kV} * 60", "kv", 0, "M-UNITS"),
         ("{kV} / (2 * Math.PI)", "Elsewhere.kV", "kv", 0, ""),
         ("{kV} / (2 * Math.PI)", "Elsewhere.kV", "order", 0, ""),
         ("{kV} / (2 * Math.PI)", "{kV} / (1 / 0)", "feedforward", 0, ""),  # stops the robot
-        ("Constants.kS,", "Constants.kS * 6.3,", "order", 0, "M-UNITS"),
         (f"{C}kS,", "kick,", "feedforward", 0, ""),
         (", CharacterizationConstants.kA)", ")", "order", 1, ""),
-        (" / (2 * Math.PI); // where", " / 75.4; // where", "kp", 0.5, "M-DUTY"),
         ("Constants.kA);\n", f"{PID}0.0, {C}kP, 0.0);\n", "kp", 0.5, "M-ARGORDER"),
         ("Constants.kA);\n", f"{PID}6.2832 * {C}kP, 0, 0);\n", "kp", 0.5, "M-UNITS"),
     ],

@@ -22,9 +22,9 @@ def truth(student):
     return {one.name: one.expected for one in (*variant.asked.values(), variant.offset)}
 
 
-def test_fifty_students_can_solve_theirs_and_no_row_passes_for_horizontal(copy):
+def test_twenty_students_can_solve_theirs_and_no_row_passes_for_horizontal(copy):
     ways = set()
-    for number in range(50):
+    for number in range(20):
         student = f"student {number}"
         variant = OWN.module.draw(student)
         results = grade_answer(copy, student=student, **variant.found, **WORDS)
