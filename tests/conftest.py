@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from hypothesis import settings
+from small_course import lay_out
 
 # A machine may be busy: how long an example takes says nothing about whether it is right.
 settings.register_profile("course", deadline=None)
@@ -61,6 +62,26 @@ def browser():
         yield chromium
 
 
+@pytest.fixture(scope="module")
+def robot_code_once():
+    """Each robot program is run once: nothing in the answers beside it changes its run."""
+    from grader.robotcode import running  # noqa: PLC0415 - as above
+
+    run, kept = running._run, {}
+
+    def run_once(path, kind, mounts, **options):
+        beside = (one for one in sorted(path.parent.iterdir()) if one.suffix == path.suffix)
+        texts = tuple((one.name, one.read_bytes()) for one in beside)
+        key = (path.name, kind, repr(mounts), *options.items(), texts)
+        if key not in kept:
+            kept[key] = run(path, kind, mounts, **options)
+        return kept[key]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(running, "_run", run_once)
+        yield
+
+
 @pytest.fixture
 def reads(request, tmp_path):
     """Asserts that a text is the one that was kept for this test in ``tests/snapshots``.
@@ -96,3 +117,21 @@ def copy(request, tmp_path, monkeypatch):
     (tmp_path / "lessons").mkdir()
     monkeypatch.chdir(tmp_path)
     return type(own)(own.name, folder)
+
+
+@pytest.fixture
+def course(tmp_path, monkeypatch):
+    """A small course, in whose folder the command runs."""
+    lay_out(tmp_path)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.fixture
+def all_exercises(tmp_path, monkeypatch):
+    """A copy of the course's exercises, in whose folder the command runs."""
+    ignored = shutil.ignore_patterns("data", "__pycache__")
+    shutil.copytree(ROOT / "exercises", tmp_path / "exercises", ignore=ignored)
+    (tmp_path / "lessons").mkdir()
+    monkeypatch.chdir(tmp_path)
+    return tmp_path

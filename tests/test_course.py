@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from small_course import HALF, RIGHT, answer, lay_out
+from small_course import HALF, RIGHT, answer
 
 from grader.cli import run_command
 from grader.course import PLACE, Progress, Standing, find_course, load_progress, update_progress
@@ -19,14 +19,6 @@ from sim.support.atomic_file import make_private_folder, write_atomically
 from sim.support.student_names import check_student_name, make_folder_name
 
 ROOT = Path(__file__).resolve().parents[1]
-
-
-@pytest.fixture
-def course(tmp_path, monkeypatch):
-    """A small course, in whose folder the command runs."""
-    lay_out(tmp_path)
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
 
 
 def test_the_best_score_is_kept(course, capsys):

@@ -3,19 +3,13 @@
 from pathlib import Path
 
 import pytest
+from answer_grades import grade_answer
 
 from grader.exercise import Exercise
 
 ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise1", ROOT / "exercises" / "exercise1")
 CLASS = [f"student {number}" for number in range(50)]
-
-
-def graded(copy, text, check, *, student="ann"):
-    (copy.folder / "answers.toml").write_text(text, "utf-8")
-    results = copy.grade(None, student=student).checks
-    (found,) = (one for one in results if one.id == check)
-    return found
 
 
 def test_fifty_students_get_budgets_of_every_kind_whose_sum_is_told_apart_from_every_slip():
@@ -40,7 +34,7 @@ def test_fifty_students_get_budgets_of_every_kind_whose_sum_is_told_apart_from_e
 def test_the_unit_may_be_written_in_many_ways(copy, written):
     unit = written.format(OWN.module.draw("ann").symbol)
 
-    assert graded(copy, f'kV_unit = "{unit}"', "kv-unit").status == "passed"
+    assert grade_answer(copy, f'kV_unit = "{unit}"')["kv-unit"].status == "passed"
 
 
 @pytest.mark.parametrize(
@@ -63,7 +57,7 @@ def test_the_unit_may_be_written_in_many_ways(copy, written):
     ],
 )
 def test_what_is_no_unit_of_kv_is_told_why(copy, written, points, reads):
-    found = graded(copy, f"kV_unit = {written}", "kv-unit")
+    found = grade_answer(copy, f"kV_unit = {written}")["kv-unit"]
 
     assert (found.status, found.points) == ("failed", points)
     reads(f"got {found.seen}\ntry {found.hint}")
@@ -74,15 +68,8 @@ def test_the_term_may_be_written_in_many_ways(copy, written):
     gain = OWN.module.draw("ann").largest
     word = written.format(gain, {"kV": "v", "kA": "a"}[gain])
 
-    assert graded(copy, f'largest = "{word}"', "largest").status == "passed"
-    assert graded(copy, f'LARGEST = "{word.upper()}"', "largest").status == "passed"
-
-
-@pytest.mark.parametrize("written", ['"kV and kA"', '"kVkA"', "[1]", "true", '"kG"', '"all"'])
-def test_what_is_no_term_gets_the_words_to_choose_from(copy, written):
-    found = graded(copy, f"largest = {written}", "largest")
-
-    assert (found.status, found.hint) == ("failed", "Choose one of: kS, kV, kA.")
+    assert grade_answer(copy, f'largest = "{word}"')["largest"].status == "passed"
+    assert grade_answer(copy, f'LARGEST = "{word.upper()}"')["largest"].status == "passed"
 
 
 def test_a_comma_and_another_unit_of_voltage_will_do(copy):
@@ -90,28 +77,21 @@ def test_a_comma_and_another_unit_of_voltage_will_do(copy):
     comma = f"{volts:.3f}".replace(".", ",")
 
     for text in (f'"{comma}"', f'"{comma} V"', f'"{1000 * volts:.0f} mV"'):
-        assert graded(copy, f"forward = {text}", "forward").status == "passed"
+        assert grade_answer(copy, f"forward = {text}")["forward"].status == "passed"
 
 
 @pytest.mark.parametrize("student", CLASS[:12])
-def test_a_wrong_sign_or_a_missing_term_is_named(copy, student):
-    """Of the whole voltage, of friction alone, of kV·v, and a voltage beyond any battery."""
+def test_a_speed_left_out_a_voltage_beyond_any_battery_and_swapped_gains_are_named(copy, student):
     variant = OWN.module.draw(student)
-    friction, speed, _ = variant.terms("backward")
     kick, _, push = variant.terms("accelerating")
-    at = variant.moments["braking"]
-    crossed = variant.gains["kV"] * at.acceleration + variant.gains["kA"] * at.velocity
-    crossed += variant.gains["kS"]
+    gains, at = variant.gains, variant.moments["braking"]
+    crossed = gains["kS"] + gains["kV"] * at.acceleration + gains["kA"] * at.velocity
     cases = (
-        ("backward", speed - friction, "friction opposes the motion"),
-        ("backward", -(speed + friction), "v is negative"),
         ("accelerating", kick + push, "kV·v is missing"),
         ("forward", 243.5, "no battery"),
         ("braking", crossed, "did you swap kV and kA?"),
     )
     for name, volts, says in cases:
-        found = graded(copy, f"{name} = {volts:.4f}", name, student=student)
+        found = grade_answer(copy, student=student, **{name: f"{volts:.4f}"})[name]
 
         assert says in found.hint, (name, volts)
-    turned = graded(copy, f"backward = {speed - friction:.4f}", "backward", student=student)
-    assert "the sign is wrong. Moving backward, v" not in turned.hint

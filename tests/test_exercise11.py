@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from answer_grades import grade_answer
 
 from grader.answers.answer_key import load_answer_key
 from grader.cli import run_command
@@ -25,13 +26,6 @@ KEY = load_answer_key(OWN.module.__name__)
 DRAWN = sys.modules[KEY.draw.__module__]
 QUESTIONS = KEY.QUESTIONS
 POINTS = 12 * 1 + 3 * (2 + 2) + 1 + 7 * (1 + 1)  # short questions, knowledge checks, voltage, table
-
-
-def grade_answer(exercise, *, student="ann", **answers):
-    """The results of an answer, by check."""
-    path = exercise.folder / "answers.toml"
-    path.write_text("".join(f'{name} = "{value}"\n' for name, value in answers.items()), "utf-8")
-    return {check.id: check for check in exercise.grade(path, student=student).checks}
 
 
 def letter(student, name, words):

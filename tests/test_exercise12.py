@@ -13,6 +13,7 @@ from grader.exercise import Exercise
 from sim.bench.mechanisms import MECHANISMS
 from sim.core.units import find_unit
 from sim.physics.effects import find_effect
+from sim.reconcile import reconcile
 
 pytestmark = pytest.mark.slow
 
@@ -228,3 +229,17 @@ def test_gaps_that_were_made_up_cost_half_a_point(tmp_path):
     text = re.sub(r"gap_before = .*", "gap_before = 900", truth("ada"))
 
     assert grade_answer(text, "ada", tmp_path)["held-out"].points == 2.5
+
+
+def test_reconcile_has_the_same_gap_and_the_same_first_effect():
+    variant = ROOM.draw("student 10")
+    story = reconcile(
+        variant.log, validation=variant.validation, held_out=variant.held_out, type="simple"
+    )
+    hand = variant.make_search()
+    fits = {"gap_before": hand.fit(), "gap_after": hand.fit(variant.hidden)}
+
+    assert [one.effect for one in story.findings] == [*variant.hidden]
+    for name, point in fits.items():
+        gap = getattr(story, name) / story.noise_floor
+        assert hand.measure_gap(point, "held_out") == pytest.approx(gap, rel=0.02)

@@ -6,6 +6,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
+from answer_grades import grade_answer
 
 from grader.exercise import Exercise
 from sim.bench.slip import compute_slip_voltage
@@ -28,12 +29,6 @@ TWO = CLASS[:2]
 def data_of(exercise, student):
     exercise.prepare(student, say=lambda _: None)
     return exercise.folder / "data" / make_folder_name(student)
-
-
-def grade_answer(exercise, text, student):
-    path = exercise.folder / "answers.toml"
-    path.write_text(text, "utf-8")
-    return {check.id: check for check in exercise.grade(path, student=student).checks}
 
 
 def test_between_them_they_get_every_motor_and_every_worn_module():
@@ -85,7 +80,7 @@ def test_gains_of_the_wrong_log_are_named(copy, student):
     turning = read(data_of(copy, student) / "turning.wpilog", entries=GYRO)
     ks = fit(turning).in_units("radians").gains["kS"]
 
-    graded = grade_answer(copy, f"kS = {ks:.5g}", student)["ks"]
+    graded = grade_answer(copy, f"kS = {ks:.5g}", student=student)["ks"]
 
     assert "this is the kS of turning on the spot" in graded.hint
 
@@ -117,7 +112,7 @@ def test_a_lever_may_be_written_in_many_ways(copy, line, status):
     lever = OWN.module.draw("ann").asked["lever"].expected
     text = line.format(f"{lever:.4f}", f"{100 * lever:.2f}")
 
-    assert grade_answer(copy, text, "ann")["lever"].status == status
+    assert grade_answer(copy, text)["lever"].status == status
 
 
 @pytest.mark.parametrize("unit", ["kg·m²", "kg m^2", "kg*m2", "kilogram meter squared"])
@@ -125,11 +120,9 @@ def test_an_inertia_may_have_its_unit(copy, unit):
     inertia = OWN.module.draw("ann").asked["inertia"].expected
     wanted = "passed" if unit != "kg*m2" else "failed"  # m2 is no way to write a square
 
-    assert (
-        grade_answer(copy, f'inertia = "{inertia:.4f} {unit}"', "ann")["inertia"].status == wanted
-    )
+    assert grade_answer(copy, inertia=f"{inertia:.4f} {unit}")["inertia"].status == wanted
 
 
 @pytest.mark.parametrize("word", ["rad/s", "Radians per second", "radians_per_second"])
 def test_the_unit_of_a_rate_may_be_written_in_many_ways(copy, word):
-    assert grade_answer(copy, f'rate_unit = "{word}"', "ann")["rate-unit"].status == "passed"
+    assert grade_answer(copy, rate_unit=word)["rate-unit"].status == "passed"

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from answer_grades import grade_answer
 
 from grader.answers.answer_key import load_answer_key
 from grader.check import WrongAnswer
@@ -25,21 +26,6 @@ OWN = Exercise("exercise2", ROOT / "exercises" / "exercise2")
 KEY = load_answer_key(OWN.module.__name__)
 CLASS = [f"student {number}" for number in range(50)]
 GOOD = ["gear-ratio", "wheel-size", "logged-voltage", "dragging-belt"]  # for a sound mechanism
-
-
-def graded(exercise, *, student="ann", **answers):
-    """The results of an answer, by check."""
-    path = exercise.folder / "answers.toml"
-    lines = (f"{name} = {toml(value)}\n" for name, value in answers.items())
-    path.write_text("".join(lines), "utf-8")
-    return {check.id: check for check in exercise.grade(path, student=student).checks}
-
-
-def toml(value):
-    """A value as TOML has it: lists of words, words and numbers."""
-    if isinstance(value, list):
-        return "[" + ", ".join(f'"{one}"' for one in value) + "]"
-    return f'"{value}"'
 
 
 def causes(variant):
@@ -66,7 +52,7 @@ def test_either_formula_will_do_for_everybody(copy):
     for student in CLASS:
         variant = OWN.module.draw(student)
         for theory in variant.theories:
-            results = graded(copy, student=student, **right(variant, theory))
+            results = grade_answer(copy, student=student, **right(variant, theory))
 
             assert {check.status for check in results.values()} == {"passed"}
             assert sum(check.points for check in results.values()) == 11
@@ -145,7 +131,7 @@ def test_a_list_may_be_written_in_many_ways(copy, written, status):
 def test_a_difference_that_follows_from_a_wrong_theory_earns_half(copy, times):
     variant = OWN.module.draw("ann")
     wrong = variant.parts.theoretical_kv * times
-    found = graded(copy, kV_theory=wrong, difference=variant.percent(wrong))
+    found = grade_answer(copy, kV_theory=wrong, difference=variant.percent(wrong))
 
     assert found["kv-theory"].points == 0
     assert (found["difference"].points, found["difference"].status) == (1, "failed")
@@ -156,15 +142,15 @@ def test_a_percentage_may_be_written_in_many_ways(copy, written):
     variant = OWN.module.draw("ann")
     text = written.format(variant.percent(variant.parts.theoretical_kv))
 
-    assert graded(copy, difference=text)["difference"].status == "passed"
-    assert graded(copy, difference=text.replace(".", ","))["difference"].status == "passed"
+    assert grade_answer(copy, difference=text)["difference"].status == "passed"
+    assert grade_answer(copy, difference=text.replace(".", ","))["difference"].status == "passed"
 
 
 @pytest.mark.parametrize("given", ["bookkeeping", "ok", "watch", "inspect"])
 def test_a_wrong_verdict_is_not_told_the_right_one(copy, given):
     for student in CLASS[:12]:
         verdict = OWN.module.draw(student).verdict
-        found = graded(copy, student=student, verdict=given)["verdict"]
+        found = grade_answer(copy, student=student, verdict=given)["verdict"]
 
         assert (found.status == "passed") == (given == verdict)
         assert verdict not in found.hint
@@ -178,7 +164,7 @@ def test_every_slip_on_paper_is_named_for_everybody(copy):
         units = [1 / 60, 60.0, 6.2832]
         gearing = [1 / parts.ratio, *([0.5, 2.0, math.pi] if parts.diameter else [])]
         for times in units + gearing:
-            found = graded(copy, student=student, kV_theory=parts.theoretical_kv * times)
+            found = grade_answer(copy, student=student, kV_theory=parts.theoretical_kv * times)
 
             code = "M-UNITS" if times in units else "M-GEARING"
             assert found["kv-theory"].misconception == code, (student, times)
@@ -189,7 +175,7 @@ def test_a_theory_in_another_unit_is_converted(copy):
     paper = OWN.module.draw(student).parts.theoretical_kv
 
     in_radians = f"{paper / 6.283185:.5f} V·s/rad"
-    assert graded(copy, student=student, kV_theory=in_radians)["kv-theory"].status == "passed"
+    assert grade_answer(copy, student=student, kV_theory=in_radians)["kv-theory"].status == "passed"
 
 
 def situations():
@@ -260,9 +246,11 @@ def test_volts_for_each_radian_and_a_counted_motor_are_named(copy):
         parts = OWN.module.draw(student).parts
         if parts.diameter:
             value = parts.theoretical_kv * parts.diameter / 2.0
-            found = graded(copy, student=student, kV_theory=value)["kv-theory"]
+            found = grade_answer(copy, student=student, kV_theory=value)["kv-theory"]
             assert "How far does it go in one radian?" in found.hint, student
-            half = graded(copy, student=student, kV_theory=parts.theoretical_kv / 2.0)["kv-theory"]
+            half = grade_answer(copy, student=student, kV_theory=parts.theoretical_kv / 2.0)[
+                "kv-theory"
+            ]
             assert ("do not turn faster than one" in half.hint) == (parts.motors == 2), student
 
 
@@ -272,14 +260,14 @@ def test_a_verdict_that_follows_from_a_wrong_difference_is_told_to_correct_that_
     theory = variant.measured / 1.5  # a theory that is much too small
     answers = {"kV_theory": theory, "difference": 50.0, "verdict": "inspect"}
 
-    found = graded(copy, student=student, **answers)["verdict"]
+    found = grade_answer(copy, student=student, **answers)["verdict"]
     assert found.status == "failed"
     assert "your verdict fits your difference" in found.hint
     assert "Correct kV_theory first" in found.hint
     assert found.misconception == ""
 
     answers["kV_theory"] = variant.parts.theoretical_kv
-    assert "Correct it first" in graded(copy, student=student, **answers)["verdict"].hint
+    assert "Correct it first" in grade_answer(copy, student=student, **answers)["verdict"].hint
 
 
 def test_a_duty_cycle_logged_as_commanded_on_a_weak_battery_changes_gains_as_stated():

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import pytest
+from answer_grades import grade_answer
 
 from grader.exercise import Exercise
 
@@ -16,22 +17,14 @@ WORDS = {
 }
 
 
-def grade_answer(exercise, *, student="ann", **answers):
-    """The results of an answer, by check."""
-    path = exercise.folder / "answers.toml"
-    quoted = (f'{name} = "{value}"\n' for name, value in answers.items())
-    path.write_text("".join(quoted), "utf-8")
-    return {check.id: check for check in exercise.grade(path, student=student).checks}
-
-
 def truth(student):
     variant = OWN.module.draw(student)
     return {one.name: one.expected for one in (*variant.asked.values(), variant.offset)}
 
 
-def test_fifty_students_can_solve_theirs_and_no_row_passes_for_horizontal(copy):
+def test_twenty_students_can_solve_theirs_and_no_row_passes_for_horizontal(copy):
     ways = set()
-    for number in range(50):
+    for number in range(20):
         student = f"student {number}"
         variant = OWN.module.draw(student)
         results = grade_answer(copy, student=student, **variant.found, **WORDS)

@@ -20,16 +20,6 @@ JAVA, PYTHON = "ExampleSubsystem.java", "example_subsystem.py"
 EXERCISE = Exercise("exercise4", ROOT / "exercises" / "exercise4")
 
 
-@pytest.fixture
-def real(tmp_path, monkeypatch):
-    """A copy of the course's own exercises, in whose folder the command runs."""
-    ignored = shutil.ignore_patterns("data", "__pycache__")
-    shutil.copytree(ROOT / "exercises", tmp_path / "exercises", ignore=ignored)
-    (tmp_path / "lessons").mkdir()
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
-
-
 @pytest.mark.parametrize(
     ("content", "said"),
     [
@@ -42,8 +32,8 @@ def real(tmp_path, monkeypatch):
     ],
     ids=["empty", "blank", "10 MB", "binary", "picture", "syntax"],
 )
-def test_a_file_that_is_no_code_is_refused_with_advice(real, capsys, content, said):
-    (real / "exercises" / "exercise4" / JAVA).write_bytes(content)
+def test_a_file_that_is_no_code_is_refused_with_advice(all_exercises, capsys, content, said):
+    (all_exercises / "exercises" / "exercise4" / JAVA).write_bytes(content)
 
     assert run_command(["exercise4", f"exercises/exercise4/{JAVA}"]) == 2
     out, err = capsys.readouterr()
@@ -52,8 +42,8 @@ def test_a_file_that_is_no_code_is_refused_with_advice(real, capsys, content, sa
     assert err.count("\n") == 1
 
 
-def test_without_a_file_the_better_starter_is_graded_and_named(real, capsys):
-    folder = real / "exercises" / "exercise4"
+def test_without_a_file_the_better_starter_is_graded_and_named(all_exercises, capsys):
+    folder = all_exercises / "exercises" / "exercise4"
     solutions = ROOT / "solutions" / "exercise4"
     assert run_command(["4"]) == 1
     assert JAVA in capsys.readouterr().out.splitlines()[0]
@@ -89,8 +79,8 @@ LESSON = (ROOT / "tests" / "robotcode" / "DriveSubsystem.java").read_text("utf-8
 @pytest.mark.parametrize(
     ("step", "code", "score"), [("3.0", 1, 14), ("3.5", 0, 15)], ids=["example", "practice"]
 )
-def test_the_source_lesson_to_the_letter(real, capsys, step, code, score):
-    (real / "DriveSubsystem.java").write_text(
+def test_the_source_lesson_to_the_letter(all_exercises, capsys, step, code, score):
+    (all_exercises / "DriveSubsystem.java").write_text(
         LESSON.replace("Volts.of(3.0)", f"Volts.of({step})"), "utf-8"
     )
 
@@ -116,12 +106,12 @@ def test_the_source_lesson_to_the_letter(real, capsys, step, code, score):
         ("Seconds.of(10)", "null", "a default may change"),
     ],
 )
-def test_what_is_right_in_another_way_passes_with_a_note(real, capsys, old, new, note):
+def test_what_is_right_in_another_way_passes_with_a_note(all_exercises, capsys, old, new, note):
     text = (ROOT / "solutions" / "exercise4" / JAVA).read_text("utf-8")
     assert old in text
     imported = "import com.ctre.phoenix6.controls.VoltageOut;\nimport com.ctre"
     text = text.replace(old, new).replace("import com.ctre", imported, 1)
-    (real / "Mine.java").write_text(text, "utf-8")
+    (all_exercises / "Mine.java").write_text(text, "utf-8")
 
     assert run_command(["4", "Mine.java"]) == 0
     assert note in " ".join(capsys.readouterr().out.split())
@@ -359,8 +349,10 @@ def test_corpus_of_whole_programs_is_judged_right(shared):
     ],
     ids=["bare", "comment", "no-arguments", "nulls", "long", "letters"],
 )
-def test_code_without_a_routine_gets_few_points_and_no_traceback(real, capsys, content, code):
-    path = real / "A.java"
+def test_code_without_a_routine_gets_few_points_and_no_traceback(
+    all_exercises, capsys, content, code
+):
+    path = all_exercises / "A.java"
     path.write_text(content, "utf-8")
 
     assert run_command(["exercise4", "A.java", "--json"]) == code

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from answer_grades import grade_answer
 
 from grader.answers.answer_key import load_answer_key
 from grader.cli import run_command
@@ -31,21 +32,6 @@ CLASS = [f"student {number}" for number in range(50)]
 KINDS = ("drivetrain", "elevator", "turret", "shooter")
 STEPS = ["wire-routine", "run-tests", "inspect-and-fit", "place-gains"]
 UNITS = {"m": "meters", "rot": "rotations"}
-
-
-def grade_answer(exercise, *, student="ann", **answers):
-    """The results of an answer, by check."""
-    path = exercise.folder / "answers.toml"
-    lines = (f"{name} = {toml(value)}\n" for name, value in answers.items())
-    path.write_text("".join(lines), "utf-8")
-    return {check.id: check for check in exercise.grade(path, student=student).checks}
-
-
-def toml(value):
-    """A value as TOML has it: lists of words, words and numbers."""
-    if isinstance(value, list):
-        return "[" + ", ".join(f'"{one}"' for one in value) + "]"
-    return f'"{value}"'
 
 
 def written(kind, plan):

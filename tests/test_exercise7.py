@@ -2,7 +2,6 @@
 
 import importlib.util
 import re
-import shutil
 import subprocess
 import sys
 from collections import Counter
@@ -116,11 +115,9 @@ def test_repeated_readings_that_are_taken_for_something_else_are_told(
     reads(check.hint)
 
 
-def test_the_files_hold_the_logs_and_not_the_answers(tmp_path):
-    folder = tmp_path / "exercises" / "exercise7"
-    shutil.copytree(OWN.folder, folder, ignore=shutil.ignore_patterns("data", "__pycache__"))
-    said = []
-    Exercise("exercise7", folder).prepare("ann", say=said.append)
+def test_the_files_hold_the_logs_and_not_the_answers(copy):
+    said, folder = [], copy.folder
+    copy.prepare("ann", say=said.append)
     files = sorted((folder / "data" / "ann").iterdir())
 
     assert len(files) == 24
@@ -225,10 +222,9 @@ def test_calling_all_logs_clean_or_all_the_same_earns_little(tmp_path):
         assert graded(tmp_path, [line] * 12).score <= 8
 
 
-def test_a_log_is_drawn_whole_and_close_up(tmp_path):
-    folder = tmp_path / "exercises" / "exercise7"
-    shutil.copytree(OWN.folder, folder, ignore=shutil.ignore_patterns("data", "__pycache__"))
-    Exercise("exercise7", folder).prepare("ann", say=lambda _: None)
+def test_a_log_is_drawn_whole_and_close_up(copy):
+    folder = copy.folder
+    copy.prepare("ann", say=lambda _: None)
 
     def look(*arguments):
         return subprocess.run(

@@ -20,7 +20,7 @@ from grader.course_check import (
 from grader.exercise import list_exercises
 from grader.starter import remove_answers
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("robot_code_once")]
 
 ROOT = find_course(Path(__file__).resolve().parent)
 EXERCISES = {one.name: one for one in list_exercises(ROOT)}

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from small_course import HALF, RIGHT, answer, lay_out
+from small_course import HALF, RIGHT, answer
 
 from grader.cli import run_command
 from grader.course import Standing
@@ -15,14 +15,6 @@ from grader.exercise import find_exercise
 from grader.report import SPOKEN, find_next_step, format_checks
 
 ROOT = Path(__file__).resolve().parents[1]
-
-
-@pytest.fixture
-def course(tmp_path, monkeypatch):
-    """A small course, in whose folder the command runs."""
-    lay_out(tmp_path)
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
 
 
 @pytest.mark.parametrize(

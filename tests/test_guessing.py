@@ -9,7 +9,7 @@ import pytest
 from grader.course import find_course
 from grader.exercise import list_exercises
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("robot_code_once")]
 
 MOST = 1 / 3  # [share] of an exercise that one word everywhere may earn, on average over students
 CHANCE = 0.5  # [share] of a check that the words it can read earn on average: a coin

@@ -9,17 +9,15 @@ from pathlib import Path
 import pytest
 
 from grader.answers.submission import read_answers
-from grader.course_check import solve
+from grader.course_check import prepare_solved
 from grader.exercise import list_exercises
 from sim.core.errors import UnreadableFile
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("robot_code_once")]
 
 ROOT = Path(__file__).resolve().parents[1]
 STUDENT = "ann"
 ANSWERED_IN_TOML = [one for one in list_exercises(ROOT) if "answers.toml" in one.files]
-# Of the values, one in so many is tried for each key; all of them are for all keys together.
-SLOW = {"practice": 24, "exercise12": 5}
 PATIENCE = 5.0  # [s] of the processor for one answer, the first one of a process left out
 # Values that say what an answer may be, in whatever way they are written: they may earn points.
 MEANT = {
@@ -55,14 +53,12 @@ TOO_LONG = {
 def answered(tmp_path_factory):
     """The right answer of an exercise, in a folder of its own: the folder and the text."""
 
+    @cache
     def written(one):
-        place = tmp_path_factory.mktemp(one.name)
-        one.prepare(STUDENT, say=lambda _: None)
-        for name, text in solve(
-            one, one.folder / "data" / STUDENT, solution=ROOT / "solutions" / one.name
-        ).items():
-            (place / name).write_text(text, encoding="utf-8")
-        return place, (place / "answers.toml").read_text(encoding="utf-8")
+        solved = prepare_solved(one, STUDENT, tmp_path_factory.mktemp(one.name))
+        for name, text in solved.right.items():
+            (solved.exercise.folder / name).write_text(text, encoding="utf-8")
+        return solved.exercise.folder, solved.right["answers.toml"]
 
     return written
 
@@ -82,17 +78,9 @@ def may_earn(one, key, value):
     return value == ONE or (one.name, part, value) in MEANT
 
 
-def run_code_once(one, monkeypatch):
-    """Run each file of practice's robot code once: no value in ``answers.toml`` changes it."""
-    for room in ("FOURTH", "FIFTH", "TENTH"):
-        if (other := getattr(one.module, room, None)) is not None:
-            monkeypatch.setattr(other, "read", cache(other.read))
-
-
 @pytest.mark.parametrize("one", ANSWERED_IN_TOML, ids=lambda one: one.name)
-def test_no_value_earns_a_point_breaks_a_check_or_takes_long(one, answered, monkeypatch):
+def test_no_value_earns_a_point_breaks_a_check_or_takes_long(one, answered):
     place, right = answered(one)
-    run_code_once(one, monkeypatch)
 
     def grade(key, line, value):
         text = line.sub(lambda _: f"{key} = {value}", right)
@@ -101,10 +89,9 @@ def test_no_value_earns_a_point_breaks_a_check_or_takes_long(one, answered, monk
         return one.grade(place, student=STUDENT, run=False), time.process_time() - begun
 
     assert len(VALUES) >= 60
-    every = SLOW.get(one.name, 1)
-    for place_of_key, (key, line) in enumerate(single_lines(right)):
+    for key, line in single_lines(right):
         unanswered, _ = grade(key, line, '""')
-        for value in VALUES[place_of_key % every :: every]:
+        for value in VALUES:
             found, seconds = grade(key, line, value)
             broken = [check.seen for check in found.checks if check.status == "error"]
 

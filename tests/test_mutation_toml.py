@@ -1,62 +1,37 @@
 """A solved answers.toml with one mistake loses points and says why, or is a listed right answer."""
 
-import fnmatch
-import re
-import sys
-import tomllib
-from pathlib import Path
-
 import pytest
+from mutation.report import legal_variants, survey
+from mutation.toml_answers import EXERCISES, FILE, mutants
 
-HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE))
-
-from mutation.answers import answer, judge  # noqa: E402 - the path is set above
-from mutation.mutant import Mutant  # noqa: E402 - the same
-from mutation.toml_answers import EXERCISES, mutants  # noqa: E402 - the same
-from mutation.toml_operators import changes_of  # noqa: E402 - the same
-
-pytestmark = pytest.mark.slow
-
-LEGAL = tomllib.loads((HERE / "mutation" / "legal_toml.toml").read_text("utf-8"))["legal"]
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("robot_code_once")]
 
 
-def covers(row, mutant):
-    names = ("exercise", "file", "operator")
-    if not all(fnmatch.fnmatch(getattr(mutant, name), row[name]) for name in names):
-        return False
-    return re.search(row["line"], mutant.text.splitlines()[mutant.line - 1]) is not None
+@pytest.fixture(scope="module")
+def made():
+    """Every mutant."""
+    return list(mutants())
 
 
-def survivors(some, folder):
-    """The mutants that neither lose points with advice nor are listed."""
-    for mutant in some:
-        verdict = judge(mutant, folder)
-        if not verdict.killed and not any(covers(row, mutant) for row in LEGAL):
-            yield mutant.exercise, mutant.operator, mutant.line, verdict.said
+@pytest.fixture(scope="module")
+def report(made, robot_code_once):  # noqa: ARG001 - before practice is graded
+    """What became of the mutants."""
+    return survey(made)
 
 
-def test_there_are_several_hundred_mutants_of_every_kind():
-    found = list(mutants())
-
-    assert len(found) > 1500
-    assert {one.exercise for one in found} == set(EXERCISES)
-    assert len({one.operator for one in found}) >= 30
+def test_there_are_several_hundred_mutants_of_every_kind(made):
+    assert len(made) > 1500
+    assert {one.exercise for one in made} == set(EXERCISES)
+    assert len({one.operator for one in made}) >= 30
 
 
-@pytest.mark.parametrize("name", EXERCISES)
-def test_every_mutant_loses_points_with_advice_or_is_listed(name, tmp_path):
-    made = changes_of(answer(name)["answers.toml"])
-    each = 8 if name == "practice" else 1  # its robot programs run with each of them
-    some = [Mutant(name, "answers.toml", *change) for change in list(made)[::each]]
+def test_every_mutant_loses_points_with_advice_or_is_listed(report):
+    left = [(one.exercise, one.operator, one.line, said.said) for one, said in report.survivors]
 
-    assert list(survivors(some, tmp_path)) == []
+    assert left == []
 
 
-def test_every_listed_right_answer_is_one_and_has_its_reason(tmp_path):
+def test_every_listed_right_answer_is_one_and_has_its_reason(report):
     """A listed kind of mutant that always loses points is stale."""
-    made = list(mutants())
-    for row in LEGAL:
-        assert len(row["reason"]) > 20
-        mine = (one for one in made if covers(row, one))
-        assert any(not judge(one, tmp_path).killed for one in mine), row
+    assert all(len(one.reason) > 10 for one in legal_variants())
+    assert [one for one in report.stale if one.file == FILE] == []

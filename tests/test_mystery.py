@@ -1,6 +1,6 @@
 """``grade mystery``: fresh logs with a hidden trouble, graded as exercises 7 and 12 do."""
 
-import shutil
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -19,21 +19,12 @@ from grader.student_data.variant import use_class_secret
 from sim.io import read
 
 ROOT = Path(__file__).resolve().parents[1]
-SEEDS = range(20)
 FAULTS, EFFECTS = 1, 2  # the numbers of mysteries whose turn it is
+SEEDS = {FAULTS: range(20), EFFECTS: range(HIGHEST)}  # to draw effects takes seconds
 
 
-@pytest.fixture
-def course(tmp_path, monkeypatch):
-    """A copy of the course's exercises, in whose folder the command runs."""
-    ignored = shutil.ignore_patterns("data", "__pycache__")
-    shutil.copytree(ROOT / "exercises", tmp_path / "exercises", ignore=ignored)
-    (tmp_path / "lessons").mkdir()
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
-
-
-def drawn(number, seed, level=1):
+@cache
+def drawn(number, seed, level):
     return draw_mystery(ROOT, MysteryState(number, level, seed))
 
 
@@ -42,8 +33,8 @@ def grade_answer(mystery, answer):
 
 
 @pytest.mark.parametrize("number", [FAULTS, EFFECTS])
-def test_the_right_answer_to_twenty_mysteries_earns_everything_and_a_wrong_one_never(number):
-    for seed in SEEDS:
+def test_the_right_answer_to_a_mystery_earns_everything_and_a_wrong_one_never(number):
+    for seed in SEEDS[number]:
         mystery = drawn(number, seed, level=1 + seed % HIGHEST)
         wrong = "sign-flip, whole, rerun" if number == FAULTS else "hysteresis"
 
@@ -54,9 +45,9 @@ def test_the_right_answer_to_twenty_mysteries_earns_everything_and_a_wrong_one_n
 
 
 def test_the_same_seed_draws_the_same_mystery_whatever_the_class():
-    free = drawn(FAULTS, 3)
+    free = drawn(FAULTS, 3, 1)
     with use_class_secret(b"a class"):
-        bound = drawn(FAULTS, 3)
+        bound = drawn.__wrapped__(FAULTS, 3, 1)
 
     assert free.solution == bound.solution
     for one, other in zip(free.logs["log"].runs, bound.logs["log"].runs, strict=True):
@@ -64,7 +55,8 @@ def test_the_same_seed_draws_the_same_mystery_whatever_the_class():
 
 
 def test_a_fault_in_the_wrong_place_earns_a_part_and_says_so():
-    mystery = next(one for one in (drawn(FAULTS, seed) for seed in SEEDS) if " to " in one.solution)
+    every = (drawn(FAULTS, seed, 1) for seed in SEEDS[FAULTS])
+    mystery = next(one for one in every if " to " in one.solution)
     fault, test, _, action = mystery.solution.split(", ")
     result = grade_answer(mystery, f"{fault}, {test}, 0 to 0.02, {action}")
 
@@ -73,19 +65,19 @@ def test_a_fault_in_the_wrong_place_earns_a_part_and_says_so():
 
 
 def test_two_effects_in_the_wrong_order_keep_the_points_for_the_names():
-    mystery = drawn(EFFECTS, 1, level=3)
+    mystery = drawn(EFFECTS, 2, level=3)
     first, second = mystery.solution.split(", ")
     result = grade_answer(mystery, f"{second} {first}")
 
     assert [one.status for one in result.checks] == ["failed", "passed"]
 
 
-def test_a_mystery_is_drawn_answered_and_the_next_one_is_harder(course, capsys):
-    folder = find_mystery_folder(course, "ann")
+def test_a_mystery_is_drawn_answered_and_the_next_one_is_harder(all_exercises, capsys):
+    folder = find_mystery_folder(all_exercises, "ann")
     assert run_command(["mystery", "--student", "ann"]) == 0
     task = capsys.readouterr().out
     state = load_state(folder)
-    mystery = draw_mystery(course, state)
+    mystery = draw_mystery(all_exercises, state)
     assert "Mystery 1, level 1 of 5: log.wpilog in mystery/ann" in task
     assert task.splitlines()[-1].startswith("Next: grade mystery ")
     assert read(folder / "log.wpilog").runs
@@ -102,11 +94,11 @@ def test_a_mystery_is_drawn_answered_and_the_next_one_is_harder(course, capsys):
     assert {one.name for one in folder.glob("*.wpilog")} == {"log.wpilog", "validation.wpilog"}
 
 
-def test_giving_up_shows_the_answer_and_the_next_one_is_easier(course, capsys):
-    folder = find_mystery_folder(course, "me")
+def test_giving_up_shows_the_answer_and_the_next_one_is_easier(all_exercises, capsys):
+    folder = find_mystery_folder(all_exercises, "me")
     run_command(["mystery"])
     (folder / "mystery.toml").write_text("number = 7\nlevel = 3\nseed = 5\n", "utf-8")
-    mystery = draw_mystery(course, load_state(folder))
+    mystery = draw_mystery(all_exercises, load_state(folder))
     capsys.readouterr()
 
     assert run_command(["mystery", "--give-up"]) == 0
@@ -123,20 +115,20 @@ def test_a_damaged_file_begins_anew(tmp_path, text):
     assert load_state(tmp_path) == MysteryState()
 
 
-def test_an_answer_without_a_mystery_is_one_line(course, capsys):
-    assert course.is_dir()
+def test_an_answer_without_a_mystery_is_one_line(all_exercises, capsys):
+    assert all_exercises.is_dir()
     assert run_command(["mystery", "clean"]) == 2
     assert "Draw one: grade mystery" in capsys.readouterr().err
 
 
 def test_levels_get_harder():
-    single = [drawn(EFFECTS, seed, level=1).solution.split(", ") for seed in SEEDS]
-    several = [drawn(EFFECTS, seed, level=HIGHEST).solution.split(", ") for seed in SEEDS]
-    easy = {drawn(FAULTS, seed, level=1).solution.split(",")[0] for seed in SEEDS}
-    hard = {drawn(FAULTS, seed, level=HIGHEST).solution.split(",")[0] for seed in SEEDS}
+    several = [drawn(EFFECTS, seed, level=1 + seed).solution for seed in SEEDS[EFFECTS]]
+    easy, hard = (
+        {drawn(FAULTS, seed, level).solution.split(",")[0] for seed in SEEDS[FAULTS]}
+        for level in (1, HIGHEST)
+    )
 
-    assert {len(one) for one in single} == {1}
-    assert {len(one) for one in several} == {3}
+    assert [len(one.split(", ")) for one in several] == [1, 1, 2, 2, 3]
     assert easy <= {"encoder-slip", "brownout", "hard-stop", "loop-overrun"}
     assert len(hard) > len(easy)
     assert "clean" in hard

@@ -25,7 +25,7 @@ pytestmark = pytest.mark.slow
 
 ROOT = find_course(Path(__file__).resolve().parent)
 SECRET = b"0123456789abcdef-keys"
-STUDENTS = ("ann", "ben")
+STUDENT = "ann"
 EXERCISES = {one.name: one for one in list_exercises(ROOT)}
 FILLED_IN = [name for name, one in EXERCISES.items() if "answers.toml" in one.files]
 DATA = (".csv", ".wpilog")
@@ -77,27 +77,17 @@ def common(request, tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def unpacked(tmp_path_factory):
-    """Student -> the folder of both of their zip files, unpacked."""
+    """The folder of both of a student's zip files, unpacked."""
     files = read(pack_course_folder(select_package_files(ROOT, with_keys=False).files))
-    packed = pack_course(ROOT)
-    return {
-        who: lay_out(
-            tmp_path_factory.mktemp(who),
-            files,
-            read(make_student_package(StudentPackage(who, SECRET, "East", packed))[1]),
-        )
-        for who in STUDENTS
-    }
+    mine = make_student_package(StudentPackage(STUDENT, SECRET, "East", pack_course(ROOT)))[1]
+    return lay_out(tmp_path_factory.mktemp(STUDENT), files, read(mine))
 
 
 @pytest.fixture(scope="module")
 def right(unpacked):
-    """Student -> exercise -> name -> right answer."""
+    """Exercise -> name -> right answer."""
     return {
-        who: {
-            name: _flatten(solve(EXERCISES[name], _find_data(course, name))) for name in FILLED_IN
-        }
-        for who, course in unpacked.items()
+        name: _flatten(solve(EXERCISES[name], _find_data(unpacked, name))) for name in FILLED_IN
     }
 
 
@@ -140,44 +130,41 @@ def shows(text, name, answer):
 
 @pytest.mark.parametrize("name", FILLED_IN)
 def test_no_file_gives_a_right_answer_of_its_student(name, unpacked, right):
-    for who, course in unpacked.items():
-        for file, text in list_texts(course).items():
-            if file.startswith(("lessons/", "exercises/")) and f"/{name}/" not in file:
-                continue  # a lesson teaches; kS of another exercise is another kS
-            given = {one for one, value in right[who][name].items() if shows(text, one, value)}
+    for file, text in list_texts(unpacked).items():
+        if file.startswith(("lessons/", "exercises/")) and f"/{name}/" not in file:
+            continue  # a lesson teaches; kS of another exercise is another kS
+        given = {one for one, value in right[name].items() if shows(text, one, value)}
 
-            assert given == set(), (who, file)
+        assert given == set(), file
 
 
 def test_no_number_that_is_right_stands_anywhere_to_four_digits(unpacked, right):
-    for who, course in unpacked.items():
-        numbers = {
-            f"{abs(value):.4g}": f"{name}: {answer}"
-            for name, answers in right[who].items()
-            for answer, value in answers.items()
-            if isinstance(value, float)
-            and len(f"{abs(value):.4g}".strip("0.").replace(".", "")) == 4
-        }
-        assert len(numbers) > 20
-        for file, text in list_texts(course).items():
-            if file.endswith(DATA) or "/data/" not in file:
-                continue
-            there = {*re.findall(r"(?<![\d.])\d+\.\d+", text)}
+    numbers = {
+        f"{abs(value):.4g}": f"{name}: {answer}"
+        for name, answers in right.items()
+        for answer, value in answers.items()
+        if isinstance(value, float) and len(f"{abs(value):.4g}".strip("0.").replace(".", "")) == 4
+    }
+    assert len(numbers) > 20
+    for file, text in list_texts(unpacked).items():
+        if file.endswith(DATA) or "/data/" not in file:
+            continue
+        there = {*re.findall(r"(?<![\d.])\d+\.\d+", text)}
 
-            assert {numbers[one] for one in there & numbers.keys()} == set(), (who, file)
+        assert {numbers[one] for one in there & numbers.keys()} == set(), file
 
 
 def test_a_class_gets_no_key_and_no_text_of_one(unpacked):
     keys = ROOT.glob("exercises/*/answer_key.py")
     everything = "".join(
-        text for file, text in list_texts(unpacked["ann"]).items() if "/data/" not in file
+        text for file, text in list_texts(unpacked).items() if "/data/" not in file
     )
     eleventh = load_answer_key(EXERCISES["exercise11"].module.__name__)
     options = [o.text for one in eleventh.QUESTIONS.values() for o in one.options if o.share]
 
     assert {path.parent.name for path in keys} >= {"exercise3", "exercise6", "exercise11"}
     for kind in ("exercises/*/answer_key.py", "**/*.pyc"):
-        assert list(unpacked["ann"].glob(kind)) == []
+        assert list(unpacked.glob(kind)) == []
     assert [one for one in options if len(one) > 20 and one in everything] == []
 
 
@@ -197,7 +184,7 @@ def test_a_solver_that_only_reads_the_package_earns_what_guessing_earns(common, 
         for name in FILLED_IN:
             lines = [f"{n} = {json.dumps(a)}" for n, a in json.loads(done.stdout)[name].items()]
             (tmp_path / "answers.toml").write_text("\n".join(lines), encoding="utf-8")
-            grade = EXERCISES[name].grade(tmp_path / "answers.toml", student="ann", run=False)
+            grade = EXERCISES[name].grade(tmp_path / "answers.toml", student=STUDENT, run=False)
             shares[name] = grade.score / grade.max_score
 
     assert {one: share for one, share in shares.items() if share > LITTLE} == (

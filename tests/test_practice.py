@@ -1,13 +1,13 @@
 """Practice: five steps on one mechanism, with a robot of one's own or without."""
 
-import importlib.util
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from grader.exercise import Exercise
+from grader.course_check import prepare_solved
+from grader.exercise import Exercise, load_module
 from grader.mistake import make_wrong_answer, scale_numbers
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
@@ -15,29 +15,16 @@ from sim.bench.simulate import simulate
 from sim.fit import fit
 from sim.io import read, write
 
+pytestmark = pytest.mark.usefixtures("robot_code_once")
+
 ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("practice", ROOT / "exercises" / "practice")
-
-
-def solver():
-    path = ROOT / "solutions" / "practice" / "solve.py"
-    spec = importlib.util.spec_from_file_location("_solve_practice", path)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
 
 
 @pytest.fixture(scope="module")
 def solved(tmp_path_factory):
     """The solution of a learner without a robot: file name -> text."""
-    room = tmp_path_factory.mktemp("data")
-    variant = OWN.module.draw("ann")
-    built = variant.mechanism
-    diameter = f"wheel_diameter = {2 * built.radius}\n" if built.radius != 1.0 else ""
-    write(variant.log, room / "log.wpilog")
-    given = f"free_speed = {built.motor.free_speed * 30 / np.pi}\nratio = {built.ratio}\n{diameter}"
-    (room / "given.toml").write_text(given, encoding="utf-8")
-    return solver().solve(OWN.folder, room)
+    return prepare_solved(OWN, "ann", tmp_path_factory.mktemp("course")).right
 
 
 def grade_answer(folder, texts, *, student="ann", **answers):
@@ -92,7 +79,7 @@ def robot(folder, *, noise=0.0):
 def constants(found):
     """The code with these gains, as the solution writes it."""
     gains = {**found.gains, "kP": found.feedback()["velocity"].kp}
-    return solver().fill_in_code(OWN.folder, gains, "m")
+    return load_module(OWN.solution / "solve.py").fill_in_code(OWN.folder, gains, "m")
 
 
 def lacking(results):

@@ -6,7 +6,7 @@ import unicodedata
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from small_course import answer, lay_out
+from small_course import answer
 
 from grader.check import Result, Status
 from grader.cli import run_command
@@ -18,14 +18,6 @@ COMMANDS = re.compile(
     "[" + "".join(map(re.escape, sorted(DIRECTIONS))) + "\x00-\x08\x0b-\x1f\x7f-\x9f]"
 )
 NASTY = "\x1b]0;you\x07\x1b[31m\u202egnorw\u2066\x9b2J\r\x08"
-
-
-@pytest.fixture
-def course(tmp_path, monkeypatch):
-    """A small course, in whose folder the command runs."""
-    lay_out(tmp_path)
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
 
 
 @given(st.text())

@@ -1,12 +1,14 @@
-"""RobotPy code is run shut in: tricks from inside a submission reach nothing and stop nothing."""
+"""RobotPy code is run shut in: tricks from inside a submission reach nothing and stop nothing.
 
-import os
+The sandbox itself is tested in ``test_isolation.py``.
+"""
+
 import socket
 import sys
 import time
 
 import pytest
-from robot_mistakes import MOUNTS, ROOT, changed
+from robot_mistakes import MOUNTS, changed
 
 from grader.isolation import find_isolation_level
 from grader.isolation import sandbox_parent as isolation
@@ -22,12 +24,6 @@ isolated = pytest.mark.skipif(bool(NO_ISOLATION), reason=NO_ISOLATION or "isolat
 posix = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such call")
 KEY = "the key is 42"
 SEND = "self.left.setVoltage(voltage)"
-
-
-@pytest.fixture(params=[None, 4], ids=["all there is", "Landlock as on Linux 6.7"])
-def each_kernel(request, monkeypatch):
-    """With all the confinement this system has, and with an older kernel's."""
-    monkeypatch.setattr(isolation, "LANDLOCK_ABI", request.param)
 
 
 @pytest.fixture
@@ -59,26 +55,13 @@ def quietly(statement):
 
 
 @isolated
-@pytest.mark.usefixtures("each_kernel")
 @pytest.mark.parametrize(
     "statement",
     [
         pytest.param("open({key!r}).read()", id="reading a key"),
-        pytest.param("open({root!r} + '/exercises/exercise10/key.py')", id="reading the course"),
-        pytest.param(
-            "open({root!r} + '/grader/isolation/sandbox_parent.py')", id="reading the examiner"
-        ),
         pytest.param("open({folder!r} + '/planted', 'w')", id="writing outside"),
-        pytest.param("import os; os.symlink({key!r}, 'seen.json')", id="a link to a key"),
         pytest.param("import os; os.fork()", id="a fork"),
-        pytest.param("import subprocess; subprocess.run(['true'])", id="a program"),
         pytest.param("import socket; socket.create_connection(('127.0.0.1', {port}))", id="TCP"),
-        pytest.param("import socket; socket.socket(type=socket.SOCK_DGRAM)", id="UDP"),
-        pytest.param("import os; os.kill({pid}, 9)", id="a signal to the examiner"),
-        pytest.param(
-            "import fcntl, os; fcntl.fcntl(os.pipe()[0], fcntl.F_SETOWN, {pid})",
-            id="a signal to the examiner, by a file",
-        ),
     ],
 )
 def test_a_trick_is_refused_and_the_run_is_what_it_was(tried, tmp_path, statement):
@@ -87,9 +70,7 @@ def test_a_trick_is_refused_and_the_run_is_what_it_was(tried, tmp_path, statemen
         names = {
             "key": str(tmp_path / "key.txt"),
             "folder": str(tmp_path),
-            "root": str(ROOT),
             "port": server.getsockname()[1],
-            "pid": os.getpid(),
         }
         run = tried(quietly(statement.format(**names)))
 
@@ -110,25 +91,12 @@ def test_the_same_tricks_succeed_where_nothing_is_shut_in(tried, tmp_path, monke
     ("trick", "outcome"),
     [
         pytest.param("import os; os._exit(0)", Outcome.CRASHED, id="a sudden end"),
-        pytest.param("import os; os.abort()", Outcome.CRASHED, id="a crash of Python's"),
-        pytest.param("while True: pass", Outcome.ENDLESS, id="an endless loop"),
         pytest.param(
             "import faulthandler\nfaulthandler.cancel_dump_traceback_later()\nwhile True: pass",
             Outcome.ENDLESS,
             id="an endless loop that hides",
         ),
-        pytest.param("x = bytearray(8 * 1024**3)", Outcome.CRASHED, id="memory"),
         pytest.param("print('flood ' * 5_000_000)", None, id="an output flood"),
-        pytest.param(
-            "with open('flood', 'wb') as f:\n    for _ in range(99): f.write(bytes(10**6))",
-            Outcome.CRASHED,
-            id="a file flood",
-        ),
-        pytest.param(
-            "import os\nfor _ in range(1500):\n    os.mkdir('d'); os.chdir('d')",
-            None,
-            id="a deep folder",
-        ),
     ],
 )
 def test_what_takes_too_much_is_ended_and_stops_nobody(tried, trick, outcome):
@@ -137,27 +105,6 @@ def test_what_takes_too_much_is_ended_and_stops_nobody(tried, trick, outcome):
 
     assert (run.stop and run.stop.outcome) is outcome, run.stop
     assert time.monotonic() - begin < python.SECONDS + 5.0
-
-
-@posix
-def test_what_a_program_started_ends_with_it(tried, tmp_path, monkeypatch):
-    monkeypatch.setattr(isolation, "CONFINED", False)  # else it can start nothing
-    beat = tmp_path / "beat"
-    begin = (
-        f"import subprocess, sys; subprocess.Popen([sys.executable, {str(tmp_path / 'b.py')!r}])"
-    )
-    (tmp_path / "b.py").write_text(
-        "import time, pathlib\nwhile True:\n"
-        f"    pathlib.Path({str(beat)!r}).write_text(str(time.time()))\n    time.sleep(0.02)\n",
-        "utf-8",
-    )
-    tried(f"{begin}\nimport time; time.sleep(0.5)")
-    if not beat.exists():
-        pytest.skip("here even limits let no process start")
-    last = beat.read_text("utf-8")
-    time.sleep(0.2)
-
-    assert beat.read_text("utf-8") == last
 
 
 @isolated

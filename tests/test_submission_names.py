@@ -287,31 +287,6 @@ def test_one_exercise_alone_is_found_in_a_whole_course_and_in_a_flat_folder(tmp_
     assert ben.files == {"exercise1": {"my answers.toml": HALF.encode()}}
 
 
-def test_two_files_that_could_be_one_answer_are_refused_by_name(tmp_path, course):
-    for folder in ("draft", "final"):
-        place = tmp_path / "in" / "ann" / folder / "exercise1"
-        place.mkdir(parents=True)
-        (place / "answers.toml").write_text(RIGHT + f"# {folder}\n", encoding="utf-8")
-    (one,) = find_submissions(tmp_path / "in", course)
-
-    assert one.problems == {
-        "exercise1": "there are 2 different files that may be the answer: "
-        "draft/exercise1/answers.toml, final/exercise1/answers.toml. Keep the one that counts"
-    }
-
-
-def test_many_tries_at_one_answer_are_not_the_best_of_them(tmp_path, course, monkeypatch):
-    place = tmp_path / "in" / "ann" / "exercise1"
-    place.mkdir(parents=True)
-    for number in range(5):
-        (place / f"a{number}.toml").write_text(f"size = {number}\n", encoding="utf-8")
-    monkeypatch.chdir(course[0].folder)
-
-    assert run_command(["class", str(tmp_path / "in")]) == 1
-    page = (tmp_path / "in-graded" / "students" / "ann.html").read_text(encoding="utf-8")
-    assert "there are 5 different files that may be the answer: exercise1/a0.toml" in page
-
-
 def test_a_stranger_is_told_with_the_likely_student_and_not_graded(tmp_path, course, reads):
     place = tmp_path / "in" / "Jane Dow" / "exercise1"
     place.mkdir(parents=True)

@@ -1,20 +1,12 @@
 """The answer graded at each saving; a machine looked over; grades for listening."""
 
 import pytest
-from small_course import HALF, RIGHT, answer, lay_out
+from small_course import HALF, RIGHT, answer
 
 from grader import doctor
 from grader.cli import run_command
 from grader.exercise import list_exercises
 from grader.watch import watch_exercise
-
-
-@pytest.fixture
-def course(tmp_path, monkeypatch):
-    """A small course, in whose folder the command runs."""
-    lay_out(tmp_path)
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
 
 
 def saves(course, *texts):

@@ -66,15 +66,10 @@ class Answers(StudentAnswers):
         """Number of samples of the validation log."""
         return sum(len(run) for run in self.variant.validation.runs)
 
-    def fitted(self, parts: Sequence[Part]) -> Estimate:
-        """Some of the answer's effects, and gains fitted to the logs: each selection once."""
-        return _fit_gains(
-            self.search, tuple((one.effect, tuple(one.parameters.items())) for one in parts)
-        )
-
     def measure_gap(self, parts: Sequence[Part], log: str = "validation") -> float:
         """The gap of a log with some of the answer's effects [times the noise]."""
-        return self.search.measure_gap(self.fitted(parts), log)
+        effects = tuple((one.effect, tuple(one.parameters.items())) for one in parts)
+        return _measure_gap(self.search, effects, log)
 
 
 class MysteryAnswers(Answers):
@@ -93,6 +88,20 @@ def _make_search(variant: Variant) -> HandSearch:
 def _fit_gains(search: HandSearch, effects: Effects) -> Estimate:
     """The gains of the model with effects, as the answer states them."""
     return search.fit_gains([Part(name, dict(values)) for name, values in effects])
+
+
+@lru_cache(maxsize=4 * REMEMBERED)
+def _measure_gap(search: HandSearch, effects: Effects, log: str) -> float:
+    """The gap of a log with effects, and with gains fitted to the other logs."""
+    return search.measure_gap(_fit_gains(search, effects), log)
+
+
+@lru_cache(maxsize=REMEMBERED)
+def _measure_floor(variant: Variant) -> float:
+    """The gap that the true model leaves on the held-out log; the noise is at least 1."""
+    search = _make_search(variant)
+    truth = search.evaluate_model(variant.mechanism.model)
+    return max(1.0, search.measure_gap(truth, "held_out"))
 
 
 def list_answer_tables() -> tuple[str, ...]:
@@ -219,9 +228,7 @@ def all_effects(answers: Answers) -> None:
 @check(points=3)
 def held_out(answers: Answers) -> str | None:
     """The model predicts the held-out log, which nothing was fitted to."""
-    search = answers.search
-    truth = search.evaluate_model(answers.variant.mechanism.model)
-    floor = max(1.0, search.measure_gap(truth, "held_out"))
+    floor = _measure_floor(answers.variant)
     before, after = (answers.measure_gap(some, "held_out") for some in ([], answers.parts))
     seen = f"the gap goes from {before:.3g} to {after:.3g} times the noise"
     if after <= FLOOR * floor:

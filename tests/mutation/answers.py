@@ -1,15 +1,14 @@
 """Authored answers and further right ones: what is mutated, and how a mutant is graded."""
 
-import importlib.util
-import shutil
 import tempfile
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from types import ModuleType
 
 from grader.check import Status
 from grader.course import find_course
+from grader.course_check import prepare_solved
 from grader.exercise import Exercise, Grade
 from mutation.mutant import Mutant
 from sim.core.errors import Refusal
@@ -42,27 +41,10 @@ def exercise(name: str) -> Exercise:
 
 
 @cache
-def answer(name: str) -> dict[str, str]:
+def answer(name: str) -> Mapping[str, str]:
     """The authored answer to an exercise: file name and text."""
-    folder, one = ROOT / "solutions" / name, exercise(name)
-    if not (folder / "solve.py").is_file():
-        named = (*one.files, *one.companion_files)
-        return {file: (folder / file).read_text(encoding="utf-8") for file in named}
     with tempfile.TemporaryDirectory() as place:
-        copy = Path(place) / "exercises" / name
-        shutil.copytree(one.folder, copy, ignore=shutil.ignore_patterns("data"))
-        Exercise(name, copy).prepare(STUDENT, say=lambda _: None)
-        (data,) = (copy / "data").iterdir()
-        return dict(_load(folder / "solve.py").solve(copy, data))
-
-
-def _load(path: Path) -> ModuleType:
-    spec = importlib.util.spec_from_file_location(f"_{path.parent.name}_{path.stem}", path)
-    if spec is None or spec.loader is None:
-        raise FileNotFoundError(path)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+        return prepare_solved(exercise(name), STUDENT, Path(place)).right
 
 
 def graded(name: str, file: str, text: str, folder: Path) -> Grade:
