@@ -1,5 +1,6 @@
 """What a wrong answer would do on the robot: told, drawn, and without the key."""
 
+import html
 import re
 import shutil
 import subprocess
@@ -195,7 +196,8 @@ def test_a_cell_shows_it_below_the_checks(course):
     right = key("exercise3", "me")
     shown = submit(3, **(right | {"elevator_kG": 0.0}))
 
-    assert shown.html.index("On the robot") > shown.html.index("elevator&#x27;s kG")
+    words = html.unescape(shown.html)
+    assert words.index("On the robot") > words.index("elevator's kG")
     assert shown.html.count("<img") == 1
     assert "the elevator should stand still, it sinks" in shown.html
     assert page_flaws(PAGE.format(shown.html)) == []

@@ -58,7 +58,7 @@ def test_an_elevator_that_only_goes_up_tells_friction_from_weight_never():
     [
         (lambda: compute_information({}, type="simple", noise=0.1), "at least one test that moves"),
         (lambda: compute_information(UP, type="crane", noise=0.1), "Choose one of: simple"),
-        (lambda: compute_information(UP, type="simple", noise=0.0), "Give one above 0"),
+        (lambda: compute_information(UP, type="simple", noise=0.0), "must be above 0"),
     ],
     ids=["no rows", "no such type", "no noise"],
 )

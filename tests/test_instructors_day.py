@@ -75,8 +75,13 @@ STUDENTS = (
     Student("Cara Diaz", "103", "cara", _as_course),
     Student("Jane Doe", "104", "jdoe", lambda course, there: pack(
         course / "exercises", there / "doejane_LATE_104_5555_exercises-1.zip", top="exercises")),
+    Student("Eve Fox", "105", "evefox", lambda course, there: pack(
+        course, there / "Eve Fox - my work.zip", top="course")),
     Student("Gina Hall", "106", "ginah-2010", lambda course, there: shutil.copytree(
         course, there / "week-3-ginah-2010")),
+    Student("Finn Gray", "107", "finn", lambda course, there: (
+        (there / "Finn Gray_4711_assignsubmission_file_").mkdir(),
+        pack(course / "exercises", there / "Finn Gray_4711_assignsubmission_file_" / "work.zip"))),
 )  # fmt: skip
 
 

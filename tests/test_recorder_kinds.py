@@ -177,9 +177,9 @@ def test_frames_of_a_motor_controller_are_no_missing_effect(name, step):
     assert story.gap_after < 2.0 * story.noise_floor
 
 
-@pytest.mark.parametrize(("name", "seed"), [("turret", 3), ("drivetrain", 0)])
-def test_lags_of_runs_hide_no_backlash(name, seed):
-    robot = MECHANISMS[name].hide("backlash", 1.0)
+@pytest.mark.parametrize("seed", [2, 3])
+def test_lags_of_runs_hide_no_backlash(seed):
+    robot = MECHANISMS["turret"].hide("backlash", 1.0)
     log = simulate(robot, Routine(step=4.0), rng=np.random.default_rng(seed))
     assert fit(log, type=robot.type).lag_differs  # runs that begin in the play are late
 
