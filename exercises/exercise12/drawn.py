@@ -1,5 +1,6 @@
 """A learner's own mechanism and what is hidden in it: three logs, and the truth about them."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -11,7 +12,9 @@ from sim.bench.mechanism import Mechanism
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
+from sim.core.errors import BadRequest
 from sim.core.log import Log
+from sim.physics.effects import list_look_alikes
 from sim.physics.model import Part
 from sim.reconcile.by_hand import HandSearch
 
@@ -59,7 +62,7 @@ shooter's of 5 and 6 V are not: their first moments are cut, and the log holds w
 
 FLOOR = 1.3  # [of the gap that the truth leaves on the held-out log] for full marks
 SNUG = 0.9  # [of FLOOR] within which the fit of the right effects must be
-MISSED = 1.07  # [of the validation's gap] by which it is wider without any one of the effects
+MISSED = 1.07  # [of a gap] by which it is wider without an effect, or with a look-alike
 SEEN = 1.08  # [noises] of a gap in which something is visibly missing
 CLEAR = 1.15  # [1] by which the gap without the first effect is wider than without any other
 TIMEOUT = 8.0  # [s] of a test of the validation and of the held-out log
@@ -109,12 +112,26 @@ def draw_determined(rng: np.random.Generator, among: Sequence[Recipe]) -> Varian
 
 
 def is_determined(variant: Variant) -> bool:
-    """Whether an answer found by trying is right, and each effect is missed, the first most."""
+    """Whether an answer found by trying is right, and each effect is missed, the first most.
+
+    Alone, the first must also narrow the gap more than any effect that looks like it: a learner
+    adds the one that narrows it most.
+    """
     search, truth = variant.make_search(), variant.mechanism.model
     tried = search.fit(variant.hidden)
     found = search.fit_gains(tried.structure.model(tried.values).parts)  # as it is graded
     floor = max(1.0, search.measure_gap(search.evaluate_model(truth), "held_out"))
     if search.measure_gap(found, "held_out") > SNUG * FLOOR * floor:
+        return False
+
+    def measure_gap_alone(effect: str) -> float:
+        try:
+            return search.measure_gap(search.fit([effect]))
+        except BadRequest:  # nothing in the log looks like it
+            return math.inf
+
+    first = variant.hidden[0]
+    if min(map(measure_gap_alone, list_look_alikes(first))) < MISSED * measure_gap_alone(first):
         return False
 
     def measure_gap_with(*parts: Part) -> float:

@@ -298,11 +298,12 @@ def plot_voltage_residual(
     figure.suptitle(headline, fontsize=11, color=INK)
     add_legend(figure, (places[0], places[-1]), columns=4)
     typical = float(np.sqrt(np.mean(missing**2)))
+    shares = ", ".join(f"{name} {_percent(view.explains)}" for name, view in found.items())
     alt = (
         f"{NUMBERS[len(found)]} views of the voltage residual, which is {to_text(typical)} V "
         "typically. Each sample is a pale dot. A line connects the means of nearby samples, with "
-        f"their errors. {headline} The last plot shows the measured and the simulated velocity of "
-        "one run."
+        f"their errors. The means explain this share of the squared residual: {shares}. "
+        f"{headline} The last plot shows the measured and the simulated velocity of one run."
     )
     return Picture(figure, alt, Table(("plotted over", "explains", "means [V]"), tuple(
         (name, _percent(view.explains), _format_means(view)) for name, view in found.items()
