@@ -55,7 +55,10 @@ def find_effects(search: EffectSearch) -> None:
             break
     for effect in search.effects[:-1]:  # one that later effects made needless
         gap, chosen = search.gaps["validation"], search.effects
-        search.take_back(effect)
+        try:
+            search.take_back(effect)
+        except Refusal:  # without it, nothing in the log looks like a later one
+            continue
         if search.gaps["validation"] * HELPS > gap:
             search.choose(chosen)
 
