@@ -79,7 +79,7 @@ class Result:
         description: the sentence the learner reads.
         status: passed, failed, not-reached, not-run or error.
         points: points earned.
-        max_points: points there are.
+        max_points: the most points that it gives.
         seen: what was given; for ``not-reached``, ``not-run`` and ``error`` the reason.
         hint: likely cause and next step; a note where the check passed.
         misconception: its code, or empty.

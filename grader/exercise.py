@@ -69,7 +69,7 @@ class Grade:
     Args:
         exercise: ``exercise4``.
         student: whose answer it is.
-        score, max_score: points earned, points there are.
+        score, max_score: points earned, and the most that one can earn.
         status: ``passed`` (full marks), ``failed`` or ``ungradable``; of a class also ``missing``.
         checks: one result for each check, in the order they are shown.
         file: what was graded.
@@ -336,7 +336,7 @@ def find_checks(module: ModuleType) -> tuple[Check[Any], ...]:
 
 
 def sum_points(results: Iterable[Result]) -> tuple[float, float]:
-    """The points that checks earned, and the points there are."""
+    """The points that checks earned, and the most that one can earn."""
     pairs = [(one.points, one.max_points) for one in results]
     return sum(points for points, _ in pairs), sum(most for _, most in pairs)
 

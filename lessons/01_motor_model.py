@@ -59,7 +59,7 @@ from sim.plot import (
     tabulate_gains,
 )
 from sim.plot.animation import Choice, Gain, Knob, Motion, Panel, Scene, animate_mechanism
-from sim.teaching.logs import change_log
+from sim.teaching.logs import apply_mistake
 
 drivetrain = MECHANISMS["drivetrain"]
 gains = drivetrain.gains
@@ -288,7 +288,7 @@ ask_question("lesson1.gears")
 
 # %%
 def other_parts(mass: float, ratio: float, motors: int, wheel: float) -> Picture:
-    """The gains of another robot, divided by those of ours; the wheel is a diameter in inches."""
+    """How kS, kV and kA change with other parts; ``wheel`` is a diameter in inches."""
     radius = wheel * 0.0254 / 2
     per_newton = (radius / (motors * ratio)) / (r / (n * G))  # the force of friction stays
     turns = (ratio / radius) / (G / r)  # of the motor for a meter
@@ -405,9 +405,9 @@ STORIES = {
     "10 kg more": bench(replace(sound, load=sound.load + 10), 2),
     "a part that rubs": bench(replace(sound, friction=0.8), 3),
     "thick grease in the gears": bench(replace(sound, drag=0.30), 4),
-    "code says 8.14, robot has 6.75": change_log(bench(sound, 5), factor=6.75 / 8.14),
-    "diameter used as radius": change_log(bench(sound, 7), factor=2.0),
-    "set(volts / 12), logs volts": change_log(sagging, commanded=True),
+    "code says 8.14, robot has 6.75": apply_mistake(bench(sound, 5), factor=6.75 / 8.14),
+    "diameter used as radius": apply_mistake(bench(sound, 7), factor=2.0),
+    "set(volts / 12), logs volts": apply_mistake(sagging, commanded=True),
 }
 VERDICTS = {"bookkeeping": 0.0, "ok": 8.0, "watch": 20.0, "inspect": 40.0}
 SETS = {story: fit(log, method="sysid").gains for story, log in STORIES.items()}

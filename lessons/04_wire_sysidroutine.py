@@ -55,7 +55,7 @@ from sim.bench.simulate import simulate
 from sim.fit import fit
 from sim.plot import plot_time_series, tabulate_fits, tabulate_gains
 from sim.plot.animation.of_logs import animate_logs
-from sim.teaching.logs import change_log
+from sim.teaching.logs import apply_mistake
 
 drivetrain = MECHANISMS["drivetrain"]
 truth = drivetrain.gains
@@ -600,11 +600,11 @@ halved = simulate(half, routine, rng=rng)
 # program -> (what its log says, what really happened)
 programs = {
     "correct": (right, right),
-    "share of the battery": (change_log(sagging, commanded=True), sagging),
+    "share of the battery": (apply_mistake(sagging, commanded=True), sagging),
     "…but logs applied volts": (sagging, sagging),
-    "turns called meters": (change_log(right, factor=1 / CIRCUMFERENCE), right),
-    "radians taken for turns": (change_log(right, factor=2 * math.pi), right),
-    "encoder inverted": (change_log(right, factor=-1.0), right),
+    "turns called meters": (apply_mistake(right, factor=1 / CIRCUMFERENCE), right),
+    "radians taken for turns": (apply_mistake(right, factor=2 * math.pi), right),
+    "encoder inverted": (apply_mistake(right, factor=-1.0), right),
     "one motor of each pair": (halved, halved),
 }
 

@@ -110,7 +110,7 @@ from sim.plot.animation import (
     TestPlan,
     animate_mechanism,
 )
-from sim.teaching.logs import change_log
+from sim.teaching.logs import apply_mistake
 from sim.teaching.runway import GRIP, THUMB, Floor, drive_test
 
 ROBOT = replace(MECHANISMS["drivetrain"], travel=None)  # nobody ends its tests but you
@@ -333,7 +333,7 @@ logs = {
     "nothing": sound,
     "1 room": into_wall.log,
     "2 battery": simulate(TIRED, routine, rng=np.random.default_rng(5)),
-    "3 encoder": change_log(sound, factor=-1.0),
+    "3 encoder": apply_mistake(sound, factor=-1.0),
     "5 guard": sound,
 }
 
@@ -713,7 +713,7 @@ tabulate_gains({"the log": gains.gains})
 #   (lesson 6). Shorten the filter *before* the tests, in `config.encoder`: `uvwMeasurementPeriod`
 # (32 ms; from 8 ms) and `uvwAverageDepth` (8 samples; 1, 2, 4 or 8). ([`EncoderConfig` of
 # robotpy-rev 2026.0.4](https://pypi.org/project/robotpy-rev/2026.0.4/)) **Do it** with 8 ms and a
-# depth   of 2, and run one step with each setting. Which kA does `sysid fit` find?
+# depth of 2, and run one step with each setting. Which kA does `sysid fit` find?
 # </details>
 #
 # <details><summary>If your team uses AdvantageKit</summary>

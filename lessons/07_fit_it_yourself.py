@@ -68,7 +68,7 @@ from sim.plot import (
 )
 from sim.plot.animation.of_logs import animate_model
 from sim.teaching.fit_gaps import fill_gaps
-from sim.teaching.logs import change_log, read_own_log, select_rows
+from sim.teaching.logs import apply_mistake, read_own_log, select_rows
 
 drivetrain = MECHANISMS["drivetrain"]
 
@@ -234,13 +234,13 @@ def signals(log: sim.Log) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return volts[moving], v[moving], a[moving]
 
 
-def voltage_left(volts: np.ndarray, v: np.ndarray, a: np.ndarray) -> dict[str, float]:
+def fit_voltage(volts: np.ndarray, v: np.ndarray, a: np.ndarray) -> dict[str, float]:
     """The model as it is written: V = kS·sgn(v) + kV·v + kA·a."""
     columns = np.column_stack([np.sign(v), v, a])
     return dict(zip(truth, np.linalg.lstsq(columns, volts, rcond=None)[0].tolist(), strict=True))
 
 
-first_try = voltage_left(*signals(log))
+first_try = fit_voltage(*signals(log))
 print(f"kV is {first_try['kV'] / truth['kV']:.2f} times the truth,", end=" ")
 print(f"kA is {first_try['kA'] / truth['kA']:.2f} times the truth.")
 
@@ -331,14 +331,14 @@ print(mine.report)
 
 
 # %%
-def acceleration_left(volts: np.ndarray, v: np.ndarray, a: np.ndarray) -> dict[str, float]:
+def fit_acceleration(volts: np.ndarray, v: np.ndarray, a: np.ndarray) -> dict[str, float]:
     """The model solved for the acceleration, as SysId does it."""
     columns = np.column_stack(mine.columns(volts, v, a))
     found = np.linalg.lstsq(columns, mine.left(volts, v, a), rcond=None)[0]
     return mine.gains(*found.tolist())
 
 
-SIDES = {"voltage": voltage_left, "acceleration": acceleration_left}
+SIDES = {"voltage": fit_voltage, "acceleration": fit_acceleration}
 sets = {f"{side} on the left": fit_side(*signals(log)) for side, fit_side in SIDES.items()}
 tabulate_gains({**sets, "truth": truth}, first="fit")
 
@@ -439,7 +439,7 @@ volts, v, a = (
     np.concatenate([getattr(rows, name) for rows in kept])
     for name in ("voltage", "velocity", "acceleration")
 )
-exact = acceleration_left(volts, v, a)
+exact = fit_acceleration(volts, v, a)
 for name, gains in (("five lines: ", exact), ("SysId's:    ", recipe.gains)):
     print(name + "   ".join(f"{gain} = {value:.9f}" for gain, value in gains.items()))
 used = recipe.samples_used
@@ -486,7 +486,7 @@ usual = [my_fit(one)["kA"] for one in gappy]
 
 
 def try_choices(**choices: float) -> Picture:
-    """The kA of five logs by SysId's choices and by yours: the mean, and how much they differ."""
+    """The kA of five logs with SysId's choices and with yours: its mean and its spread."""
     found = {"as SysId does it": usual, "yours": [my_fit(one, **choices)["kA"] for one in gappy]}
     means = {way: float(np.mean(values)) for way, values in found.items()}
     spreads = {way: float(np.std(values)) for way, values in found.items()}
@@ -624,9 +624,9 @@ sag = simulate_duty_cycle(drivetrain, hard, rng=np.random.default_rng(3))
 suspects = {
     "clean": quiet,
     "clean, logged at 200 Hz": fast_log,
-    "wrong gear ratio in the code (÷ 1.25)": change_log(quiet, factor=1 / 1.25),
-    "encoder inverted": change_log(quiet, factor=-1.0),
-    "commanded voltage logged, 7 V step": change_log(sag, commanded=True),
+    "wrong gear ratio in the code (÷ 1.25)": apply_mistake(quiet, factor=1 / 1.25),
+    "encoder inverted": apply_mistake(quiet, factor=-1.0),
+    "commanded voltage logged, 7 V step": apply_mistake(sag, commanded=True),
 }
 tabulate_fits(suspects, truth)
 

@@ -9,7 +9,7 @@ pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("robot_code_once")]
 
 @pytest.fixture(scope="module")
 def made():
-    """Every mutant."""
+    """Wrong answers, each made of a right one by one change."""
     return list(mutants())
 
 

@@ -18,7 +18,7 @@ def list_actions(fault: str) -> list[str]:
     return helps
 
 
-def explain_place(fault: str) -> str:
+def explain_wrong_samples(fault: str) -> str:
     """Which samples count as wrong, where that is a question; else nothing."""
     place: str = _TEXTS["faults"][fault].get("place", "")
     return place

@@ -9,7 +9,7 @@ from .feedback import (
     explain_false_alarm,
     explain_mixed_up,
     explain_overlooked,
-    explain_place,
+    explain_wrong_samples,
     list_actions,
 )
 from .line import CLEAN, Claim, Span
@@ -116,7 +116,8 @@ def _explain_place(claim: Claim, *, whole: bool, lasts: float) -> str:
         )
     return (
         "The fault is right, but not the place: write the times of the first and the last wrong"
-        f" sample. Is it in this test, and is it as long as you wrote? {explain_place(claim.fault)}"
+        " sample. Is it in this test, and is it as long as you wrote? "
+        f"{explain_wrong_samples(claim.fault)}"
     ).strip()
 
 

@@ -102,7 +102,7 @@ def _find_in_folder(folder: Path, names: Sequence[str]) -> tuple[Path, ...]:
     if len(like) > 1:  # one answer each: the best of many would be a prize for guessing
         named = list_first([file.name for file in like])
         what = f"{len(like)} files here could be the answer ({named})"
-        advice = f"Name the one that counts, or call it {names[0]}."
+        advice = f"Type the name of the one that counts, or rename it to {names[0]}."
         return _refuse_files(what, folder, advice)
     return tuple(like)
 

@@ -48,7 +48,7 @@ class ExerciseStatistics:
 
     Args:
         exercise: its name.
-        max_score: points there are.
+        max_score: the most points that it gives.
         handed_in: by how many.
         full: how many earned all points.
         ungradable: how many could not be graded.

@@ -80,7 +80,7 @@ def _parse_row(
     Args:
         cells: by ``COLUMNS``.
         students: normalized names of everybody.
-        most: exercise -> check -> points there are.
+        most: exercise -> check -> the most points that it gives.
 
     Raises:
         BadRequest: as ``read_overrides``.

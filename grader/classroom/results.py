@@ -39,7 +39,7 @@ class ClassResults:
 
     @property
     def max_scores(self) -> dict[str, float]:
-        """Exercise -> points there are."""
+        """Exercise -> the most points that it gives."""
         found = dict.fromkeys(self.exercises, 0.0)
         for one in self.students:
             found |= {grade.exercise: grade.max_score for grade in one.grades}

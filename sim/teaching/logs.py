@@ -1,4 +1,4 @@
-"""Logs as the lessons need them: changed as by a mistake, without some rows, or a student's own."""
+"""Logs for the lessons: with a mistake of the program, without some rows, or a student's own."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -17,8 +17,8 @@ from sim.io import read
 OWN = Path("..", "exercises", "exercise9", "data")  # from the folder of the lessons
 
 
-def change_log(log: Log, *, factor: float = 1.0, commanded: bool = False) -> Log:
-    """The runs as a wrong program writes them down.
+def apply_mistake(log: Log, *, factor: float = 1.0, commanded: bool = False) -> Log:
+    """The log as a robot program with a mistake would have written it.
 
     Args:
         log: what happened.

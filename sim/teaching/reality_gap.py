@@ -12,7 +12,7 @@ from sim.bench.simulate import simulate
 from sim.core.log import Log, Run
 from sim.physics.model import Part
 from sim.teaching.answers import hide_effects
-from sim.teaching.logs import change_log
+from sim.teaching.logs import apply_mistake
 
 FOUR = ("quasistatic", "dynamic")
 PRACTICE = Routine(0.5, 3.5, timeout=3.0, kinds=(*FOUR, "multistep"))
@@ -50,7 +50,7 @@ def record_suspects() -> dict[str, Log]:
         )
         for name in ("robot A", "robot B", "robot D")
     }
-    return dict(sorted({**logs, "robot C": change_log(sagging, commanded=True)}.items()))
+    return dict(sorted({**logs, "robot C": apply_mistake(sagging, commanded=True)}.items()))
 
 
 def record_limited_robot() -> dict[str, Log]:

@@ -44,6 +44,6 @@ def choose_exports(wanted: Sequence[str], roster: Roster) -> dict[str, ModuleTyp
         if needed and header.isdisjoint(column.casefold() for column in needed):
             raise BadRequest(
                 f"--export {name} needs a roster with a column {' or '.join(needed)}",
-                advice=f"Give the gradebook that {name.title()} exports as --roster.",
+                advice=f"Export the gradebook from {name.title()}, and give its file as --roster.",
             )
     return found

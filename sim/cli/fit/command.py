@@ -12,7 +12,7 @@ from sim.feedback import PRESETS
 LOOPS = ("velocity", "position")
 
 
-# A robot that turns on the spot.
+# The options for a robot that turns on the spot.
 turning_options = combine_options(
     click.option(
         "--straight",

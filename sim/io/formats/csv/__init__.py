@@ -32,7 +32,7 @@ from sim.io.formats.csv.entries import is_export, read_columns, read_entries
 from sim.io.formats.csv.table import EXTRA, KNOWN, NEEDED, STATED, CsvTable, open_table, read_header
 
 SUFFIXES = (".csv",)
-MIN_COLUMNS = 3  # [columns] of ours in the header that identify the format
+MIN_COLUMNS = 3  # so many known names of columns in its first line make a file a log
 
 
 def recognizes(head: bytes) -> bool:
