@@ -8,6 +8,7 @@ from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.core.log import Log, Run
 from sim.estimation.measurements import (
+    bend_voltage,
     compute_noise_at_speed,
     compute_third_differences,
     estimate_noise,
@@ -77,3 +78,18 @@ def test_a_count_that_single_precision_reads_as_two_numbers_is_one_count():
     found = estimate_noise(measure_runs(Log((run,)), friction=None))
 
     assert found.velocity == pytest.approx(step / np.sqrt(12.0), rel=0.01)
+
+
+def test_bent_voltage_has_the_mean_of_the_smooth_voltage_between_its_samples():
+    def volts(time):
+        return 3.0 + 40.0 * time - 150.0 * time**2
+
+    time, period = even(12), 0.02
+    slides = np.append(np.diff(volts(time)), 0.0)
+    true = [np.mean(volts(one + np.linspace(0.0, period, 2001))) for one in time[:-1]]
+    straight = volts(time) + 0.5 * slides
+    assert (straight + bend_voltage(slides))[1:-2] == pytest.approx(true[1:-1], abs=1e-4)  # by the mean over 2001 points
+
+
+def test_voltage_beside_one_that_is_held_is_not_bent():
+    assert not bend_voltage(np.array([0.0, 1.2, 0.6, 0.0, 0.0])).any()

@@ -174,6 +174,20 @@ def test_a_gap_that_does_not_shrink_on_the_held_out_log_is_said():
 # -- what is held out stays out ------------------------------------------------------------------
 
 
+@pytest.mark.parametrize(
+    ("mechanism", "effect"), [("turret", "backlash"), ("drivetrain", "compliance")]
+)
+def test_joint_under_a_current_limit_lies_within_its_errors(mechanism, effect):
+    rng = np.random.default_rng(104)
+    robot = MECHANISMS[mechanism].draw(rng).hide(effect, 1.2)
+    story = reconcile(simulate(robot, Routine(), rng=rng), type=robot.type)
+    (finding,) = (one for one in story.findings if one.effect == effect)
+    for name in ("share", "damping", "motor_friction"):
+        found = finding.parameters[name]
+        assert abs(found.value - robot.hidden[-1].parameters[name]) <= 1.96 * found.error, name
+        assert found.error < 0.8 * found.value, name
+
+
 def test_whatever_the_held_out_log_says_the_findings_are_the_same():
     mechanism, effect, simple = PLAIN
     story, sessions = solved(mechanism, effect, simple=simple), logs(*PLAIN[:2], simple=simple)

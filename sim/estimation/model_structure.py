@@ -78,6 +78,11 @@ class ModelStructure:
         """Whether there is backlash between motor and load."""
         return bool(self.backlash_names)
 
+    @property
+    def has_joint(self) -> bool:
+        """Whether motor and load are two bodies."""
+        return any(EFFECTS[name].is_joint for name in self.effects)
+
     def __add__(self, effect: str) -> "ModelStructure":
         return ModelStructure(self.type, (*self.effects, effect))
 

@@ -71,6 +71,10 @@ class JointJacobian:
         slope = columns.T @ white - projected.T @ self.project(white)
         return float(slope @ np.linalg.solve(square, slope))
 
+    def compute_shift(self, change: Array) -> Array:
+        """(k,) shift of the parameters by a small change (2 n,) of whitened innovations."""
+        return np.asarray(-self.root @ self._project_data(change))
+
     def compute_residual_products(self, change: Array, white: Array) -> tuple[float, float]:
         """Products of a change with innovations and itself, the Jacobian projected out."""
         projected = self._project_data(change)

@@ -9,7 +9,12 @@ from numpy.typing import NDArray
 
 from sim.core.log import Array, Log
 from sim.core.units import ROBUST
-from sim.estimation.measurements import MIN_SAMPLES, RunMeasurements, measure_runs
+from sim.estimation.measurements import (
+    MIN_SAMPLES,
+    RunMeasurements,
+    bend_voltage,
+    measure_runs,
+)
 from sim.physics.voltage_residual import list_run_start_times, shares_clock
 
 AT_REST = 0.05  # [share of the top speed] a run whose position is slower starts at rest
@@ -71,6 +76,19 @@ class RunRecord:
     def exclude(self) -> "RunRecord":
         """A copy without samples to compare; it is still simulated."""
         return self._leave_out(np.ones(self.measurements.time.size, dtype=bool))
+
+    def raise_voltage(self) -> "RunRecord":
+        """A copy with the largest voltage between samples that a motor on a joint may have had.
+
+        On backlash or a soft joint a motor speeds up and slows down between two samples. Under a
+        current limit the voltage follows it: up to the command where the limit begins or ends, and
+        else by twice what a cubic through the samples bends.
+        """
+        volts, slides = self.measurements.voltage, self.measurements.voltage_slide
+        bend, command = bend_voltage(slides), np.max(np.abs(volts), initial=0.0)
+        room = (command - np.abs(volts + 0.5 * slides)) * np.sign(volts)
+        more = np.where((slides != 0.0) & (bend == 0.0), room, bend)
+        return replace(self, measurements=replace(self.measurements, voltage=volts + more))
 
     def _leave_out(self, out: NDArray[np.bool_]) -> "RunRecord":
         """A copy in which the samples marked in ``out`` (n,) are not used."""

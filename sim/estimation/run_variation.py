@@ -13,6 +13,9 @@ A parameter with a prior is the size of a small effect whose formula is only app
 friction is not exactly exponential, and drag not exactly quadratic. So its size has a further error
 of ``FORM`` of itself, and the other parameters change with it.
 
+The voltage between two samples is not in the log. With a joint, where it matters, the parameters
+may be off by as much as they shift if that voltage is at its largest.
+
 T is estimated from the scores of the runs: given T, that of run i is normal with covariance
 G_i + G_i T G_i.
 
@@ -28,6 +31,7 @@ from numpy.typing import NDArray
 
 from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
+from sim.estimation.optimize import make_joint_jacobian
 
 VARIES: Mapping[str, float] = {
     "kS": 0.04, "kV": 0.007, "kA": 0.04, "kG": 0.02, "level": 0.02, "upright": 0.02,
@@ -39,6 +43,7 @@ FIXED = 1e-4  # [share of a parameter's size] standard deviation of those that d
 LEAST_SINGULAR = 1e-10  # [1] singular value of a root with columns of length 1; less is rounding
 LARGEST_ERROR = 1e6  # [sizes of a parameter] a larger standard error is rounding alone
 NO_INFORMATION = 1e-12  # [1/size²] keeps the error of an undetermined parameter finite
+SIMULATION = 1e-3  # [share of a parameter] error of an effect that is simulated in a search's steps
 INTERVAL = 0.5  # [s] within which the innovations of an incomplete model are correlated
 LEAST_EIGENVALUE = 1e-6  # [share of the largest] of the information; a smaller one is rounding
 GRID: Array = 2.0 ** np.arange(-10.0, 6.0)  # [guesses] standard deviations that are averaged
@@ -97,11 +102,27 @@ def compute_run_variation_covariance(problem: PredictionErrorProblem, point: Est
     change[~free] = np.eye(change.shape[1])
     values = np.array([point.values[name] for name in names])
     form = sizes[:, None] * change * (FORM * values / sizes)[~free]
-    return np.asarray(covariance + form @ form.T)
+    shift = _compute_voltage_shift(problem, point)
+    return np.asarray(covariance + form @ form.T + np.outer(shift, shift))
+
+
+def _compute_voltage_shift(problem: PredictionErrorProblem, point: Estimate) -> Array:
+    """(searched,) shift of the parameters of a joint by the voltage between samples."""
+    count = len(point.structure.searched_names)
+    sliding = any(record.measurements.voltage_slide.any() for record in problem.records)
+    if not (sliding and point.structure.has_joint):
+        return np.zeros(count)
+    raised = replace(problem, records=tuple(one.raise_voltage() for one in problem.records))
+    model = point.structure.model(point.values)
+    innovations = raised.predict_errors(model, point.nuisance, point.kalman_filter)
+    change = problem.whiten(point, innovations - point.innovations)
+    return make_joint_jacobian(problem, point, fine=True).compute_shift(change)[:count]
 
 
 def compute_standard_errors(problem: PredictionErrorProblem, point: Estimate) -> dict[str, float]:
     """Searched parameter -> its standard error; infinite where the log does not determine it.
+
+    Those of effects include the error of the search's simulation.
 
     Args:
         problem: the measurements.
@@ -113,6 +134,8 @@ def compute_standard_errors(problem: PredictionErrorProblem, point: Estimate) ->
         name: math.sqrt(max(variance, 0.0))
         for name, variance in zip(structure.searched_names, variances, strict=True)
     }
+    for name in errors.keys() & structure.parameters:
+        errors[name] = math.hypot(errors[name], SIMULATION * point.values[name])
     most = {
         name: LARGEST_ERROR * structure.find_parameter_scale(name, point.values[name])
         for name in errors

@@ -163,8 +163,7 @@ def refine_threshold(problem: PredictionErrorProblem, point: Estimate) -> Estima
 
 def _is_much_likelier(found: Estimate, point: Estimate) -> bool:
     """Whether the first joint makes a model much likelier."""
-    alone = not any(EFFECTS[name].is_joint for name in point.structure.effects)
-    return alone and point.cost - found.cost > LEAST_SCORE
+    return not point.structure.has_joint and point.cost - found.cost > LEAST_SCORE
 
 
 def _refine_motor_friction(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
