@@ -5,7 +5,7 @@ Samples are in SI; gains and their unit are those of the log, with the factor be
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import asdict, replace
 from typing import Any
 
 import numpy as np
@@ -44,8 +44,38 @@ MEANS = {
 LAGS = 1e-5  # [s] a shorter lag is shown as 0
 
 
-def describe_log(one: OpenLog, reading: Reading, *, doubts: bool = True) -> dict[str, Any]:
-    """Name, unit, type and runs of a log, with its doubts if wanted.
+def answer_request(
+    one: OpenLog,
+    reading: Reading,
+    what: str,
+    query: Mapping[str, str],
+    chosen: ModelVariant | None = None,
+) -> Any:  # noqa: ANN401 - JSON
+    """The data that a request of the page asks for; None if there are no such data.
+
+    Args:
+        one: the log.
+        reading: how to read it.
+        what: last part of the request's address.
+        query: options in the address.
+        chosen: a model with effects, for gains and code.
+
+    Raises:
+        Refusal: the log cannot be read or fitted.
+    """
+    answers: Mapping[str, Any] = {
+        "summary": lambda: describe_log(one, reading),
+        "entries": lambda: describe_entries(one.list_entries()),
+        "faults": lambda: describe_faults(one.inspect(reading), one),
+        "fit": lambda: describe_fit(one, reading, chosen),
+        "directions": lambda: describe_directions(one, reading),
+        "code": lambda: write_code(one, reading, query, chosen),
+    }
+    return answers[what]() if what in answers else None
+
+
+def describe_log(one: OpenLog, reading: Reading) -> dict[str, Any]:
+    """Unit, type and runs of a log.
 
     Raises:
         Refusal: the log cannot be read with these options.
@@ -53,40 +83,41 @@ def describe_log(one: OpenLog, reading: Reading, *, doubts: bool = True) -> dict
     log = one.combine_runs(reading)
     unit = find_unit(log.units)
     runs = [
-        {
-            "part": name,
-            "test": run.test,
-            "samples": len(run),
-            "start": float(run.time[0]) if len(run) else 0.0,
-            "end": float(run.time[-1]) if len(run) else 0.0,
-        }
+        {"part": name, "test": run.test, "samples": len(run)}
         for name, part in one.read_parts(reading).items()
         for run in part.runs
     ]
     return {
-        "id": one.number,
-        "name": one.name,
         "type": log.type or "simple",
-        "units": {"name": unit.name, "symbol": unit.symbol, "si": unit.si, "angular": unit.angular},
+        "units": {"name": unit.name, "symbol": unit.symbol, "si": unit.si},
         "mechanism": log.mechanism,
         "runs": runs,
-        "samples": sum(run["samples"] for run in runs),
-        "doubts": _doubts(log.doubts, one) if doubts else [],
+        "samples": sum(map(len, log.runs)),
         "compiles": not engine_is_cached(),
         "compiled": engine_can_compile(),
     }
 
 
-def describe_live(session: Session) -> dict[str, Any]:
+def describe_session(session: Session) -> dict[str, Any]:
+    """The open logs, what the page shows of them, and the source that is followed."""
+    return {
+        "logs": [name_log(one) for one in session.logs],
+        "view": asdict(session.view),
+        "live": _describe_live(session),
+    }
+
+
+def name_log(one: OpenLog) -> dict[str, Any]:
+    """The number and the name of a log."""
+    return {"id": one.number, "name": one.name}
+
+
+def _describe_live(session: Session) -> dict[str, Any]:
     """The status of the source that is followed, and its growing logs with their revisions."""
     live = session.live
     if live is None:
         return {"follows": False}
-    logs = [
-        {"id": one.number, "name": one.name, "revision": one.revision}
-        for one in session.logs
-        if one.revision
-    ]
+    logs = [name_log(one) | {"revision": one.revision} for one in session.logs if one.revision]
     return {
         "follows": True,
         "status": live.status,
@@ -149,7 +180,6 @@ def describe_fit(
         "parts": [] if chosen else sorted(part.effect for part in found.parts),
         "lag": found.position_delay if found.position_delay > LAGS else 0.0,
         "window": max(2.0 * (found.velocity_delay - found.position_delay), 0.0),
-        "r2": _finite(found.simulated_velocity_r2),
         "feedback": {
             loop: {"kP": gains.kp, "kD": gains.kd} for loop, gains in found.feedback().items()
         },
@@ -164,7 +194,6 @@ def _list_tracks(chosen: ModelVariant, log: Log) -> list[list[float]]:
 
 
 def _apply_model(found: Fit, chosen: ModelVariant | None) -> Fit:
-
     return found if chosen is None else replace_gains(found, chosen.gains, chosen.parts)
 
 
