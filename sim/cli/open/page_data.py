@@ -12,6 +12,7 @@ import numpy as np
 
 from sim.cli.entries import describe_entry
 from sim.cli.fit.plausibility import compare_directions_alone
+from sim.cli.inspect import name_confidence
 from sim.cli.open.session import OpenLog, Reading, Session
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, Refusal
@@ -27,6 +28,7 @@ from sim.physics.engine import engine_can_compile, engine_is_cached
 from sim.physics.model import Part
 from sim.reconcile.model_variant import ModelVariant
 from sim.reconcile.story import ParameterEstimate
+from sim.report.fit_terminal import format_gains
 from sim.report.gain_verdicts import judge_gains, write_gain_verdict
 from sim.report.robot_code_snippet import write_robot_code
 
@@ -141,6 +143,7 @@ def describe_faults(found: Inspection, one: OpenLog) -> dict[str, Any]:
     data = found.to_json()
     for fault in data["faults"]:
         fault["evidence"] = _without_path(fault["evidence"], one)
+        fault["sureness"] = name_confidence(fault["confidence"])
     return {"faults": data["faults"], "doubts": _doubts(found.doubts, one), "clean": data["clean"]}
 
 
@@ -162,12 +165,15 @@ def describe_fit(
     gains = [
         {
             "name": name,
-            "value": value,
+            "label": label,
+            "value": found.gains[name],
+            "text": text,
             "error": _finite(found.errors.get(name, math.nan)),
-            "unit": found.format_gain_unit(name),
+            "error_text": error,
+            "unit": unit,
             "means": MEANS[name],
         }
-        for name, value in found.gains.items()
+        for name, (label, text, error, unit) in zip(found.gains, format_gains(found), strict=True)
     ]
     return {
         "type": found.type,

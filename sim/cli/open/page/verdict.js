@@ -23,16 +23,12 @@ export function showFaults() {
   const none = `No fault in ${log.runs.length === 1 ? "this run" : `these ${log.runs.length} runs`}.`;
   place.replaceChildren(...rows.length ? rows : [make("li", "well", none)]);
   const lines = faults.slice(0, MOST_LINES).map((one) => {
-    const words = `${one.fault.replaceAll("-", " ")} (${surenessOf(one)})${one.test ? `: ${one.test}` : ""}`;
+    const words = `${one.fault.replaceAll("-", " ")} (${one.sureness})${one.test ? `: ${one.test}` : ""}`;
     return make("li", "grave", button("link", words, () => showFault(one)));
   });
   if (faults.length > MOST_LINES) lines.push(make("li", "busy", `${faults.length - MOST_LINES} more below`));
   at("fault-lines").replaceChildren(...lines.length ? lines : [make("li", "well", none)], ...leftOutLines(log));
   showDoubts();
-}
-
-function surenessOf({ confidence }) {
-  return confidence >= 0.9 ? "sure" : confidence >= 0.7 ? "likely" : "perhaps";
 }
 
 /** Show where a fault is on the time axis; one without a place, its card. */
@@ -47,7 +43,7 @@ function faultCard(log, one) {
   const disabled = log.leftOut.some((other) => nameOfPart(other) === nameOfPart(part));
   const where = one.run === null ? one.test : `${one.test}, ${one.start_s.toFixed(2)} to ${one.end_s.toFixed(2)} s`;
   return make("li", "fault",
-    make("h3", "", one.fault.replaceAll("-", " "), make("span", "badge", surenessOf(one))),
+    make("h3", "", one.fault.replaceAll("-", " "), make("span", "badge", one.sureness)),
     one.test && make("p", "where", where),
     make("p", "", prose(one.evidence)), make("p", "advice", prose(one.advice)),
     one.test && one.run !== null && [
@@ -66,7 +62,7 @@ function leftOutLines(log) {
 export function showDoubts() {
   const log = shownLog();
   const { fit, fitRefused, faults } = log;
-  const sure = faults?.faults.some((one) => one.confidence >= 0.9);
+  const sure = faults?.faults.some((one) => one.sureness === "sure");
   const word = fitRefused ? "No gains" : !fit ? "Fitting…" : sure && fit.word !== "Do not use" ? "Check first" : fit.word;
   at("word").textContent = word;
   at("verdict-card").classList.toggle("wrong", Boolean(fitRefused) || word === "Do not use");
