@@ -32,6 +32,15 @@ main { max-width: 60rem; margin: auto; }
 .reveal section section { height: 100%; overflow-y: auto; text-align: left; font-size: 20px; }
 .reveal .slides * { text-transform: none; }
 @media (max-width: 40rem) { figure.picture img { min-width: 32rem; } }
+:root { color-scheme: light dark; }
+.jp-Notebook .reveal blockquote { width: auto; margin: 1rem 0; box-shadow: none; font: inherit; }
+@media screen and (prefers-color-scheme: dark) {
+{% include 'static/theme-dark.css' %}
+body.jp-Notebook { background: var(--jp-layout-color0); }
+.jp-Notebook .reveal, .jp-Notebook .reveal :is(h1, h2, h3) { color: var(--jp-content-font-color1); }
+.jp-Notebook .reveal a:not([class]) { color: var(--jp-content-link-color); }
+figure.picture img { filter: invert(0.9) hue-rotate(180deg); }
+}
 </style>{% endblock %}{% block footer_js %}{% if resources.reveal %}
 <script src="{{ resources.reveal.url_prefix }}/dist/reveal.js"></script>
 <script>window.Reveal?.initialize({center: false, hash: true, slideNumber: true})</script>
@@ -113,7 +122,11 @@ def convert_notebook(notebook: Any, template: str = PAGE) -> str:  # noqa: ANN40
 
 
 def make_accessible(html: str) -> str:
-    """HTML whose boxes to tick have a name, and whose wide parts scroll from the keyboard."""
+    """HTML whose boxes to tick have a name, and whose wide parts scroll from the keyboard.
+
+    It names no theme of JupyterLab's, so that animations follow the reader's color scheme, too.
+    """
+    html = html.replace(' data-jp-theme-light="true" data-jp-theme-name="JupyterLab Light"', "")
     html = re.sub(r'<input(?=[^>]*type="checkbox")', '<input aria-label="Done"', html)
     html = re.sub(r'<(pre|div class="wide")(?=[ >])', r'<\1 tabindex="0"', html)
     return re.sub(r"<th[^>]*></th>", "<td></td>", html)
