@@ -36,6 +36,8 @@ main { max-width: 60rem; margin: auto; }
 .jp-Notebook .reveal blockquote { width: auto; margin: 1rem 0; box-shadow: none; font: inherit; }
 @media screen and (prefers-color-scheme: dark) {
 {% include 'static/theme-dark.css' %}
+{% if resources.reveal %}
+:root { --jp-content-font-size1: 20px; --jp-code-font-size: 19px; }{% endif %}
 body.jp-Notebook { background: var(--jp-layout-color0); }
 .jp-Notebook .reveal, .jp-Notebook .reveal :is(h1, h2, h3) { color: var(--jp-content-font-color1); }
 .jp-Notebook .reveal a:not([class]) { color: var(--jp-content-link-color); }

@@ -167,7 +167,7 @@ def describe_fit(
             "name": name,
             "label": label,
             "value": found.gains[name],
-            "text": text,
+            "text": text.replace("-", "−"),
             "error": _finite(found.errors.get(name, math.nan)),
             "error_text": error,
             "unit": unit,
@@ -327,6 +327,7 @@ def describe_refusal(refusal: Refusal, folder: str) -> dict[str, Any]:
 def _doubts(doubts: Sequence[Doubt], one: OpenLog) -> list[dict[str, Any]]:
     return [
         {
+            "code": doubt.code,
             "message": _without_path(doubt.message, one),
             "grave": doubt.grave,
             "advice": doubt.action.on_page if doubt.action else "",
@@ -340,7 +341,7 @@ def _doubts(doubts: Sequence[Doubt], one: OpenLog) -> list[dict[str, Any]]:
 
 def _without_path(text: str, one: OpenLog) -> str:
     """A message without the file's path: the page shows its name."""
-    short = text.removeprefix(f"{one.path}: ")
+    short = text.replace(f"{one.path}: ", "")
     start = short[:1].upper() if short != text else short[:1]
     return f"{start}{short[1:]}".replace(str(one.path), one.name)
 

@@ -142,7 +142,7 @@ function take(log, summary, samples) {
 
 async function askFaults(log, asked) {
   const found = await askLog(log.id, "faults", log.query).catch((problem) => ({
-    faults: [], clean: false, doubts: [{ message: sentence(problem), grave: true }],
+    faults: [], clean: false, doubts: [{ code: "", message: sentence(problem), grave: true }],
   }));
   if (log.asked !== asked) return;
   log.faults = found;

@@ -58,7 +58,7 @@ function leftOutLines(log) {
     button("link", "Take in again", () => leaveOut(log, log.leftOut.filter((one) => one !== part)))));
 }
 
-/** The verdict in a word, and the warnings of fit and inspection, each once, the worst first. */
+/** The verdict in a word, and the warnings of fit and inspection, a line for each kind, the worst first. */
 export function showDoubts() {
   const log = shownLog();
   const { fit, fitRefused, faults } = log;
@@ -67,8 +67,9 @@ export function showDoubts() {
   at("word").textContent = word;
   at("verdict-card").classList.toggle("wrong", Boolean(fitRefused) || word === "Do not use");
   at("verdict-card").classList.toggle("well", word === "Usable");
-  const said = new Map([...fit?.doubts ?? [], ...faults?.doubts ?? []].map((one) => [one.message, one]));
-  const known = [...said.values()].sort((a, b) => Number(b.grave) - Number(a.grave));
+  const said = [...fit?.doubts ?? [], ...faults?.doubts ?? []].sort((a, b) => Number(b.grave) - Number(a.grave));
+  const known = [...Map.groupBy(said, ({ code }) => code).values()].map((alike) =>
+    ({ ...alike[0], message: [...new Set(alike.map(({ message }) => message))].join(" ") }));
   const notes = (fit?.notes ?? []).map((note) => foldedItem("well", "Note", note));
   const parts = fit?.parts.length
     ? [foldedItem("busy", "Note", `The fit also allows for ${fit.parts.map((one) => one.replaceAll("-", " ")).join(", ")}; the curve here leaves them out.`)]
