@@ -320,7 +320,7 @@ def describe_refusal(refusal: Refusal, folder: str) -> dict[str, Any]:
         "where": place,
         "advice": advice,
         "kind": type(refusal).__name__,
-        "columns": refusal.action is not None and refusal.action.name == "columns",
+        "asks": refusal.action.name if refusal.action else "",
     }
 
 

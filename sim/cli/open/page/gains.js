@@ -89,12 +89,13 @@ async function showCode() {
   const log = shownLog();
   const moved = log.fit.gains.map(({ name, value }) => [name, log.gains[name] === value ? undefined : log.gains[name]]);
   const [language, season] = [at("language").value, at("season").value];
-  at("radius-row").hidden = ["java", "python"].includes(language);
   const query = { ...modelQuery(log), ...Object.fromEntries(moved), language, season, radius: at("radius").value.replace(",", ".") };
   try {
     at("code-text").textContent = (await askLog(log.id, "code", query)).code;
+    at("radius-row").hidden = !query.radius;
   } catch (problem) {
     at("code-text").textContent = sentence(problem);
+    at("radius-row").hidden = problem.asks !== "radius";
   }
 }
 

@@ -120,7 +120,7 @@ export async function offerChoice(log, problem = null) {
   const entries = log.choice?.entries ?? await askLog(log.id, "entries").catch(() => []);
   if (!entries.length) return false;
   const why = !problem ? "Choose them again." : log.choice ? sentence(problem) : `${problem.what}.`;
-  log.choice = { entries, why, chosen: { ...log.query }, columns: problem?.columns ?? log.choice?.columns ?? Boolean(log.query.time) };
+  log.choice = { entries, why, chosen: { ...log.query }, columns: problem ? problem.asks === "columns" : log.choice?.columns ?? Boolean(log.query.time) };
   changed(log, "log");
   tell("tabs");
   return true;

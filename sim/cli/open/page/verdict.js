@@ -22,12 +22,13 @@ export function showFaults() {
   if (faults.length > MOST_SHOWN) rows.push(make("li", "busy", `${faults.length - MOST_SHOWN} more are marked on the time axis.`));
   const none = `No fault in ${log.runs.length === 1 ? "this run" : `these ${log.runs.length} runs`}.`;
   place.replaceChildren(...rows.length ? rows : [make("li", "well", none)]);
-  const lines = faults.slice(0, MOST_LINES).map((one) => {
+  const left = faults.filter((one) => !isLeftOut(log, one));
+  const lines = left.slice(0, MOST_LINES).map((one) => {
     const words = `${one.fault.replaceAll("-", " ")} (${one.sureness})${one.test ? `: ${one.test}` : ""}`;
     return make("li", "grave", button("link", words, () => showFault(one)));
   });
-  if (faults.length > MOST_LINES) lines.push(make("li", "busy", `${faults.length - MOST_LINES} more below`));
-  at("fault-lines").replaceChildren(...lines.length ? lines : [make("li", "well", none)], ...leftOutLines(log));
+  if (left.length > MOST_LINES) lines.push(make("li", "busy", `${left.length - MOST_LINES} more below`));
+  at("fault-lines").replaceChildren(...faults.length ? lines : [make("li", "well", none)], ...leftOutLines(log));
   showDoubts();
 }
 
@@ -38,9 +39,13 @@ function showFault(one) {
   at(placed ? "plot" : "faults").scrollIntoView({ block: "center", behavior: "smooth" });
 }
 
+const partOf = (one) => ({ test: one.test, start: one.start_s, end: one.end_s });
+
+function isLeftOut(log, one) {
+  return log.leftOut.some((part) => nameOfPart(part) === nameOfPart(partOf(one)));
+}
+
 function faultCard(log, one) {
-  const part = { test: one.test, start: one.start_s, end: one.end_s };
-  const disabled = log.leftOut.some((other) => nameOfPart(other) === nameOfPart(part));
   const where = one.run === null ? one.test : `${one.test}, ${one.start_s.toFixed(2)} to ${one.end_s.toFixed(2)} s`;
   return make("li", "fault",
     make("h3", "", one.fault.replaceAll("-", " "), make("span", "badge", one.sureness)),
@@ -48,13 +53,13 @@ function faultCard(log, one) {
     make("p", "", prose(one.evidence)), make("p", "advice", prose(one.advice)),
     one.test && one.run !== null && [
       button("button small", "Show", () => showFault(one)), " ",
-      button("button small leave", "Leave out", () => leaveOut(log, [...log.leftOut, part]), { disabled }),
+      button("button small leave", "Leave out", () => leaveOut(log, [...log.leftOut, partOf(one)]), { disabled: isLeftOut(log, one) }),
     ]);
 }
 
 /** A line for each part that was left out, with a button to take it in again. */
 function leftOutLines(log) {
-  return log.leftOut.map((part) => make("li", "busy", `Left out: ${part.test}, ${part.start.toFixed(2)} to ${part.end.toFixed(2)} s `,
+  return log.leftOut.map((part) => make("li", "busy", `Left out: ${part.test}, ${part.start.toFixed(2)} to ${part.end.toFixed(2)}\u00a0s `,
     button("link", "Take in again", () => leaveOut(log, log.leftOut.filter((one) => one !== part)))));
 }
 
