@@ -4,6 +4,7 @@ Samples are in SI; gains and their unit are those of the log, with the factor be
 """
 
 import math
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, replace
 from typing import Any
@@ -341,7 +342,7 @@ def _doubts(doubts: Sequence[Doubt], one: OpenLog) -> list[dict[str, Any]]:
 
 def _without_path(text: str, one: OpenLog) -> str:
     """A message without the file's path: the page shows its name."""
-    short = text.replace(f"{one.path}: ", "")
+    short = re.sub(f"{re.escape(str(one.path))}[:,] ", "", text)
     start = short[:1].upper() if short != text else short[:1]
     return f"{start}{short[1:]}".replace(str(one.path), one.name)
 

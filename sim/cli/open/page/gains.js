@@ -90,6 +90,7 @@ async function showCode() {
   const moved = log.fit.gains.map(({ name, value }) => [name, log.gains[name] === value ? undefined : log.gains[name]]);
   const [language, season] = [at("language").value, at("season").value];
   const query = { ...modelQuery(log), ...Object.fromEntries(moved), language, season, radius: at("radius").value.replace(",", ".") };
+  at("code-text").textContent = "Writing…";
   try {
     at("code-text").textContent = (await askLog(log.id, "code", query)).code;
     at("radius-row").hidden = !query.radius;

@@ -17,14 +17,15 @@ export function showFaults() {
   }
   chart.mark({ faults: listMarks(log) });
   const growing = log.revision > 0; // then a missing test is not a fault
-  const faults = log.faults.faults.filter(({ fault }) => !(growing && fault === "missing-test"));
+  const faults = log.faults.faults.filter(({ fault }) => !(growing && fault === "missing-test"))
+    .sort((a, b) => b.confidence - a.confidence);
   const rows = faults.slice(0, MOST_SHOWN).map((one) => faultCard(log, one));
   if (faults.length > MOST_SHOWN) rows.push(make("li", "busy", `${faults.length - MOST_SHOWN} more are marked on the time axis.`));
   const none = `No fault in ${log.runs.length === 1 ? "this run" : `these ${log.runs.length} runs`}.`;
   place.replaceChildren(...rows.length ? rows : [make("li", "well", none)]);
   const left = faults.filter((one) => !isLeftOut(log, one));
   const lines = left.slice(0, MOST_LINES).map((one) => {
-    const words = `${one.fault.replaceAll("-", " ")} (${one.sureness})${one.test ? `: ${one.test}` : ""}`;
+    const words = `${one.fault.replaceAll("-", " ")} (${one.sureness})${one.test ? `: ${testOf(log, one)}` : ""}`;
     return make("li", "grave", button("link", words, () => showFault(one)));
   });
   if (left.length > MOST_LINES) lines.push(make("li", "busy", `${left.length - MOST_LINES} more below`));
@@ -39,6 +40,7 @@ function showFault(one) {
   at(placed ? "plot" : "faults").scrollIntoView({ block: "center", behavior: "smooth" });
 }
 
+const testOf = (log, { run, test }) => `${log.runs[run]?.part ?? ""} ${test}`.trim();
 const partOf = (one) => ({ test: one.test, start: one.start_s, end: one.end_s });
 
 function isLeftOut(log, one) {
@@ -46,7 +48,7 @@ function isLeftOut(log, one) {
 }
 
 function faultCard(log, one) {
-  const where = one.run === null ? one.test : `${one.test}, ${one.start_s.toFixed(2)} to ${one.end_s.toFixed(2)} s`;
+  const where = one.run === null ? one.test : `${testOf(log, one)}, ${one.start_s.toFixed(2)} to ${one.end_s.toFixed(2)} s`;
   return make("li", "fault",
     make("h3", "", one.fault.replaceAll("-", " "), make("span", "badge", one.sureness)),
     one.test && make("p", "where", where),
