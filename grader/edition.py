@@ -31,6 +31,7 @@ main { max-width: 60rem; margin: auto; }
 .jp-OutputArea-output pre { white-space: pre-wrap; word-break: normal; }
 .reveal section section { height: 100%; overflow-y: auto; text-align: left; font-size: 20px; }
 .reveal .slides * { text-transform: none; }
+li:has(> input[type="checkbox"]) { list-style: none; text-indent: -1.25rem; }
 @media (max-width: 40rem) { figure.picture img { min-width: 32rem; } }
 :root { color-scheme: light dark; }
 .jp-Notebook .reveal blockquote { width: auto; margin: 1rem 0; box-shadow: none; font: inherit; }
