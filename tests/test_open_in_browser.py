@@ -369,6 +369,8 @@ def test_an_effect_that_was_found_is_switched_on_and_off(page, tmp_path):
     page.get_by_label("Language").select_option("phoenix6")
     page.locator("#code-text", has_text="Slot0Configs").wait_for()
     page.get_by_role("button", name="Close", exact=True).click()
+    saved = page.evaluate("fetch(document.querySelector('#report').href).then(one => one.text())")
+    assert "The model is missing drag" in saved
     box.uncheck()
     wait_until(page, "!document.querySelector('#sliders').inert")
     assert kv_shown(page) == wrong

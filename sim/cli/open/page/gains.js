@@ -22,7 +22,7 @@ export function showFit() {
   showDoubts();
   if (!fit) {
     for (const id of ["sliders", "meter", "feedback"]) at(id).replaceChildren();
-    at("verdict").textContent = fitRefused ? sentence(fitRefused).replace(/^./, (one) => one.toUpperCase()) : log.summary.compiles
+    at("verdict").textContent = fitRefused ? sentence(fitRefused) : log.summary.compiles
       ? "The simulation is compiled first. That is done once, and takes about twenty seconds." : "";
     return;
   }
