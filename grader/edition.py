@@ -21,21 +21,7 @@ VIEW = "application/vnd.jupyter.widget-view+json"
 SLIDERS = "(In the notebook, there are sliders and menus here. They draw this picture again.)"
 SYSTEM_CHECK = re.compile(r"^## [^\n]*System check\n(.*?)(?=^## |\Z)", re.MULTILINE | re.DOTALL)
 PAGE, SLIDES, BODY = "lab/index.html.j2", "reveal/index.html.j2", "lab/base.html.j2"
-# What differs from nbconvert's templates: code is folded, and nothing is loaded from elsewhere;
-# slides load reveal.js alone, and are one long page without it.
-BLOCKS = """{% block html_head_js %}{% endblock %}{% block html_head_js_mathjax %}{% endblock %}
-{% block html_head_js_mermaidjs %}{% endblock %}
-{% block input %}<details><summary>Code</summary>{{ super() }}</details>{% endblock %}
-{% block html_head_css %}<style>
-main { max-width: 60rem; margin: auto; }
-.jp-OutputArea-output pre { white-space: pre-wrap; word-break: normal; }
-.reveal section section { height: 100%; overflow-y: auto; text-align: left; font-size: 20px; }
-.reveal .slides * { text-transform: none; }
-@media (max-width: 40rem) { figure.picture img { min-width: 32rem; } }
-</style>{% endblock %}{% block footer_js %}{% if resources.reveal %}
-<script src="{{ resources.reveal.url_prefix }}/dist/reveal.js"></script>
-<script>window.Reveal?.initialize({center: false, hash: true, slideNumber: true})</script>
-{% endif %}{% endblock %}"""
+BLOCKS = Path(__file__).with_name("edition.html.jinja")
 
 
 def execute_notebook(path: Path) -> Any:  # noqa: ANN401 - nbformat has no types
@@ -106,14 +92,19 @@ def convert_notebook(notebook: Any, template: str = PAGE) -> str:  # noqa: ANN40
             if data.pop(VIEW, None) and "text/html" in data:
                 data["text/html"] = f"<p>{SLIDERS}</p>{data['text/html']}"
     exporter = SlidesExporter(reveal_theme="white") if template == SLIDES else HTMLExporter()
-    exporter.raw_template = f"{{% extends '{template}' %}}{BLOCKS}"
+    blocks = BLOCKS.read_text(encoding="utf-8")
+    exporter.raw_template = f"{{% extends '{template}' %}}{blocks}"
     exporter.exclude_input_prompt = exporter.exclude_output_prompt = True
     exporter.exclude_anchor_links = True
     return make_accessible(str(exporter.from_notebook_node(notebook)[0]))
 
 
 def make_accessible(html: str) -> str:
-    """HTML whose boxes to tick have a name, and whose wide parts scroll from the keyboard."""
+    """HTML whose boxes to tick have a name, and whose wide parts scroll from the keyboard.
+
+    It names no theme of JupyterLab's, so that animations follow the reader's color scheme, too.
+    """
+    html = html.replace(' data-jp-theme-light="true" data-jp-theme-name="JupyterLab Light"', "")
     html = re.sub(r'<input(?=[^>]*type="checkbox")', '<input aria-label="Done"', html)
     html = re.sub(r'<(pre|div class="wide")(?=[ >])', r'<\1 tabindex="0"', html)
     return re.sub(r"<th[^>]*></th>", "<td></td>", html)

@@ -330,9 +330,12 @@ def test_nothing_lies_beside_the_screen_in_either_theme(browser, server, tmp_pat
         assert least_contrast(page, TEXTS) >= LEAST_CONTRAST
         paper = page.evaluate("getComputedStyle(document.body).backgroundColor")
         assert (sum(map(int, re.findall(r"\d+", paper))) < 150) == (theme == "dark")
-        page.locator("#theme").click()
-        page.locator("#theme").click()
-        assert page.evaluate("document.documentElement.dataset.theme") == "dark"
+        other = {"light": "dark", "dark": "light"}[theme]
+        page.get_by_label("Color theme").select_option(other)
+        paper = page.evaluate("getComputedStyle(document.body).backgroundColor")
+        assert (sum(map(int, re.findall(r"\d+", paper))) < 150) == (other == "dark")
+        ink = page.evaluate("sysid.chart.colors.ink")
+        assert (sum(map(int, re.findall(r"\d+", ink))) > 450) == (other == "dark")
 
 
 def kv_shown(page):
@@ -366,6 +369,8 @@ def test_an_effect_that_was_found_is_switched_on_and_off(page, tmp_path):
     page.get_by_label("Language").select_option("phoenix6")
     page.locator("#code-text", has_text="Slot0Configs").wait_for()
     page.get_by_role("button", name="Close", exact=True).click()
+    saved = page.evaluate("fetch(document.querySelector('#report').href).then(one => one.text())")
+    assert "The model is missing drag" in saved
     box.uncheck()
     wait_until(page, "!document.querySelector('#sliders').inert")
     assert kv_shown(page) == wrong
@@ -378,7 +383,7 @@ def choose_signals(page, **chosen):
     for role, name in chosen.items():
         page.locator(f"#roles [value={role}]").click()
         page.get_by_label("Filter the entries").fill(name)
-        page.get_by_role("radio", name=name).check()
+        page.locator("#candidates").get_by_role("radio", name=name).check()
     page.get_by_role("button", name="Open the log").click()
 
 

@@ -3,6 +3,7 @@
 import click
 
 from sim.cli.options import as_json, list_catalogue
+from sim.physics.effect import Effect
 from sim.physics.effects import EFFECTS, list_look_alikes
 
 
@@ -14,24 +15,13 @@ def effects(*, as_json: bool) -> None:
     You can hide an effect in a simulated mechanism, and add it to a model.
     """
     list_catalogue(
-        (
-            {
-                "name": name,
-                "summary": found.summary,
-                "kind": found.kind,
-                "formula": found.formula,
-                "parameters": {
-                    parameter.name: {
-                        "what": parameter.what,
-                        "unit": parameter.unit.format(u="unit"),
-                    }
-                    for parameter in found.parameters
-                },
-                "fingerprint": found.fingerprint,
-                "inspect": found.inspect,
-                "apart": list_look_alikes(name),
-            }
-            for name, found in EFFECTS.items()
-        ),
-        as_json=as_json,
+        EFFECTS, "kind", "formula", "fingerprint", "inspect", describe=_describe, as_json=as_json
     )
+
+
+def _describe(effect: Effect) -> dict[str, object]:
+    """The parameters of an effect, and what tells it from similar effects."""
+    parameters = {
+        one.name: {"what": one.what, "unit": one.unit.format(u="unit")} for one in effect.parameters
+    }
+    return {"parameters": parameters, "apart": list_look_alikes(effect.name)}

@@ -13,17 +13,4 @@ def faults(*, as_json: bool) -> None:
 
     `sysid inspect` looks for these faults.
     """
-    list_catalogue(
-        (
-            {
-                "name": name,
-                "summary": found.summary,
-                "ordinary": found.ordinary,
-                "kinds": list(found.kinds),
-                "types": list(found.types),
-                "whole": found.whole,
-            }
-            for name, found in FAULTS.items()
-        ),
-        as_json=as_json,
-    )
+    list_catalogue(FAULTS, "ordinary", "kinds", "types", "whole", as_json=as_json)

@@ -118,9 +118,8 @@ def _write_paragraph(kind: Sequence[Damage]) -> list[str]:
     """The lines on the faults of one kind: where, what happened, what to do."""
     worst, several = kind[0], len(kind) > 1
     where = _list_runs(kind) if several else _describe_place(worst)
-    lines = [
-        f"{worst.fault}: {where} ({_format_confidence(max(damage.confidence for damage in kind))})"
-    ]
+    confidence = max(damage.confidence for damage in kind)
+    lines = [f"{worst.fault}: {where} ({name_confidence(confidence)}, {confidence:.2f})"]
     texts = [worst.evidence, worst.advice]
     if several:
         places = [_describe_place(damage) for damage in sorted(kind, key=_sort_key)[:PLACES]]
@@ -164,6 +163,6 @@ def _describe_place(damage: Damage) -> str:
     return f"run {where.run}, {where.test}, {where.start:.2f} to {where.end:.2f} s"
 
 
-def _format_confidence(confidence: float) -> str:
-    word = "sure" if confidence >= SURE else "likely" if confidence >= LIKELY else "perhaps"
-    return f"{word}, {confidence:.2f}"
+def name_confidence(confidence: float) -> str:
+    """The word for a confidence: ``sure``, ``likely`` or ``perhaps``."""
+    return "sure" if confidence >= SURE else "likely" if confidence >= LIKELY else "perhaps"

@@ -10,7 +10,4 @@ from sim.cli.options import as_json, list_catalogue
 @as_json
 def mechanisms(*, as_json: bool) -> None:
     """List the mechanisms that can be simulated."""
-    list_catalogue(
-        ({"name": name, "summary": found.summary} for name, found in MECHANISMS.items()),
-        as_json=as_json,
-    )
+    list_catalogue(MECHANISMS, as_json=as_json)

@@ -115,19 +115,33 @@ paste_options = combine_options(
 )
 
 
-def list_catalogue(rows: Iterable[Mapping[str, Any]], *, as_json: bool) -> None:
+def list_catalogue(
+    members: Mapping[str, Any],
+    *keys: str,
+    describe: Callable[[Any], Mapping[str, Any]] = lambda _: {},
+    as_json: bool,
+) -> None:
     """Print a catalogue: name and summary, one line each, or everything as JSON.
 
     Args:
-        rows: one mapping for each member, with ``name``, ``summary`` and other keys for JSON.
+        members: the members by their names, each with a ``summary``.
+        keys: further attributes of a member that JSON has.
+        describe: what else JSON has about a member.
         as_json: print JSON.
     """
-    rows = list(rows)
     if as_json:
+        rows = [
+            {
+                "name": name,
+                **{key: getattr(one, key) for key in ("summary", *keys)},
+                **describe(one),
+            }
+            for name, one in members.items()
+        ]
         click.echo(json.dumps(rows, allow_nan=False))
     else:
-        width = max(len(row["name"]) for row in rows)
-        click.echo("\n".join(f"{row['name']:{width}}  {row['summary']}" for row in rows))
+        width = max(map(len, members))
+        click.echo("\n".join(f"{name:{width}}  {one.summary}" for name, one in members.items()))
 
 
 def refuse_overwriting(*outputs: Path | None, inputs: Iterable[Path | None] = ()) -> None:

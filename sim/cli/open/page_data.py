@@ -4,14 +4,16 @@ Samples are in SI; gains and their unit are those of the log, with the factor be
 """
 
 import math
+import re
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import asdict, replace
 from typing import Any
 
 import numpy as np
 
 from sim.cli.entries import describe_entry
 from sim.cli.fit.plausibility import compare_directions_alone
+from sim.cli.inspect import name_confidence
 from sim.cli.open.session import OpenLog, Reading, Session
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, Refusal
@@ -27,6 +29,7 @@ from sim.physics.engine import engine_can_compile, engine_is_cached
 from sim.physics.model import Part
 from sim.reconcile.model_variant import ModelVariant
 from sim.reconcile.story import ParameterEstimate
+from sim.report.fit_terminal import format_gains
 from sim.report.gain_verdicts import judge_gains, write_gain_verdict
 from sim.report.robot_code_snippet import write_robot_code
 
@@ -44,8 +47,38 @@ MEANS = {
 LAGS = 1e-5  # [s] a shorter lag is shown as 0
 
 
-def describe_log(one: OpenLog, reading: Reading, *, doubts: bool = True) -> dict[str, Any]:
-    """Name, unit, type and runs of a log, with its doubts if wanted.
+def answer_request(
+    one: OpenLog,
+    reading: Reading,
+    what: str,
+    query: Mapping[str, str],
+    chosen: ModelVariant | None = None,
+) -> Any:  # noqa: ANN401 - JSON
+    """The data that a request of the page asks for; None if there are no such data.
+
+    Args:
+        one: the log.
+        reading: how to read it.
+        what: last part of the request's address.
+        query: options in the address.
+        chosen: a model with effects, for gains and code.
+
+    Raises:
+        Refusal: the log cannot be read or fitted.
+    """
+    answers: Mapping[str, Any] = {
+        "summary": lambda: describe_log(one, reading),
+        "entries": lambda: describe_entries(one.list_entries()),
+        "faults": lambda: describe_faults(one.inspect(reading), one),
+        "fit": lambda: describe_fit(one, reading, chosen),
+        "directions": lambda: describe_directions(one, reading),
+        "code": lambda: write_code(one, reading, query, chosen),
+    }
+    return answers[what]() if what in answers else None
+
+
+def describe_log(one: OpenLog, reading: Reading) -> dict[str, Any]:
+    """Unit, type and runs of a log.
 
     Raises:
         Refusal: the log cannot be read with these options.
@@ -53,40 +86,41 @@ def describe_log(one: OpenLog, reading: Reading, *, doubts: bool = True) -> dict
     log = one.combine_runs(reading)
     unit = find_unit(log.units)
     runs = [
-        {
-            "part": name,
-            "test": run.test,
-            "samples": len(run),
-            "start": float(run.time[0]) if len(run) else 0.0,
-            "end": float(run.time[-1]) if len(run) else 0.0,
-        }
+        {"part": name, "test": run.test, "samples": len(run)}
         for name, part in one.read_parts(reading).items()
         for run in part.runs
     ]
     return {
-        "id": one.number,
-        "name": one.name,
         "type": log.type or "simple",
-        "units": {"name": unit.name, "symbol": unit.symbol, "si": unit.si, "angular": unit.angular},
+        "units": {"name": unit.name, "symbol": unit.symbol, "si": unit.si},
         "mechanism": log.mechanism,
         "runs": runs,
-        "samples": sum(run["samples"] for run in runs),
-        "doubts": _doubts(log.doubts, one) if doubts else [],
+        "samples": sum(map(len, log.runs)),
         "compiles": not engine_is_cached(),
         "compiled": engine_can_compile(),
     }
 
 
-def describe_live(session: Session) -> dict[str, Any]:
+def describe_session(session: Session) -> dict[str, Any]:
+    """The open logs, what the page shows of them, and the source that is followed."""
+    return {
+        "logs": [name_log(one) for one in session.logs],
+        "view": asdict(session.view),
+        "live": _describe_live(session),
+    }
+
+
+def name_log(one: OpenLog) -> dict[str, Any]:
+    """The number and the name of a log."""
+    return {"id": one.number, "name": one.name}
+
+
+def _describe_live(session: Session) -> dict[str, Any]:
     """The status of the source that is followed, and its growing logs with their revisions."""
     live = session.live
     if live is None:
         return {"follows": False}
-    logs = [
-        {"id": one.number, "name": one.name, "revision": one.revision}
-        for one in session.logs
-        if one.revision
-    ]
+    logs = [name_log(one) | {"revision": one.revision} for one in session.logs if one.revision]
     return {
         "follows": True,
         "status": live.status,
@@ -110,6 +144,7 @@ def describe_faults(found: Inspection, one: OpenLog) -> dict[str, Any]:
     data = found.to_json()
     for fault in data["faults"]:
         fault["evidence"] = _without_path(fault["evidence"], one)
+        fault["sureness"] = name_confidence(fault["confidence"])
     return {"faults": data["faults"], "doubts": _doubts(found.doubts, one), "clean": data["clean"]}
 
 
@@ -131,12 +166,15 @@ def describe_fit(
     gains = [
         {
             "name": name,
-            "value": value,
+            "label": label,
+            "value": found.gains[name],
+            "text": text.replace("-", "−"),
             "error": _finite(found.errors.get(name, math.nan)),
-            "unit": found.format_gain_unit(name),
+            "error_text": error,
+            "unit": unit,
             "means": MEANS[name],
         }
-        for name, value in found.gains.items()
+        for name, (label, text, error, unit) in zip(found.gains, format_gains(found), strict=True)
     ]
     return {
         "type": found.type,
@@ -149,7 +187,6 @@ def describe_fit(
         "parts": [] if chosen else sorted(part.effect for part in found.parts),
         "lag": found.position_delay if found.position_delay > LAGS else 0.0,
         "window": max(2.0 * (found.velocity_delay - found.position_delay), 0.0),
-        "r2": _finite(found.simulated_velocity_r2),
         "feedback": {
             loop: {"kP": gains.kp, "kD": gains.kd} for loop, gains in found.feedback().items()
         },
@@ -164,7 +201,6 @@ def _list_tracks(chosen: ModelVariant, log: Log) -> list[list[float]]:
 
 
 def _apply_model(found: Fit, chosen: ModelVariant | None) -> Fit:
-
     return found if chosen is None else replace_gains(found, chosen.gains, chosen.parts)
 
 
@@ -285,13 +321,14 @@ def describe_refusal(refusal: Refusal, folder: str) -> dict[str, Any]:
         "where": place,
         "advice": advice,
         "kind": type(refusal).__name__,
-        "columns": refusal.action is not None and refusal.action.name == "columns",
+        "asks": refusal.action.name if refusal.action else "",
     }
 
 
 def _doubts(doubts: Sequence[Doubt], one: OpenLog) -> list[dict[str, Any]]:
     return [
         {
+            "code": doubt.code,
             "message": _without_path(doubt.message, one),
             "grave": doubt.grave,
             "advice": doubt.action.on_page if doubt.action else "",
@@ -305,7 +342,7 @@ def _doubts(doubts: Sequence[Doubt], one: OpenLog) -> list[dict[str, Any]]:
 
 def _without_path(text: str, one: OpenLog) -> str:
     """A message without the file's path: the page shows its name."""
-    short = text.removeprefix(f"{one.path}: ")
+    short = re.sub(f"{re.escape(str(one.path))}[:,] ", "", text)
     start = short[:1].upper() if short != text else short[:1]
     return f"{start}{short[1:]}".replace(str(one.path), one.name)
 

@@ -3,11 +3,10 @@
 import base64
 import json
 import re
-from collections.abc import Callable
 from dataclasses import asdict
 from itertools import combinations, product
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 from urllib.parse import urlencode
 
 from sim.cli.open import page_data
@@ -15,15 +14,18 @@ from sim.cli.open.reconcile_job import describe_story
 from sim.cli.open.session import OpenLog, Reading
 from sim.cli.open.view import PageView
 from sim.core.errors import Refusal
-from sim.reconcile.model_variant import ModelVariant
 from sim.reconcile.story import Story
 from sim.report.page_file import choose_page_path, write_page_file
 from sim.report.robot_code_snippet import SEASONS, TARGETS
+
+if TYPE_CHECKING:
+    from sim.reconcile.model_variant import ModelVariant
 
 PAGE = Path(__file__).with_name("page")
 SIM = Path(__file__).parents[2]
 # Modules of others that the page uses, too
 SHARED = (SIM / "physics" / "engine" / "simulate.js", SIM / "plot" / "animation" / "ticks.js")
+OF_LOG = ("summary", "faults", "directions")  # requests that name no model
 MOST_SWITCHED = 3  # effects of which each combination is fitted; of more, only all together
 POLICY = """<meta http-equiv="Content-Security-Policy" content="default-src 'none';
 script-src 'unsafe-inline' data:; style-src 'unsafe-inline'; img-src data:">"""
@@ -83,44 +85,35 @@ def _collect_answers(one: OpenLog, reading: Reading, story: Story | None) -> dic
         "view": asdict(PageView()),
         "live": {"follows": False},
         "logs": [{"id": one.number, "name": one.name}],
-        f"{of_log}/summary": page_data.describe_log(one, reading),
         f"{of_log}/samples": base64.b64encode(page_data.pack_samples(log)).decode(),
-        f"{of_log}/faults": page_data.describe_faults(one.inspect(reading), one),
-        f"{of_log}/directions": _answer(one, page_data.describe_directions, one, reading),
-        **_collect_model(one, reading, "", None),
     }
-    if story is None:
-        return answers
-    said = {doubt.text for doubt in log.doubts}
-    told = describe_story(story, said)
-    answers[f"{of_log}/reconcile"] = {"words": "", "share": 1.0, "story": told}
-    effects = told["effects"]
-    counts = range(1, len(effects) + 1) if len(effects) <= MOST_SWITCHED else [len(effects)]
-    for chosen in (some for count in counts for some in combinations(effects, count)):
-        if story.variants is not None:
-            answers |= _collect_model(one, reading, ",".join(chosen), story.variants.refit(chosen))
+    models: dict[str, ModelVariant | None] = {"": None}
+    if story is not None:
+        told = describe_story(story, {doubt.text for doubt in log.doubts})
+        answers[f"{of_log}/reconcile"] = {"words": "", "share": 1.0, "story": told}
+        added = told["effects"]
+        counts = range(1, len(added) + 1) if len(added) <= MOST_SWITCHED else [len(added)]
+        for some in (some for count in counts for some in combinations(added, count)):
+            if story.variants is not None:
+                models[",".join(some)] = story.variants.refit(some)
+    languages = [
+        {"language": language, "season": str(season)}
+        for language, season in product(TARGETS, SEASONS)
+    ]
+    requests: list[tuple[str, dict[str, str]]] = [(what, {}) for what in OF_LOG]
+    for effects in models:
+        model = {"effects": effects} if effects else {}
+        requests += [("fit", model), *(("code", model | chosen) for chosen in languages)]
+    for what, query in requests:
+        address = "?".join(filter(None, (f"{of_log}/{what}", urlencode(query))))
+        variant = models[query.get("effects", "")]
+        answers[address] = _answer(one, reading, what, query, variant)
     return answers
 
 
-def _collect_model(
-    one: OpenLog, reading: Reading, effects: str, chosen: ModelVariant | None
-) -> dict[str, Any]:
-    """The answers about a model: its gains and curves, and its robot code."""
-    of_model = {"effects": effects} if effects else {}
-    address = f"logs/{one.number}/"
-    what = "?".join(filter(None, ("fit", urlencode(of_model))))
-    answers = {address + what: _answer(one, page_data.describe_fit, one, reading, chosen)}
-    for language, season in product(TARGETS, map(str, SEASONS)):
-        query = of_model | {"language": language, "season": season}
-        answers[f"{address}code?{urlencode(query)}"] = _answer(
-            one, page_data.write_code, one, reading, query, chosen
-        )
-    return answers
-
-
-def _answer(one: OpenLog, describe: Callable[..., Any], *arguments: object) -> Any:  # noqa: ANN401 - JSON
+def _answer(one: OpenLog, *request: Any) -> Any:  # noqa: ANN401 - passed on, and JSON
     """The answer, or the refusal as the page shows it."""
     try:
-        return describe(*arguments)
+        return page_data.answer_request(one, *request)
     except Refusal as refusal:
         return {"refusal": page_data.describe_refusal(refusal, str(one.path.parent))}

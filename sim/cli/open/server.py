@@ -9,12 +9,10 @@ Python's own ``http.server`` is enough for one person's browser, and adds nothin
 
 import json
 import secrets
-from collections.abc import Callable, Mapping
-from dataclasses import asdict
+from collections.abc import Mapping
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
-from typing import Any
 from urllib.parse import parse_qs, urlsplit
 
 from sim.cli.open import page_data
@@ -23,7 +21,6 @@ from sim.cli.open.saved_page import PAGE, SHARED, render_saved_page
 from sim.cli.open.session import OpenLog, Reading, Session
 from sim.core.errors import BadRequest, Refusal
 from sim.io.format import LARGEST_FILE
-from sim.reconcile.model_variant import ModelVariant
 
 KINDS = {
     ".html": "text/html; charset=utf-8",
@@ -94,21 +91,6 @@ class PageRequest(BaseHTTPRequestHandler):
     timeout = TIMEOUT
 
     def do_GET(self) -> None:
-        """Send a file of the page, or data about a log."""
-        self._answer(self._get)
-
-    def do_POST(self) -> None:
-        """Open a dropped file, or the example log."""
-        self._answer(self._post)
-
-    def do_DELETE(self) -> None:
-        """Close a log."""
-        self._answer(self._delete)
-
-    def log_message(self, format: str, *args: object) -> None:  # noqa: A002 - the name in http.server
-        """Print nothing: the terminal is for the address."""
-
-    def _answer(self, method: Callable[[list[str], Mapping[str, str]], None]) -> None:
         """Answer a request; an error is sent to the page, and the server keeps running."""
         try:
             address = urlsplit(self.path)
@@ -119,7 +101,7 @@ class PageRequest(BaseHTTPRequestHandler):
                 self._refuse(HTTPStatus.NOT_FOUND, "there is nothing here")
             else:
                 query = {name: values[-1] for name, values in parse_qs(address.query).items()}
-                method(steps[1:], query)
+                self._answer(steps[1:], query)
         except Refusal as refusal:
             folder = str(self.server.session.folder)
             error_data = page_data.describe_refusal(refusal, folder)
@@ -131,6 +113,11 @@ class PageRequest(BaseHTTPRequestHandler):
             error_data = {"what": what, "where": "", "advice": "Try sysid fit, which says more."}
             self._send_json({"refusal": error_data}, HTTPStatus.INTERNAL_SERVER_ERROR)
 
+    do_POST = do_DELETE = do_GET  # noqa: N815 - the names in http.server
+
+    def log_message(self, format: str, *args: object) -> None:  # noqa: A002 - the name in http.server
+        """Print nothing: the terminal is for the address."""
+
     def _is_ours(self) -> bool:
         """Whether the Host and Origin headers are those of our own page."""
         hosts = self.server.hosts
@@ -139,42 +126,31 @@ class PageRequest(BaseHTTPRequestHandler):
             origin is None or origin in {f"http://{host}" for host in hosts}
         )
 
-    def _get(self, steps: list[str], query: Mapping[str, str]) -> None:
-        match steps:
-            case [] | [""]:
+    def _answer(self, steps: list[str], query: Mapping[str, str]) -> None:
+        """Send a file of the page or data about a log; open, close or stop what is named."""
+        session = self.server.session
+        match self.command, steps:
+            case "GET", [] | [""]:
                 self._send_file("index.html")
-            case ["logs"]:
-                self._send_json([_name(one) for one in self.server.session.logs])
-            case ["view"]:
-                self._send_json(asdict(self.server.session.view))
-            case ["live"]:
-                self._send_json(page_data.describe_live(self.server.session))
-            case ["logs", number, what]:
+            case "GET", ["logs" | "view" | "live" as what]:
+                self._send_json(page_data.describe_session(session)[what])
+            case "GET", ["logs", number, what]:
                 self._send_of_log(self._log(number), what, query)
-            case [name]:
+            case "GET", [name]:
                 self._send_file(name)
-            case _:
-                self._refuse(HTTPStatus.NOT_FOUND, "there is nothing here")
-
-    def _post(self, steps: list[str], query: Mapping[str, str]) -> None:
-        match steps:
-            case ["logs"]:
-                name, path = self.server.session.choose_place(query.get("name", "log"))
+            case "POST", ["logs"]:
+                name, path = session.choose_place(query.get("name", "log"))
                 self._receive(path)
-                self._send_json(_name(self.server.session.add(name, path)))
-            case ["example"]:
+                self._send_json(page_data.name_log(session.add(name, path)))
+            case "POST", ["example"]:
                 self._drain()
-                self._send_json(_name(self.server.session.add_example()))
-            case _:
-                self._refuse(HTTPStatus.NOT_FOUND, "there is nothing here")
-
-    def _delete(self, steps: list[str], query: Mapping[str, str]) -> None:
-        self._drain()
-        match steps:
-            case ["logs", number]:
-                self.server.session.close(self._log(number).number)
+                self._send_json(page_data.name_log(session.add_example()))
+            case "DELETE", ["logs", number]:
+                self._drain()
+                session.close(self._log(number).number)
                 self._send_json({})
-            case ["logs", number, "reconcile"]:
+            case "DELETE", ["logs", number, "reconcile"]:
+                self._drain()
                 self._search(self._log(number), query).stop()
                 self._send_json({})
             case _:
@@ -189,61 +165,33 @@ class PageRequest(BaseHTTPRequestHandler):
         Raises:
             Refusal: the log cannot be read or fitted, or the page shows the data alone.
         """
-        session, reading = self.server.session, Reading.from_query(query)
-        if what in RAW:
-            self._send_data(one, reading, what)
-        elif session.view.raw:
+        if self.server.session.view.raw and what not in RAW:
             raise BadRequest(
                 "this page shows the data alone", advice="Open the log with sysid open FILE."
             )
-        else:
-            self._send_findings(one, reading, what, query)
-
-    def _send_data(self, one: OpenLog, reading: Reading, what: str) -> None:
-        """Send the summary, the entries or the samples of a log."""
-        if what == "summary":
-            doubts = not self.server.session.view.raw
-            self._send_json(page_data.describe_log(one, reading, doubts=doubts))
-        elif what == "entries":
-            self._send_json(page_data.describe_entries(one.list_entries()))
-        else:
+        reading = Reading.from_query(query)
+        search = self._search(one, query) if what == "reconcile" or query.get("effects") else None
+        if what == "samples":
             content = page_data.pack_samples(one.combine_runs(reading))
             self._send(content, "application/octet-stream")
-
-    def _send_findings(
-        self, one: OpenLog, reading: Reading, what: str, query: Mapping[str, str]
-    ) -> None:
-        """Send the results computed from a log: faults, gains, effects, code or report."""
-        match what:
-            case "faults":
-                found = page_data.describe_faults(one.inspect(reading), one)
-                self._send_json(found)
-            case "fit":
-                self._send_json(
-                    page_data.describe_fit(one, reading, self._choose_model(one, query))
-                )
-            case "directions":
-                self._send_json(page_data.describe_directions(one, reading))
-            case "reconcile":
-                self._send_json(self._search(one, query).to_json())
-            case "code":
-                chosen = self._choose_model(one, query)
-                self._send_json(page_data.write_code(one, reading, query, chosen))
-            case "report.html":
-                self._send(render_saved_page(one, reading).encode(), KINDS[".html"], page=True)
-            case _:
+        elif what == "report.html":
+            text = render_saved_page(one, reading, search.story if search else None)
+            self._send(text.encode(), KINDS[".html"], page=True)
+        elif search and what == "reconcile":
+            self._send_json(search.to_json())
+        else:
+            chosen = search.refit(query["effects"].split(",")) if search else None
+            data = page_data.answer_request(one, reading, what, query, chosen)
+            if data is None:
                 self._refuse(HTTPStatus.NOT_FOUND, "there is nothing here")
+            else:
+                self._send_json(data)
 
     def _search(self, one: OpenLog, query: Mapping[str, str]) -> ReconcileJob:
         """The search that a request names; it begins if there is none yet."""
         others = {role: self._log(query[role]) for role in ROLES if query.get(role)}
         effort = 5.0 if query.get("longer") else 1.0
         return one.reconcile(Reading.from_query(query), others, effort)
-
-    def _choose_model(self, one: OpenLog, query: Mapping[str, str]) -> ModelVariant | None:
-        """The model with the effects that a request names; None for the fit, which has none."""
-        effects = query.get("effects", "")
-        return self._search(one, query).refit(effects.split(",")) if effects else None
 
     def _receive(self, path: Path) -> None:
         """Write the body of a request into a file.
@@ -315,7 +263,3 @@ class PageRequest(BaseHTTPRequestHandler):
             self.send_header("Connection", "close")
         self.end_headers()
         self.wfile.write(content)
-
-
-def _name(one: OpenLog) -> dict[str, Any]:
-    return {"id": one.number, "name": one.name}

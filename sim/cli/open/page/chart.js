@@ -199,10 +199,13 @@ export class Chart {
 
   /** Read the colors and the font of the theme again. */
   readColors() {
-    this.font = getComputedStyle(this.still).font;
-    const style = getComputedStyle(document.documentElement);
+    const style = getComputedStyle(this.still);
+    this.font = style.font;
     const names = ["ink", "quiet", "rule", "card", "measured", "simulated", "volts", "fault", "band", "stripe", "position", "mark"];
-    this.colors = Object.fromEntries(names.map((one) => [one, style.getPropertyValue(`--${one}`).trim()]));
+    this.colors = Object.fromEntries(names.map((one) => {
+      this.still.style.color = `var(--${one})`;
+      return [one, style.color];
+    }));
     this.redraw();
   }
 

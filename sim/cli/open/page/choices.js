@@ -1,8 +1,8 @@
 // The wizard: which entries are the signals that were not found by name.
 
-import { button, drawing, figure, make } from "./elements.js";
+import { drawing, figure, make } from "./elements.js";
 import { activate, load, shownLog } from "./logs.js";
-import { at, guarded, pressOne } from "./page.js";
+import { at, guarded } from "./page.js";
 
 const ROLES = [ // role, words, whether its entry holds texts, and what is taken if none is chosen
   ["voltage", "Voltage at the motor", false, "Found by its name"],
@@ -20,10 +20,12 @@ export function showChoice() {
   const { name, runs, choice: { why, columns } } = shownLog();
   at("choose-why").textContent = `${name}: ${why}`;
   at("choose-back").hidden = !runs;
-  at("roles").replaceChildren(...ROLES.filter(([one]) => one !== "time" || columns).map(([one, words]) =>
-    button("", [words, make("span")], () => { role = one; showCandidates(); }, { value: one })));
-  at("entry-filter").value = "";
   role = "voltage";
+  at("roles").replaceChildren(...ROLES.filter(([one]) => one !== "time" || columns).map(([value, words]) => {
+    const onchange = () => { role = value; showCandidates(); };
+    return make("label", "", make("input", { type: "radio", name: "role", value, checked: value === role, onchange }), words, make("span"));
+  }));
+  at("entry-filter").value = "";
   showCandidates();
 }
 
@@ -31,7 +33,6 @@ export function showChoice() {
 function showCandidates() {
   const { entries, chosen } = shownLog().choice;
   const [, words, isText, unchosen] = ROLES.find(([one]) => one === role);
-  pressOne(at("roles"), role);
   showChosen();
   const parts = at("entry-filter").value.toLowerCase().split(/\s+/);
   const fitting = entries
@@ -59,7 +60,7 @@ function candidate(words, { name, unit, signal, text: isText, values, picture },
 
 function showChosen() {
   const { chosen } = shownLog().choice;
-  for (const one of at("roles").children) one.lastChild.textContent = chosen[one.value] || ROLES.find(([name]) => name === one.value)[3];
+  for (const one of at("roles").children) one.lastChild.textContent = chosen[one.control.value] || ROLES.find(([name]) => name === one.control.value)[3];
 }
 
 /** A small plot of an entry. */

@@ -47,5 +47,5 @@ export function figure(value) {
 }
 
 export function sentence(problem) {
-  return `${problem.what ?? problem.message}. ${problem.advice ?? ""}`;
+  return `${problem.what ?? problem.message}. ${problem.advice ?? ""}`.replace(/^./, (one) => one.toUpperCase());
 }

@@ -22,7 +22,7 @@ export function showFit() {
   showDoubts();
   if (!fit) {
     for (const id of ["sliders", "meter", "feedback"]) at(id).replaceChildren();
-    at("verdict").textContent = fitRefused ? sentence(fitRefused).replace(/^./, (one) => one.toUpperCase()) : log.summary.compiles
+    at("verdict").textContent = fitRefused ? sentence(fitRefused) : log.summary.compiles
       ? "The simulation is compiled first. That is done once, and takes about twenty seconds." : "";
     return;
   }
@@ -89,12 +89,14 @@ async function showCode() {
   const log = shownLog();
   const moved = log.fit.gains.map(({ name, value }) => [name, log.gains[name] === value ? undefined : log.gains[name]]);
   const [language, season] = [at("language").value, at("season").value];
-  at("radius-row").hidden = ["java", "python"].includes(language);
   const query = { ...modelQuery(log), ...Object.fromEntries(moved), language, season, radius: at("radius").value.replace(",", ".") };
+  at("code-text").textContent = "Writing…";
   try {
     at("code-text").textContent = (await askLog(log.id, "code", query)).code;
+    at("radius-row").hidden = !query.radius;
   } catch (problem) {
     at("code-text").textContent = sentence(problem);
+    at("radius-row").hidden = problem.asks !== "radius";
   }
 }
 

@@ -2,7 +2,7 @@
 
 import { Refused, addressOf, ask, askLog, askSamples, saved } from "./api.js";
 import { sentence } from "./elements.js";
-import { guarded, keep, recall } from "./page.js";
+import { guarded } from "./page.js";
 import { simulate } from "./simulation.js";
 
 const FINEST = 1000; // times of a part to leave out are rounded to 1/FINEST s
@@ -13,7 +13,7 @@ const KEPT = ["query", "leftOut", "others", "effects"]; // kept while the page i
 export const logs = new Map();
 export const state = { active: null, view: { raw: false, span_text: {} } }; // view: the PageView of the server
 const begun = new Set(); // numbers of the logs that are or were open
-const kept = JSON.parse(recall("sessionStorage", location.pathname) ?? '{"logs": {}}');
+const kept = history.state ?? { logs: {} }; // the choices before the page was loaded again
 let tell = () => {};
 
 /** Call a function with "tabs" when the open logs change, or with what has changed of the log that is shown. */
@@ -69,7 +69,7 @@ export function keepChoices() {
     moved: log.moved ? log.gains : undefined,
     settings: log.search?.settings,
   }]);
-  keep("sessionStorage", location.pathname, JSON.stringify({ active: state.active, logs: Object.fromEntries(choices) }));
+  history.replaceState({ active: state.active, logs: Object.fromEntries(choices) }, "");
 }
 
 /** Read a log with the options in its query; a choice of signals that fails is offered again. */
@@ -120,7 +120,7 @@ export async function offerChoice(log, problem = null) {
   const entries = log.choice?.entries ?? await askLog(log.id, "entries").catch(() => []);
   if (!entries.length) return false;
   const why = !problem ? "Choose them again." : log.choice ? sentence(problem) : `${problem.what}.`;
-  log.choice = { entries, why, chosen: { ...log.query }, columns: problem?.columns ?? log.choice?.columns ?? Boolean(log.query.time) };
+  log.choice = { entries, why, chosen: { ...log.query }, columns: problem ? problem.asks === "columns" : log.choice?.columns ?? Boolean(log.query.time) };
   changed(log, "log");
   tell("tabs");
   return true;
@@ -142,7 +142,7 @@ function take(log, summary, samples) {
 
 async function askFaults(log, asked) {
   const found = await askLog(log.id, "faults", log.query).catch((problem) => ({
-    faults: [], clean: false, doubts: [{ message: sentence(problem), grave: true }],
+    faults: [], clean: false, doubts: [{ code: "", message: sentence(problem), grave: true }],
   }));
   if (log.asked !== asked) return;
   log.faults = found;

@@ -10,7 +10,6 @@ import { at, guarded } from "./page.js";
 import { chart, showReading, showSignals, showStage } from "./stage.js";
 import { showStory } from "./story.js";
 import { showTabs } from "./tabs.js";
-import { setTheme } from "./theme.js";
 import { showDoubts, showFaults } from "./verdict.js";
 
 window.sysid = { chart, sliders, logs, begin }; // for tests and for debugging
@@ -30,6 +29,7 @@ function showLog() {
   at("empty").hidden = Boolean(log);
   at("work").hidden = !log || Boolean(log.choice);
   at("choose").hidden = !log?.choice;
+  at("work").classList.toggle("reading", !log?.runs);
   document.title = log ? `${log.name} – sysid` : "sysid";
   if (log?.choice) return showChoice();
   if (!log?.runs) return showReading(log);
@@ -64,14 +64,16 @@ new ResizeObserver(([{ target }]) => {
   target.style.setProperty("--top", `${Math.min(12, innerHeight - target.offsetHeight - 12)}px`);
 }).observe(document.querySelector(".side"));
 
-setTheme();
+chart.readColors();
+at("theme").addEventListener("change", () => chart.readColors());
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => chart.readColors());
 guarded("logs", async () => {
   state.view = await ask("view");
   document.body.classList.toggle("raw", state.view.raw);
   document.body.classList.toggle("saved", Boolean(saved));
   document.body.classList.toggle("untold", saved && !Object.keys(saved).some((one) => one.endsWith("/reconcile")));
   showSignals(state.view.raw);
-  addEventListener("pagehide", keepChoices);
+  addEventListener("beforeunload", keepChoices);
   const named = await ask("logs");
   await Promise.all(named.map((one) => guarded(one.name, () => begin(one))));
 });

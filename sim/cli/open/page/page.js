@@ -40,23 +40,3 @@ export async function copy(place) {
     say("Selected. Copy it with the keyboard.");
   }
 }
-
-/** Of several buttons, press the one with this value. */
-export function pressOne(place, value) {
-  for (const one of place.children) one.setAttribute("aria-pressed", String(one.value === value));
-}
-
-/** What a store of the browser keeps under a name; null if it keeps nothing. */
-export function recall(store, name) {
-  try {
-    return window[store].getItem(name);
-  } catch {
-    return null;
-  }
-}
-
-export function keep(store, name, value) {
-  try {
-    window[store].setItem(name, value);
-  } catch { /* a browser that keeps nothing */ }
-}

@@ -3,7 +3,6 @@
 import { make } from "./elements.js";
 
 const STEPS = 2000; // steps of a slider
-const TINY = 0.0001; // smaller errors are shown as an upper bound
 const MOST_DECIMALS = 9;
 const DIGITS = 5; // significant digits of a gain; small gains have fewer, to fit the field
 
@@ -38,12 +37,12 @@ export class Sliders {
 
   makeRow(gain, value) {
     const [low, high] = endsOf(gain);
-    const [id, name] = [`gain-${gain.name}`, nameOf(gain.name)];
+    const [id, name] = [`gain-${gain.name}`, gain.label];
     const number = make("input", { className: "number", type: "text", inputMode: "decimal", spellcheck: false, "aria-label": `${name} as a number` });
     const slider = make("input", { id, className: "slider", type: "range", min: low, max: high, step: (high - low) / STEPS, "aria-describedby": `${id}-means` });
     const place = make("div", "gain",
       make("div", "top", make("label", { className: "name", htmlFor: id, title: gain.means }, name), number,
-        make("span", { className: "error", title: "one standard error" }, `± ${errorText(gain)}`), make("span", "unit", gain.unit)),
+        make("span", { className: "error", title: "one standard error" }, `± ${gain.error_text}`), make("span", "unit", gain.unit)),
       slider, make("p", { id: `${id}-means`, className: "means", title: gain.means }, gain.means));
     const share = (one) => Math.min(Math.max((one - low) / (high - low), 0), 1);
     slider.style.setProperty("--fit", share(gain.value));
@@ -77,11 +76,6 @@ export class Sliders {
   }
 }
 
-/** The label of a gain. */
-export function nameOf(name) {
-  return name === "offset_rad" ? "angle" : name;
-}
-
 /** The range of the slider of a gain. */
 function endsOf({ name, value }) {
   if (name === "kS") return [Math.min(0, 2 * value), Math.max(2 * value, 0.6)];
@@ -91,15 +85,9 @@ function endsOf({ name, value }) {
 }
 
 /** A gain rounded to the precision of its error, and to the width of the field. */
-export function rounded(value, error) {
+function rounded(value, error) {
   const digits = Math.abs(value) < 0.01 ? DIGITS - 2 : DIGITS;
   const most = value ? digits - 1 - Math.floor(Math.log10(Math.abs(value))) : digits;
   const needed = error > 0 ? 1 - Math.floor(Math.log10(error)) : MOST_DECIMALS;
   return value.toFixed(Math.min(Math.max(needed, 0), Math.max(most, 0), MOST_DECIMALS)).replace("-", "−");
-}
-
-/** A standard error with two digits; a negligible one as an upper bound. */
-export function errorText({ error }) {
-  if (error === null) return "not known";
-  return error < TINY ? `< ${TINY}` : error >= 100 ? String(Math.round(error)) : error.toPrecision(2);
 }

@@ -4,7 +4,7 @@ import { Chart } from "./chart.js";
 import { button, figure, make } from "./elements.js";
 import { nameOfRun } from "./frame.js";
 import { leaveOut, logs, shownLog, state } from "./logs.js";
-import { at, copy, pressOne, say } from "./page.js";
+import { at, copy, say } from "./page.js";
 import { writeSpans } from "./spans.js";
 
 const OTHERS = ["#9b5de5", "#c08a00", "#2a9d8f", "#d0539a"]; // colors of other logs
@@ -33,8 +33,6 @@ export function showStage() {
 export function showReading(log) {
   at("title").textContent = log?.name ?? "";
   at("facts").textContent = "Reading…";
-  for (const id of ["runs", "faults", "fault-lines", "doubts", "feedback", "sliders", "word", "meter", "readout", "story"]) at(id).replaceChildren();
-  at("verdict").textContent = "";
 }
 
 function showRuns(log) {
@@ -54,7 +52,7 @@ export function listMarks(log) {
 export function showSignals(on) {
   chart.showSignals(on);
   document.body.classList.toggle("signals", on);
-  pressOne(at("views"), on ? "signals" : "fit");
+  document.querySelector(`#views [value=${on ? "signals" : "fit"}]`).checked = true;
   showCursor(chart.cursor);
   showSpans(chart.spans);
 }
@@ -108,12 +106,8 @@ export function showOthers() {
   document.querySelector(".legend .other").hidden = !others.length;
 }
 
-at("views").addEventListener("click", ({ target }) => { if (target.value) showSignals(target.value === "signals"); });
-at("drag").addEventListener("click", ({ target }) => {
-  if (!target.value) return;
-  chart.dragMarks = target.value === "mark";
-  pressOne(at("drag"), target.value);
-});
+at("views").addEventListener("change", ({ target }) => showSignals(target.value === "signals"));
+at("drag").addEventListener("change", ({ target }) => { chart.dragMarks = target.value === "mark"; });
 at("span-copy").addEventListener("click", () => copy(at("span-text")));
 at("span-leave").addEventListener("click", () => {
   const log = shownLog();

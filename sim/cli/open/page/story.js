@@ -3,7 +3,6 @@
 import { button, foldedItem, make, prose } from "./elements.js";
 import { chooseEffects, logs, reconcile, shownLog, stop } from "./logs.js";
 import { at, guarded } from "./page.js";
-import { errorText, nameOf, rounded } from "./sliders.js";
 
 export function showStory() {
   const log = shownLog();
@@ -49,11 +48,11 @@ function modelChoice({ effects }, { effects: chosen, plain: without, fit }, choo
     const onchange = ({ target }) => choose(effects.filter((one) => (one === name ? target.checked : chosen.includes(one))));
     return make("label", "", make("input", { type: "checkbox", checked: chosen.includes(name), onchange }), plain(name));
   });
-  const say = ({ value, ...gain }) => `${rounded(value, gain.error)} ±\u00a0${errorText(gain)}`;
+  const say = ({ text, error_text: error }) => `${text} ±\u00a0${error}`;
   const row = (tag, words) => make("tr", "", words.map((one) => make(tag, "", one)));
   const table = make("table", "gains-table",
     row("th", ["gain", "without", chosen.length ? `with ${chosen.map(plain).join(", ")}` : "with the ticked effects", "unit"]),
-    without.gains.map((gain, k) => row("td", [nameOf(gain.name), say(gain), chosen.length ? say(fit.gains[k]) : "–", gain.unit])));
+    without.gains.map((gain, k) => row("td", [gain.label, say(gain), chosen.length ? say(fit.gains[k]) : "–", gain.unit])));
   return make("fieldset", "models", make("legend", "", "Effects in the model"), boxes, table);
 }
 

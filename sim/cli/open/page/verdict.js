@@ -17,22 +17,20 @@ export function showFaults() {
   }
   chart.mark({ faults: listMarks(log) });
   const growing = log.revision > 0; // then a missing test is not a fault
-  const faults = log.faults.faults.filter(({ fault }) => !(growing && fault === "missing-test"));
+  const faults = log.faults.faults.filter(({ fault }) => !(growing && fault === "missing-test"))
+    .sort((a, b) => b.confidence - a.confidence);
   const rows = faults.slice(0, MOST_SHOWN).map((one) => faultCard(log, one));
   if (faults.length > MOST_SHOWN) rows.push(make("li", "busy", `${faults.length - MOST_SHOWN} more are marked on the time axis.`));
   const none = `No fault in ${log.runs.length === 1 ? "this run" : `these ${log.runs.length} runs`}.`;
   place.replaceChildren(...rows.length ? rows : [make("li", "well", none)]);
-  const lines = faults.slice(0, MOST_LINES).map((one) => {
-    const words = `${one.fault.replaceAll("-", " ")} (${surenessOf(one)})${one.test ? `: ${one.test}` : ""}`;
+  const left = faults.filter((one) => !isLeftOut(log, one));
+  const lines = left.slice(0, MOST_LINES).map((one) => {
+    const words = `${one.fault.replaceAll("-", " ")} (${one.sureness})${one.test ? `: ${testOf(log, one)}` : ""}`;
     return make("li", "grave", button("link", words, () => showFault(one)));
   });
-  if (faults.length > MOST_LINES) lines.push(make("li", "busy", `${faults.length - MOST_LINES} more below`));
-  at("fault-lines").replaceChildren(...lines.length ? lines : [make("li", "well", none)], ...leftOutLines(log));
+  if (left.length > MOST_LINES) lines.push(make("li", "busy", `${left.length - MOST_LINES} more below`));
+  at("fault-lines").replaceChildren(...faults.length ? lines : [make("li", "well", none)], ...leftOutLines(log));
   showDoubts();
-}
-
-function surenessOf({ confidence }) {
-  return confidence >= 0.9 ? "sure" : confidence >= 0.7 ? "likely" : "perhaps";
 }
 
 /** Show where a fault is on the time axis; one without a place, its card. */
@@ -42,37 +40,43 @@ function showFault(one) {
   at(placed ? "plot" : "faults").scrollIntoView({ block: "center", behavior: "smooth" });
 }
 
+const testOf = (log, { run, test }) => `${log.runs[run]?.part ?? ""} ${test}`.trim();
+const partOf = (one) => ({ test: one.test, start: one.start_s, end: one.end_s });
+
+function isLeftOut(log, one) {
+  return log.leftOut.some((part) => nameOfPart(part) === nameOfPart(partOf(one)));
+}
+
 function faultCard(log, one) {
-  const part = { test: one.test, start: one.start_s, end: one.end_s };
-  const disabled = log.leftOut.some((other) => nameOfPart(other) === nameOfPart(part));
-  const where = one.run === null ? one.test : `${one.test}, ${one.start_s.toFixed(2)} to ${one.end_s.toFixed(2)} s`;
+  const where = one.run === null ? one.test : `${testOf(log, one)}, ${one.start_s.toFixed(2)} to ${one.end_s.toFixed(2)} s`;
   return make("li", "fault",
-    make("h3", "", one.fault.replaceAll("-", " "), make("span", "badge", surenessOf(one))),
+    make("h3", "", one.fault.replaceAll("-", " "), make("span", "badge", one.sureness)),
     one.test && make("p", "where", where),
     make("p", "", prose(one.evidence)), make("p", "advice", prose(one.advice)),
     one.test && one.run !== null && [
       button("button small", "Show", () => showFault(one)), " ",
-      button("button small leave", "Leave out", () => leaveOut(log, [...log.leftOut, part]), { disabled }),
+      button("button small leave", "Leave out", () => leaveOut(log, [...log.leftOut, partOf(one)]), { disabled: isLeftOut(log, one) }),
     ]);
 }
 
 /** A line for each part that was left out, with a button to take it in again. */
 function leftOutLines(log) {
-  return log.leftOut.map((part) => make("li", "busy", `Left out: ${part.test}, ${part.start.toFixed(2)} to ${part.end.toFixed(2)} s `,
+  return log.leftOut.map((part) => make("li", "busy", `Left out: ${part.test}, ${part.start.toFixed(2)} to ${part.end.toFixed(2)}\u00a0s `,
     button("link", "Take in again", () => leaveOut(log, log.leftOut.filter((one) => one !== part)))));
 }
 
-/** The verdict in a word, and the warnings of fit and inspection, each once, the worst first. */
+/** The verdict in a word, and the warnings of fit and inspection, a line for each kind, the worst first. */
 export function showDoubts() {
   const log = shownLog();
   const { fit, fitRefused, faults } = log;
-  const sure = faults?.faults.some((one) => one.confidence >= 0.9);
+  const sure = faults?.faults.some((one) => one.sureness === "sure");
   const word = fitRefused ? "No gains" : !fit ? "Fitting…" : sure && fit.word !== "Do not use" ? "Check first" : fit.word;
   at("word").textContent = word;
   at("verdict-card").classList.toggle("wrong", Boolean(fitRefused) || word === "Do not use");
   at("verdict-card").classList.toggle("well", word === "Usable");
-  const said = new Map([...fit?.doubts ?? [], ...faults?.doubts ?? []].map((one) => [one.message, one]));
-  const known = [...said.values()].sort((a, b) => Number(b.grave) - Number(a.grave));
+  const said = [...fit?.doubts ?? [], ...faults?.doubts ?? []].sort((a, b) => Number(b.grave) - Number(a.grave));
+  const known = [...Map.groupBy(said, ({ code }) => code).values()].map((alike) =>
+    ({ ...alike[0], message: [...new Set(alike.map(({ message }) => message))].join(" ") }));
   const notes = (fit?.notes ?? []).map((note) => foldedItem("well", "Note", note));
   const parts = fit?.parts.length
     ? [foldedItem("busy", "Note", `The fit also allows for ${fit.parts.map((one) => one.replaceAll("-", " ")).join(", ")}; the curve here leaves them out.`)]
