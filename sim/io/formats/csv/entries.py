@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from sim.core.errors import BadSample, UnreadableFile
-from sim.io.entries.entry import STRING, Entry, ValuesEntry
+from sim.io.entries.entry import STRING, Entry
 from sim.io.entries.names import split_unit, split_words
 from sim.io.entries.units import SECONDS
 from sim.io.formats.csv.table import is_number, read_text
@@ -137,8 +137,8 @@ def _make_entries(found: Iterable[tuple[str, list[_Sample]]]) -> Iterator[Entry]
     for name, samples in found:
         samples.sort(key=lambda sample: sample[0])
         time = np.array([sample[0] for sample in samples]).round().astype(np.int64)
-        cells = tuple(sample[1] for sample in samples)
+        cells = np.array([sample[1] for sample in samples], dtype=np.object_)
         try:
-            yield ValuesEntry(name, "double", "", time, np.array(cells, dtype=np.float64))
+            yield Entry(name, "double", "", time, cells.astype(np.float64))
         except ValueError:
-            yield ValuesEntry(name, STRING, "", time, cells)
+            yield Entry(name, STRING, "", time, cells)

@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from sim.core.doubt import Doubt
-from sim.core.errors import BadSample, UnreadableFile
-from sim.core.log import LARGEST, Array
+from sim.core.errors import UnreadableFile
+from sim.core.log import Array
 from sim.io.formats.sysid_json.file_header import FileHeader
 
 RUNS = {
@@ -21,7 +21,6 @@ RUNS = {
     "fast-backward": "dynamic-reverse",
 }
 TRACK_WIDTH = "track-width"  # a turn that measured the track width; not one of the tests
-_SIGNALS = ("voltage", "position", "velocity")
 EMPTIEST = 4.0  # [V] lowest battery voltage of a running robot
 
 
@@ -36,15 +35,6 @@ class RowForm:
 
     sides: tuple[tuple[int, int, int], ...]
     battery: int | None = None
-
-    @property
-    def names(self) -> dict[int, str]:
-        """Column -> its signal; the columns of a gyro are not read."""
-        names = {0: "time"} | ({} if self.battery is None else {self.battery: "battery voltage"})
-        for side, columns in zip(("left ", "right "), self.sides, strict=False):
-            prefix = side if len(self.sides) > 1 else ""
-            names |= {c: f"{prefix}{n}" for c, n in zip(columns, _SIGNALS, strict=True)}
-        return names
 
 
 _FORMS = {
@@ -177,23 +167,6 @@ def _has_battery_column(tables: Mapping[str, Array]) -> bool:
         bool(np.all(table[:, 1] > EMPTIEST) and np.all(np.abs(table[:, 2]) <= 1.0))
         for table in tables.values()
     )
-
-
-def check_columns(tables: Mapping[str, Array], form: RowForm, *, where: str) -> None:
-    """Refuse columns with values that cannot be measurements.
-
-    Raises:
-        BadSample: a number is missing, not finite or absurdly large.
-    """
-    for test, table in tables.items():
-        for column, name in form.names.items():
-            odd = np.flatnonzero(~(np.abs(table[:, column]) < LARGEST))
-            if odd.size:
-                raise BadSample(
-                    f"{name} is {table[odd[0], column]:.6g} in row {odd[0]}",
-                    where=f"{where}, {test}",
-                    advice="Remove that row, or record the run again.",
-                )
 
 
 def _make_object(pairs: list[tuple[str, object]]) -> dict[str, object]:
