@@ -9,8 +9,6 @@ logs two sides, which are averaged unless one is chosen. The format is only read
 import re
 from pathlib import Path
 
-import numpy as np
-
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
 from sim.core.log import Array, Log
@@ -20,6 +18,7 @@ from sim.io.formats.sysid_json.drivetrain import SIDES, read_drivetrain
 from sim.io.formats.sysid_json.file_header import FileHeader, read_header
 from sim.io.formats.sysid_json.rows import (
     RowForm,
+    check_numbers,
     detect_form,
     load_json,
     parse_tables,
@@ -59,6 +58,7 @@ def read(path: Path, options: ReadOptions) -> dict[str, Log]:
     header = read_header(document, options, where=where)
     tables, doubts = parse_tables(document, where=where)
     form = detect_form(tables, header, where=where)
+    check_numbers(tables, form, where=where)
     single = len(form.sides) == 1 or options.motor or not options.each_motor
     motors = {"": options.motor} if single else {side: side for side in SIDES}
     return {
@@ -71,8 +71,7 @@ def _make_log(
     tables: dict[str, Array], form: RowForm, header: FileHeader, motor: str | None, *, where: str
 ) -> Log:
     """The log of one side, or of the mean of both."""
-    with np.errstate(invalid="ignore", over="ignore"):  # `make_run` refuses what is not finite
-        sides, odd = _read_sides(tables, form, header, motor, where=where)
+    sides, odd = _read_sides(tables, form, header, motor, where=where)
     runs = []
     doubts = [*header.doubts, *odd]
     for test in sorted(tables, key=lambda test: float(tables[test][0, 0])):

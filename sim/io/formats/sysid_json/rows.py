@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from sim.core.doubt import Doubt
-from sim.core.errors import UnreadableFile
-from sim.core.log import Array
+from sim.core.errors import BadSample, UnreadableFile
+from sim.core.log import LARGEST, Array
 from sim.io.formats.sysid_json.file_header import FileHeader
 
 RUNS = {
@@ -167,6 +167,23 @@ def _has_battery_column(tables: Mapping[str, Array]) -> bool:
         bool(np.all(table[:, 1] > EMPTIEST) and np.all(np.abs(table[:, 2]) <= 1.0))
         for table in tables.values()
     )
+
+
+def check_numbers(tables: Mapping[str, Array], form: RowForm, *, where: str) -> None:
+    """Refuse numbers that cannot be measurements; those of a gyro are not read.
+
+    Raises:
+        BadSample: a number is missing, not finite or absurdly large.
+    """
+    used = [0, *chain(*form.sides), *(() if form.battery is None else (form.battery,))]
+    for test, table in tables.items():
+        for row, place in np.argwhere(~(np.abs(table[:, used]) < LARGEST)).tolist():
+            column = used[place]
+            raise BadSample(
+                f"number {column + 1} of row {row} is {table[row, column]:.6g}",
+                where=f"{where}, {test}",
+                advice="Remove that row, or record the run again.",
+            )
 
 
 def _make_object(pairs: list[tuple[str, object]]) -> dict[str, object]:
