@@ -67,8 +67,8 @@ def make_motor_groups(logs: Mapping[str, Log]) -> tuple[list[SignalGroup], dict[
                     entry = f"{name}-{motor}-{mechanism}"
                     signals[entry] = values / si.get(name, 1.0)
                     units[entry] = metadata.get(name, "Volt")
-        states = [(one, first.runs[number].test) for one in (time / SECOND).tolist()]
-        states.append((_find_run_end(time, after) / SECOND, IDLE[0]))
+        end = _find_run_end(time, after) / SECOND
+        states = ((time / SECOND, first.runs[number].test), (end, IDLE[0]))
         groups.append(SignalGroup(time / SECOND, signals, {f"{WORD}-{mechanism}": states}))
     return groups, units
 
