@@ -58,7 +58,7 @@ def test_what_javac_or_java_refuses_is_refused():
         values.remainder(1, 0)
 
 
-def test_what_is_unknown_stays_unknown():
+def test_result_of_an_unknown_value_is_unknown():
     unknown = Unknown("speed")
     assert values.add(unknown, 1) is values.less(2.0, unknown) is unknown
     assert values.same(unknown, None) is text.format("%.2f", [unknown]) is unknown

@@ -222,7 +222,7 @@ def test_a_wrong_lever_is_named(times, says):
         (dict(lever=-1.0), "a lever of -1 m"),
     ],
 )
-def test_a_robot_there_cannot_be_is_refused(change, says):
+def test_an_impossible_mass_or_lever_is_refused(change, says):
     turning, straight = both(KRAKEN)
 
     with pytest.raises(BadRequest, match=says):
@@ -562,7 +562,7 @@ def test_without_a_lever_the_speeds_tell_it():
     assert found.value == pytest.approx(own_share(KRAKEN), rel=0.01)
 
 
-def test_it_is_in_the_json_and_a_tanks_lever_is_grave(logs, capsys):
+def test_json_holds_the_moment_of_inertia_and_a_grave_warning_of_a_wrong_lever(logs, capsys):
     code, said, _ = run(
         capsys, "fit", logs / "turning.wpilog", *TURNED, "--straight", logs / "straight.wpilog",
         "--mass", 60, "--lever", 0.3, "--json",

@@ -121,7 +121,7 @@ def _parts(given: Mapping[str, object], units: str) -> Parts:
 
 
 def team_of(measured: Measured, given: Mapping[str, object], team: ModuleType) -> object:
-    """This mechanism as exercise 2 looks at one.
+    """The mechanism as a team of exercise 2, whose gains that exercise checks against physics.
 
     Args:
         measured: the mechanism.

@@ -161,7 +161,7 @@ def _check_period(period: float) -> None:
     """Refuse a loop period out of range."""
     if not FASTEST <= period <= SLOWEST:
         raise BadRequest(
-            f"a period of {period:g} s",
+            f"a loop period of {period:g} s is out of range",
             advice=f"Choose {FASTEST:g} to {SLOWEST:g} s; a robot program loops every 0.02 s.",
         )
 
@@ -225,7 +225,7 @@ def _loop_times(
     count = math.floor(timeout / period + 1e-9) - LOOPS_BEFORE_DRIVE + 1
     if count < MIN_SAMPLES:
         raise BadRequest(
-            f"a timeout of {timeout:g} s has {max(count, 0)} loops of {period:g} s",
+            f"a timeout of {timeout:g} s is too short: {max(count, 0)} loops of {period:g} s",
             advice="Ask for a longer timeout or a shorter period.",
         )
     late = np.clip(jitter * rng.standard_normal(count), -0.2 * period, 0.2 * period)
@@ -253,7 +253,7 @@ def _find_end(track: Track, mechanism: Mechanism, *, test: str) -> int:
         end = int(np.argmax(beyond)) if beyond.any() else end
     if end < MIN_SAMPLES:
         raise BadRequest(
-            f"{test} lasts {end} loops",
+            f"{test} is too short: it lasts only {end} loops",
             advice="Ask for a longer timeout, a shorter period or a smaller step.",
         )
     return end

@@ -98,7 +98,7 @@ class ElevatorFeedforward(_Linear):
 
 
 class ArmFeedforward(ElevatorFeedforward):
-    """Of an arm, whose angle is 0 where it is level: .../ArmFeedforward.java.
+    """The feedforward of an arm, whose angle is 0 where it is level (.../ArmFeedforward.java).
 
     WPILib lets gravity change while the arm turns during a loop; here it does not.
     """
