@@ -209,7 +209,7 @@ def test_metadata_that_name_nobody_are_refused(tmp_path, text, by, said):
         find_submitter(path, by=by, roster=None)
 
 
-def test_of_a_group_the_first_is_the_student(tmp_path):
+def test_submission_of_a_group_belongs_to_its_first_member(tmp_path):
     path = tmp_path / "submission_metadata.json"
     path.write_text('{"users": [{"sid": 17}, {"sid": 18}]}', encoding="utf-8")
 

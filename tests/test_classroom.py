@@ -227,7 +227,7 @@ def test_a_folder_whose_name_is_no_students_is_said_and_stops_nobody(tmp_path):
 
     assert run_command(["class", str(there)]) == 1
     text = (tmp_path / "in-graded" / "index.html").read_text("utf-8")
-    assert "the student&#39;s name has 100 characters" in text
+    assert "the student&#39;s name is too long: 100 characters" in text
     assert len(list((tmp_path / "in-graded" / "students").iterdir())) == 2
 
 

@@ -71,7 +71,7 @@ def both(drive, routine=GENTLE):
 # ---- the drive ----
 
 
-def test_its_gains_are_those_of_its_parts():
+def test_swerve_drive_has_the_gains_of_its_parts():
     """By hand: one newton at the floor takes c volts, and the lever is the diagonal's half."""
     r, kt, ke = 12 / 366, 7.09 / 366, (12 - 12 / 366 * 2) / (6000 * 2 * math.pi / 60)
     c = r * 0.0508 / (4 * kt * 6.75)

@@ -237,7 +237,7 @@ class JavaClass:
 
     @property
     def full_name(self) -> str:
-        """As Java's getName has it."""
+        """The name of the class with those of its outer classes, as Java's getName returns it."""
         if self.outer is not None:
             return f"{self.outer.full_name}${self.name}"
         return f"{self.unit.package}.{self.name}".lstrip(".")

@@ -167,7 +167,7 @@ DEFAULT_METHODS: dict[str, Callable[..., Callable[..., Any]]] = {  # of function
 
 
 def add_default(one: Any, interface: str, name: str, args: Iterable[Any]) -> Callable[..., Any]:
-    """What a default method of a functional interface makes of an object: another function."""
+    """The function that a default method of a functional interface returns, such as ``andThen``."""
     if name == "andThen" and interface.endswith("Consumer"):
         (other,) = args
         return lambda *given: (one(*given), other(*given))[1]
