@@ -85,11 +85,13 @@ def simulate(
         if wheels_slip(mechanism, track):
             active, gripped = (model + slips, gripped) if slips else (model, True)
             track, state = _move(active, time, voltage, begin=begin, wires=wires)
-        end = (_find_end(track.take_every(parts), mechanism, test=test) - 1) * parts + 1
+        end = (
+            _find_end(track.select(slice(None, None, parts)), mechanism, test=test) - 1
+        ) * parts + 1
         time, voltage = time[:end], voltage[:end]
         if end < track.position.size and state.memory.any():  # without heating after the end
             track, state = _move(active, time, voltage, begin=begin, wires=wires)
-        loops, seen = time[::parts], _delay_limits(track.truncate(end), voltage, time, model)
+        loops, seen = time[::parts], _delay_limits(track.select(slice(end)), voltage, time, model)
         run = _record_run(mechanism, test, time, seen, loops=loops, rng=rng, electrical=electrical)
         runs.append(replace(run, time=np.round(start + loops, DIGITS)))
         cool_down(state, model, PAUSE)
@@ -142,7 +144,7 @@ def _record_run(
         mechanism.sensor, position=track.position, velocity=track.seen, time=time, read_at=loops,
         rng=rng,
     )  # fmt: skip
-    logged = track.take_every((time.size - 1) // (loops.size - 1))
+    logged = track.select(slice(None, None, (time.size - 1) // (loops.size - 1)))
     extra = {"current": logged.current, "bus_voltage": logged.bus} if electrical else {}
     return Run(test, loops, logged.applied, *seen, **extra)
 

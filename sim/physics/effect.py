@@ -148,11 +148,11 @@ class Effect:
         symmetric: whether negated voltages give a negated motion, for all parameters.
         stored_energy: [V·unit] potential energy, a function of ``x`` and the parameters, whose
             slope is ``force``; None if it stores none.
-        shortest_time: [s] shortest time scale, from parameters and gains; None if it is not fast.
+        shortest_time: [s] shortest time scale, from parameters and gains; infinite if it has none.
         shortest_length: [unit] shortest length scale, from parameters, of an effect that depends on
-            position: it needs short steps only where the motion is fast. None if it has none.
+            position: it needs short steps only where the motion is fast. Infinite if it has none.
         narrowest_speed: [unit/s] shortest speed scale, from parameters: a search takes short steps
-            where the speed changes fast. None if it has none.
+            where the speed changes fast. Infinite if it has none.
         order: place in the path from command to motor or from motion to sensor, for a chain.
         reason_against: why a mechanism cannot have it, from its scale; empty if it can.
         inertia_shares: [1] shares of kA with which the first start is tried as well, for an effect
@@ -175,9 +175,9 @@ class Effect:
     hooks: Mapping[str, Callable[..., Any]]
     symmetric: bool = True
     stored_energy: Callable[..., float] | None = None
-    shortest_time: Callable[[Mapping[str, float], Mapping[str, float]], float] | None = None
-    shortest_length: Callable[[Mapping[str, float]], float] | None = None
-    narrowest_speed: Callable[[Mapping[str, float]], float] | None = None
+    shortest_time: Callable[[Mapping[str, float], Mapping[str, float]], float] = lambda *_: math.inf
+    shortest_length: Callable[[Mapping[str, float]], float] = lambda _: math.inf
+    narrowest_speed: Callable[[Mapping[str, float]], float] = lambda _: math.inf
     order: int = 0
     reason_against: Callable[[Scale], str] = field(default=lambda _: "")
     inertia_shares: tuple[float, ...] = ()

@@ -13,6 +13,7 @@ Numbers: TypeAlias = NDArray[np.int64]
 
 NUMBERS = ("double", "float", "int64")  # types that a signal may have, preferred ones first
 STRING = "string"
+SECOND = 1e6  # [µs]
 NEEDED = ("voltage", "position", "velocity")  # signals of a motor for a fit
 OPTIONAL = ("current", "bus_voltage")
 

@@ -13,13 +13,12 @@ import numpy as np
 
 from sim.core.errors import BadRequest
 from sim.core.log import Array
-from sim.io.entries.entry import Numbers
+from sim.io.entries.entry import SECOND, Numbers
 from sim.io.formats.wpilog.control import Start, make_start_payload
 from sim.io.formats.wpilog.records import FILE_HEADER, pack_record, pack_records
 from sim.support.atomic_file import write_atomically
 from sim.support.os_errors import refuse_os_errors
 
-SECOND = 1e6  # [µs]
 ADVICE = "Choose a folder that exists and that you may write to."
 # Type of an entry -> format of a value
 PACKING = {"double": "<d", "float": "<f", "int64": "<q", "boolean": "<?"}

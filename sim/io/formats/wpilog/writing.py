@@ -13,9 +13,9 @@ import numpy as np
 
 from sim.core.log import Array, Log
 from sim.core.units import UNITS
-from sim.io.entries.entry import NEEDED, OPTIONAL, Numbers
+from sim.io.entries.entry import NEEDED, OPTIONAL, SECOND, Numbers
 from sim.io.entries.state import IDLE, WORD
-from sim.io.formats.wpilog.signals import SECOND, SignalGroup, encode_signals
+from sim.io.formats.wpilog.signals import SignalGroup, encode_signals
 
 PACKED = ".wpilogxz"  # suffix of a log compressed with xz
 REST = 1_000_000  # [µs] pause before a run that is moved after the run before it
