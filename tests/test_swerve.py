@@ -136,7 +136,7 @@ def test_slip_beside_a_hidden_joint_is_left_out_and_it_is_said():
     assert simulate(robot, GENTLE, rng=rng()).doubts == ()
 
 
-def test_below_the_slip_nothing_changes_by_a_digit():
+def test_grip_changes_nothing_below_the_slip_voltage():
     free = replace(KRAKEN.translation, grip=None)
     one, other = (simulate(x, GENTLE, rng=rng()) for x in (KRAKEN.translation, free))
 

@@ -51,7 +51,7 @@ def read(path: Path, *, student: str, run: bool = True) -> Runs:  # noqa: ARG001
 
 
 def _both(runs: Runs, judge: Callable[[RoutineFacts], str | None]) -> str | None:
-    """Judge the program, whatever the conditions are that nobody can know."""
+    """Judge the program under both values of each condition that is not known."""
     return judge_runs(runs, judge)
 
 

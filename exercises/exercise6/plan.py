@@ -70,7 +70,7 @@ class Machine:
 
     @property
     def scatter(self) -> float:
-        """Of an acceleration made from the samples before and after."""
+        """The noise of an acceleration that is computed from the samples before and after."""
         return self.noise / (math.sqrt(2.0) * PERIOD)
 
     def speed(self, push: float, ramp: float, time: float) -> float:

@@ -47,7 +47,7 @@ class Measured:
 
     @property
     def symbol(self) -> str:
-        """Of its unit of position."""
+        """The symbol of its unit of position."""
         return UNITS[self.units]
 
 
@@ -82,7 +82,7 @@ def of_robot(path: Path, given: Mapping[str, object]) -> Measured:
 
 
 def _is_file(path: Path) -> bool:
-    """Whether there is such a file; none has a name that no system can have."""
+    """Whether a file of this name is there; False if no system allows the name."""
     try:
         return path.is_file()
     except (OSError, ValueError):

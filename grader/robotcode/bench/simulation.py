@@ -54,12 +54,12 @@ class GearedShaft:
 
     @property
     def position(self) -> float:
-        """[rot]."""
+        """Position of the rotor [rot]."""
         return self.shaft.position / GEARING
 
     @property
     def velocity(self) -> float:
-        """[rot/s]."""
+        """Velocity of the rotor [rot/s]."""
         return self.shaft.velocity / GEARING
 
 

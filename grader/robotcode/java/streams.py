@@ -105,7 +105,7 @@ class IntStream(Stream, package=_STREAMS, partial=True):
     _optional: Any = OptionalInt
 
     def average(self) -> Any:
-        """Their mean."""
+        """The mean of the elements."""
         items = list(self)
         return OptionalDouble(float(reduce(add, items, 0.0) / len(items)) if items else None)
 

@@ -82,14 +82,14 @@ class _Linear(Feedforward):
 
 
 class SimpleMotorFeedforward(_Linear):
-    """Of a flywheel or a drivetrain: allwpilib v2026.2.2, .../SimpleMotorFeedforward.java."""
+    """The feedforward of a flywheel or a drivetrain (.../SimpleMotorFeedforward.java)."""
 
     def __init__(self, kS: float, kV: float, kA: float = 0.0, dt: float = PERIOD) -> None:
         self._register(dt, ks=kS, kv=kV, ka=kA)
 
 
 class ElevatorFeedforward(_Linear):
-    """Of an elevator: allwpilib v2026.2.2, wpimath/.../ElevatorFeedforward.java."""
+    """The feedforward of an elevator (.../ElevatorFeedforward.java)."""
 
     def __init__(
         self, kS: float, kG: float, kV: float, kA: float = 0.0, dt: float = PERIOD
