@@ -229,7 +229,9 @@ def test_submission_of_a_group_belongs_to_its_first_member(tmp_path):
         (["github", "-o", "{root}/README.md/grade.yml"], "cannot be written"),
     ],
 )
-def test_what_cannot_be_exported_is_one_line(root, tmp_path, monkeypatch, capsys, *, words, said):
+def test_impossible_export_is_refused_with_a_message(
+    root, tmp_path, monkeypatch, capsys, *, words, said
+):
     monkeypatch.chdir(root)
     filled = [word.format(root=root, elsewhere=tmp_path) for word in words]
 

@@ -259,7 +259,7 @@ def test_a_class_that_cannot_be_graded_is_one_line(tmp_path, capsys, make, reads
 
 
 @pytest.mark.usefixtures("course")
-def test_an_unknown_format_and_exercise_are_one_line(tmp_path, capsys, reads):
+def test_unknown_format_and_unknown_exercise_are_refused(tmp_path, capsys, reads):
     there = hand_in(tmp_path / "in", ann=RIGHT)
 
     assert run_command(["class", str(there), "--export", "moodle"]) == 2
