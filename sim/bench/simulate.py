@@ -72,7 +72,7 @@ def simulate(
     model, slips = mechanism.model, make_slip_effect(mechanism)
     wires = make_power_path_array(mechanism, duty_cycle=duty_cycle)
     parts = STEPS_PER_LOOP if mechanism.sensor.latency or mechanism.sensor.frame else 1
-    runs, loop_starts = list[Run](), slice(None, None, parts)
+    runs, coarse = list[Run](), slice(None, None, parts)
     state, start, last, cut, gripped = State(), PAUSE, 0.0, False, False
     for test in routine.tests:
         time = _loop_times(mechanism, routine, test, period=period, rng=rng)
@@ -85,14 +85,11 @@ def simulate(
         if wheels_slip(mechanism, track):
             active, gripped = (model + slips, gripped) if slips else (model, True)
             track, state = _move(active, time, voltage, begin=begin, wires=wires)
-        end = (_find_end(track.select(loop_starts), mechanism, test=test) - 1) * parts + 1
+        end = (_find_end(track.select(coarse), mechanism, test=test) - 1) * parts + 1
         time, voltage = time[:end], voltage[:end]
         if end < track.position.size and state.memory.any():  # without heating after the end
             track, state = _move(active, time, voltage, begin=begin, wires=wires)
-        loops, seen = (
-            time[loop_starts],
-            _delay_limits(track.select(slice(end)), voltage, time, model),
-        )
+        loops, seen = time[coarse], _delay_limits(track.select(slice(end)), voltage, time, model)
         run = _record_run(mechanism, test, time, seen, loops=loops, rng=rng, electrical=electrical)
         runs.append(replace(run, time=np.round(start + loops, DIGITS)))
         cool_down(state, model, PAUSE)
