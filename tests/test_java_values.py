@@ -76,7 +76,7 @@ def test_equality_of_values():
 
 
 @pytest.mark.parametrize(("pattern", "case"), FORMATS.items())
-def test_formats(pattern, case):
+def test_string_format_is_that_of_java(pattern, case):
     assert text.format(pattern, case[0]) == case[1]
 
 

@@ -81,7 +81,7 @@ def measured(five):
     return np.median(rows, axis=0)
 
 
-def test_every_row_of_the_reference_is_made(cases_by_name):
+def test_there_is_a_case_for_every_row_of_the_table(cases_by_name):
     assert list(cases_by_name) == list(TABLE)
 
 
