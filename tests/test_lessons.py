@@ -352,8 +352,7 @@ def test_a_lesson_takes_as_long_as_its_head_says_and_at_most_45_minutes(text, ru
     calculated = minutes(load)
 
     assert calculated <= LONGEST, f"{calculated:.1f} minutes: {load}"
-    right = 5 * round(calculated / 5)
-    assert stated_minutes(text) == right, f"its head should say {right} minutes: {load}"
+    assert stated_minutes(text) == 5 * round(calculated / 5), f"{calculated:.1f} minutes: {load}"
 
 
 def test_the_plan_for_a_class_adds_half_to_the_minutes_of_the_lessons():

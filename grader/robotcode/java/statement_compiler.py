@@ -363,7 +363,7 @@ class StatementCompiler(ExpressionCompiler):
 
     def _try_statement(self, node: Node) -> Run:
         body = self.block(node.child_by_field_name("body"))
-        return self._compile_try(node, body)
+        return self._guarded(node, body)
 
     def _try_with_resources_statement(self, node: Node) -> Run:
         """A try whose resources are variables; nothing that a robot opens needs to be closed."""
@@ -376,9 +376,9 @@ class StatementCompiler(ExpressionCompiler):
                 opened.append(self._declare(text(name), kind, value, final=True))
         body = self.block(node.child_by_field_name("body"))
         self.frame.pop()
-        return self._compile_try(node, _sequence([*opened, body]))
+        return self._guarded(node, _sequence([*opened, body]))
 
-    def _compile_try(self, node: Node, body: Run) -> Run:
+    def _guarded(self, node: Node, body: Run) -> Run:
         catches = [self._catch(one) for one in node.children if one.type == "catch_clause"]
         last = child(node, "finally_clause")
         finally_ = self.block(next(named(last))) if last is not None else None

@@ -105,7 +105,7 @@ class IntStream(Stream, package=_STREAMS, partial=True):
     _optional: Any = OptionalInt
 
     def average(self) -> Any:
-        """The mean of the elements."""
+        """Their mean."""
         items = list(self)
         return OptionalDouble(float(reduce(add, items, 0.0) / len(items)) if items else None)
 
@@ -167,7 +167,7 @@ DEFAULT_METHODS: dict[str, Callable[..., Callable[..., Any]]] = {  # of function
 
 
 def add_default(one: Any, interface: str, name: str, args: Iterable[Any]) -> Callable[..., Any]:
-    """The function that a default method of a functional interface returns, such as ``andThen``."""
+    """What a default method of a functional interface makes of an object: another function."""
     if name == "andThen" and interface.endswith("Consumer"):
         (other,) = args
         return lambda *given: (one(*given), other(*given))[1]

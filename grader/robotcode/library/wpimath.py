@@ -82,14 +82,14 @@ class _Linear(Feedforward):
 
 
 class SimpleMotorFeedforward(_Linear):
-    """The feedforward of a flywheel or a drivetrain (.../SimpleMotorFeedforward.java)."""
+    """Of a flywheel or a drivetrain: allwpilib v2026.2.2, .../SimpleMotorFeedforward.java."""
 
     def __init__(self, kS: float, kV: float, kA: float = 0.0, dt: float = PERIOD) -> None:
         self._register(dt, ks=kS, kv=kV, ka=kA)
 
 
 class ElevatorFeedforward(_Linear):
-    """The feedforward of an elevator (.../ElevatorFeedforward.java)."""
+    """Of an elevator: allwpilib v2026.2.2, wpimath/.../ElevatorFeedforward.java."""
 
     def __init__(
         self, kS: float, kG: float, kV: float, kA: float = 0.0, dt: float = PERIOD
@@ -98,7 +98,7 @@ class ElevatorFeedforward(_Linear):
 
 
 class ArmFeedforward(ElevatorFeedforward):
-    """The feedforward of an arm, whose angle is 0 where it is level (.../ArmFeedforward.java).
+    """Of an arm, whose angle is 0 where it is level: .../ArmFeedforward.java.
 
     WPILib lets gravity change while the arm turns during a loop; here it does not.
     """

@@ -1,8 +1,8 @@
 """``sysid reconcile``: the search for effects, and what it writes."""
 
 import json
-from collections.abc import Callable, Sequence
-from contextlib import AbstractContextManager, nullcontext
+from collections.abc import Sequence
+from contextlib import nullcontext
 from pathlib import Path
 
 import click
@@ -56,7 +56,8 @@ def reconcile_files(
         if file is not None
     }
     _warn_uncompiled()
-    with _progress_display(visible=not (as_json or paste)) as progress:
+    quiet = nullcontext(lambda _, __: None)
+    with quiet if as_json or paste else show_progress() as progress:
         story = search_effects(
             logs, type=reader.type, travel=travel, effort=effort, progress=progress
         )
@@ -66,18 +67,11 @@ def reconcile_files(
     if paste:
         fit = _make_fit(story, logs["log"])
         click.echo(make_paste_text(fit, paste, season=int(season)), nl=False)
-    else:
-        _print_story(story, files, as_json=as_json)
-    return NOT_RIGHT if story.verdict in UNSURE or story.remainder else DONE
-
-
-def _print_story(story: Story, files: Sequence[Path], *, as_json: bool) -> None:
-    """Print a story as JSON or as readable text."""
-    if as_json:
+    elif as_json:
         click.echo(json.dumps(story.to_json(), allow_nan=False))
-        return
-
-    show_story(story, title=", ".join(map(str, files)))
+    else:
+        show_story(story, title=", ".join(map(str, files)))
+    return NOT_RIGHT if story.verdict in UNSURE or story.remainder else DONE
 
 
 def _warn_uncompiled() -> None:
@@ -88,14 +82,6 @@ def _warn_uncompiled() -> None:
             f"same. To make it quick: {format_install_command('fast')}",
             name="sysid",
         )
-
-
-def _progress_display(*, visible: bool) -> AbstractContextManager[Callable[[str, float], None]]:
-    """A progress bar, or without output for people (``visible``) a function that does nothing."""
-    if not visible:
-        return nullcontext(lambda _, __: None)
-
-    return show_progress()
 
 
 def _make_fit(story: Story, log: Log) -> Fit:
