@@ -17,7 +17,7 @@ import math
 from dataclasses import dataclass
 
 from sim.core.errors import BadRequest
-from sim.core.vocabulary import DIRECTIONS, KINDS, find_test_sign
+from sim.core.log import DIRECTIONS, KINDS
 
 LOOPS_BEFORE_DRIVE = 2  # loops from the start of the timer to the first voltage
 COAST_AFTER = 1.0  # [s] of the step before the coast
@@ -82,7 +82,8 @@ class Routine:
         Returns:
             [V] the command of a forward test, negated in a reverse test.
         """
-        return find_test_sign(test) * self._command_forward(test.rpartition("-")[0], time)
+        kind, _, way = test.rpartition("-")
+        return (1.0 if way == "forward" else -1.0) * self._command_forward(kind, time)
 
     def _command_forward(self, kind: str, time: float) -> float:
         """[V] of a forward test."""
