@@ -217,9 +217,9 @@ def test_a_wrong_lever_is_named(times, says):
 @pytest.mark.parametrize(
     ("change", "says"),
     [
-        (dict(mass=0.0), "a mass of 0 kg"),
-        (dict(mass=math.nan), "a mass of nan kg"),
-        (dict(lever=-1.0), "a lever of -1 m"),
+        (dict(mass=0.0), "no mass is 0 kg"),
+        (dict(mass=math.nan), "no mass is nan kg"),
+        (dict(lever=-1.0), "no lever is -1 m"),
     ],
 )
 def test_an_impossible_mass_or_lever_is_refused(change, says):

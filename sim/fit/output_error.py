@@ -206,7 +206,7 @@ def _choose_lags(
     problem: PredictionErrorProblem, plain: Estimate
 ) -> tuple[PredictionErrorProblem, Estimate, OpenLoopReplay]:
     """The best estimate, with an averaged velocity, a delay, or both, if they improve it enough."""
-    point = _add_lags(problem, plain, FIRST_LAGS, fit_structure=fit_tracking)
+    point = _add_lags(problem, plain, FIRST_LAGS, refit=fit_tracking)
     everything, problem = problem, drop_outliers(problem, point)
 
     def fit_without_filter(first: Estimate) -> Estimate:
@@ -295,13 +295,13 @@ def _fit_both_lags(problem: PredictionErrorProblem, plain: Estimate) -> Estimate
 def _add_short_lags(problem: PredictionErrorProblem, found: Estimate) -> Estimate:
     """An estimate with nearly correct gains, with those short lags that improve it enough."""
 
-    def fit_structure(
+    def refit(
         problem: PredictionErrorProblem, structure: ModelStructure, values: Mapping[str, float]
     ) -> Estimate:
         first = problem.evaluate(structure, values, found.nuisance, found.process_noise)
         return fit_open_loop(problem, refine(problem, first))
 
-    return _add_lags(problem, found, SHORT_LAGS, fit_structure=fit_structure)
+    return _add_lags(problem, found, SHORT_LAGS, refit=refit)
 
 
 def _add_lags(
@@ -309,9 +309,7 @@ def _add_lags(
     point: Estimate,
     lags: Mapping[str, Sequence[float]],
     *,
-    fit_structure: Callable[
-        [PredictionErrorProblem, ModelStructure, Mapping[str, float]], Estimate
-    ],
+    refit: Callable[[PredictionErrorProblem, ModelStructure, Mapping[str, float]], Estimate],
 ) -> Estimate:
     """An estimate with those lags that improve it enough, added one after another.
 
@@ -319,7 +317,7 @@ def _add_lags(
         problem: the measurements.
         point: the best estimate without them.
         lags: parameter -> start values [sample periods].
-        fit_structure: fits a structure from some values.
+        refit: fits a structure from some values.
     """
     left = {name: sizes for name, sizes in lags.items() if name not in point.values}
     while left:
@@ -341,7 +339,7 @@ def _add_lags(
         best = int(np.argmax(worth))
         name, value = tried[best]
         structure = point.structure + name.partition(".")[0]
-        other = fit_structure(problem, structure, {**point.values, name: value})
+        other = refit(problem, structure, {**point.values, name: value})
         if not other.cost < point.cost - least[best]:
             break
         point = other
