@@ -53,11 +53,11 @@ class ShownGrade:
 
     @property
     def html(self) -> str:
-        """The same for a cell."""
+        """The report as HTML, for a notebook's cell."""
         return self.page or f"<pre style='white-space:pre-wrap'>{escape_html(str(self))}</pre>"
 
     def __str__(self) -> str:
-        """As on a terminal."""
+        """The report as text, as on a terminal."""
         rows = ("".join(span.text for span in row).rstrip() for row in self.lines)
         return make_printable("\n".join(rows))
 

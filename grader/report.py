@@ -124,7 +124,7 @@ def _format_warnings(warnings: Sequence[str]) -> list[Line]:
 
 
 def _replace_signs(lines: list[Line]) -> list[Line]:
-    """The same with a word for each sign that leads a line."""
+    """The text with a word in place of each sign that leads a line."""
     return [
         (StyledText(f"{SPOKEN[row[0].text[0]]}:{row[0].text[1:]}", row[0].style), *row[1:])
         if row and row[0].text[:2].rstrip() in SPOKEN

@@ -65,7 +65,7 @@ def write_files(folder):
 
 
 @pytest.mark.parametrize("theme", ["light", "dark"])
-def test_every_page_that_is_a_file(browser, tmp_path, theme):
+def test_every_saved_page_is_accessible(browser, tmp_path, theme):
     wrong, complaints = {}, []
     for file in write_files(tmp_path):
         page = browser.new_page(viewport=DESKTOP, color_scheme=theme)

@@ -103,7 +103,7 @@ def contract(copy, only="churn"):
     )  # fmt: skip
 
 
-def test_it_is_listed_hidden_and_contract(copy):
+def test_new_effect_is_listed_can_be_hidden_and_keeps_the_contract(copy):
     listed = json.loads(sysid(copy, "effects", "--json").stdout)
     made = sysid(copy, "simulate", "drivetrain", "--hide", "churn:0.7", "-o", "log.csv")
     checked = contract(copy)
@@ -114,7 +114,7 @@ def test_it_is_listed_hidden_and_contract(copy):
     assert "passed" in checked.stdout
 
 
-def test_it_is_a_suspect_and_is_named(copy):
+def test_new_effect_is_a_candidate_and_is_named(copy):
     made = sysid(copy, "simulate", "shooter", "--hide", "churn:2", *TESTS, "-o", "churns.csv")
     found = sysid(copy, "reconcile", "churns.csv", "--json")
 

@@ -43,7 +43,7 @@ def test_the_html_needs_nothing_from_elsewhere_and_says_what_is_seen():
     assert str(animated()) == "A robot drives."
 
 
-def test_no_name_ends_the_data_or_becomes_a_tag():
+def test_html_in_a_name_is_escaped():
     scene = Scene(TIME, (Motion("</script><b>", velocity=SPEED),))
     html = animated(scenes=scene, alt='"<i>').html
     assert html.count("</script>") == 2

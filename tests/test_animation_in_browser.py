@@ -218,7 +218,7 @@ def test_the_keyboard_plays_pauses_and_moves_the_cursor(shown):
 
 
 @pytest.mark.parametrize(("motion", "plays"), [("no-preference", True), ("reduce", False)])
-def test_it_plays_by_itself_unless_less_motion_is_asked_for(motion, plays, shown):
+def test_animation_plays_by_itself_unless_less_motion_is_asked_for(motion, plays, shown):
     page, figure = shown(race(), motion=motion)
     page.wait_for_timeout(600)
     assert figure.evaluate("figure => figure.animation.now > 0") is plays
@@ -251,7 +251,7 @@ def test_each_mechanism_is_drawn_moves_and_fits_a_phone(kind, scheme, shown):
         "document.documentElement.style.colorScheme = 'dark'",
     ],
 )
-def test_its_colors_stand_out_from_a_dark_page(darken, shown):
+def test_colors_of_an_animation_stand_out_from_a_dark_page(darken, shown):
     page, figure = shown(race())
     page.evaluate(f"() => {{ {darken}; }}")
     fills = (

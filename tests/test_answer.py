@@ -59,7 +59,7 @@ def test_a_unit_may_be_written_in_any_way(text):
         ("V·min/rot", 60 / TURN),
     ],
 )
-def test_a_unit_knows_its_size(text, factor):
+def test_unit_is_parsed_to_its_size_in_si(text, factor):
     assert read_unit(text).factor == pytest.approx(factor)
 
 

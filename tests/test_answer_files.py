@@ -466,7 +466,7 @@ def test_answers_that_hardly_anybody_could_share_are_told(course, tmp_path):
     )
 
 
-def test_answers_that_are_right_for_both_may_be_alike(course, tmp_path):
+def test_equal_answers_that_are_right_for_both_students_are_not_reported(course, tmp_path):
     from grader.classroom.likeness import find_likenesses  # noqa: PLC0415 - only here
 
     same = "".join(f"q{number} = {number}\n" for number in range(40))

@@ -209,7 +209,7 @@ def test_metadata_that_name_nobody_are_refused(tmp_path, text, by, said):
         find_submitter(path, by=by, roster=None)
 
 
-def test_of_a_group_the_first_is_the_student(tmp_path):
+def test_submission_of_a_group_belongs_to_its_first_member(tmp_path):
     path = tmp_path / "submission_metadata.json"
     path.write_text('{"users": [{"sid": 17}, {"sid": 18}]}', encoding="utf-8")
 
@@ -229,7 +229,9 @@ def test_of_a_group_the_first_is_the_student(tmp_path):
         (["github", "-o", "{root}/README.md/grade.yml"], "cannot be written"),
     ],
 )
-def test_what_cannot_be_exported_is_one_line(root, tmp_path, monkeypatch, capsys, *, words, said):
+def test_impossible_export_is_refused_with_a_message(
+    root, tmp_path, monkeypatch, capsys, *, words, said
+):
     monkeypatch.chdir(root)
     filled = [word.format(root=root, elsewhere=tmp_path) for word in words]
 

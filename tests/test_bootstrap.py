@@ -60,7 +60,7 @@ def test_an_old_python_can_read_this_file(file):
 
 
 @pytest.mark.parametrize("file", STANDALONE)
-def test_it_needs_nothing_but_pythons_own_library(file):
+def test_bootstrap_needs_only_the_standard_library(file):
     tree = ast.parse((ROOT / "grader" / file).read_text("utf-8"))
     top = [node for node in tree.body if isinstance(node, ast.Import | ast.ImportFrom)]
     names = {

@@ -227,7 +227,7 @@ def test_a_folder_whose_name_is_no_students_is_said_and_stops_nobody(tmp_path):
 
     assert run_command(["class", str(there)]) == 1
     text = (tmp_path / "in-graded" / "index.html").read_text("utf-8")
-    assert "the student&#39;s name has 100 characters" in text
+    assert "the student&#39;s name is too long: 100 characters" in text
     assert len(list((tmp_path / "in-graded" / "students").iterdir())) == 2
 
 
@@ -259,7 +259,7 @@ def test_a_class_that_cannot_be_graded_is_one_line(tmp_path, capsys, make, reads
 
 
 @pytest.mark.usefixtures("course")
-def test_an_unknown_format_and_exercise_are_one_line(tmp_path, capsys, reads):
+def test_unknown_format_and_unknown_exercise_are_refused(tmp_path, capsys, reads):
     there = hand_in(tmp_path / "in", ann=RIGHT)
 
     assert run_command(["class", str(there), "--export", "moodle"]) == 2

@@ -185,7 +185,7 @@ class Arm extends Mechanism {
 """
 
 
-def test_its_commands_are_bound_and_guarded_like_those_of_v2(tmp_path):
+def test_commands_of_v3_are_bound_and_guarded_like_those_of_v2(tmp_path):
     found = grade_answer(EXERCISE5, BINDINGS, tmp_path, name="RobotContainer.java")
 
     assert {name: one.seen for name, one in found.items() if one.status != "passed"} == {}

@@ -146,7 +146,7 @@ def test_whatever_is_asked_for_is_done_or_refused(drive, *, name, severity, test
     assert (spoilt.log is drive) == (severity == 0.0)
 
 
-def test_it_strikes_where_it_is_told(drive):
+def test_fault_damages_the_given_place(drive):
     spoilt = contaminate(drive, "brownout", test="quasistatic-reverse", at=6.0, rng=rng())
 
     (where,) = spoilt.where

@@ -10,7 +10,7 @@ from sim.core.errors import BadRequest, MissingSignal
 from sim.core.log import Log, Run
 from sim.io import list_entries
 from sim.io.entries import assemble_logs
-from sim.io.entries.entry import ValuesEntry
+from sim.io.entries.entry import Entry
 from sim.io.format import ReadOptions
 
 HEADER = "test,time_s,voltage,position,velocity"
@@ -179,9 +179,9 @@ def test_motor_asked_of_a_file_with_one_makes_no_difference(tmp_path: Path) -> N
 def test_whole_numbers_that_count_something_are_no_voltage():
     time = np.arange(0, 2_000_000, 20_000)
     entries = (
-        ValuesEntry("state", "string", "", time, ("dynamic-forward",) * time.size),
-        ValuesEntry("angle", "double", "", time, np.linspace(0.0, 3.0, time.size)),
-        ValuesEntry("flags", "int64", "", time, np.where(time < 1_000_000, 32.0, 33.0)),
+        Entry("state", "string", "", time, np.full(time.size, "dynamic-forward")),
+        Entry("angle", "double", "", time, np.linspace(0.0, 3.0, time.size)),
+        Entry("flags", "int64", "", time, np.where(time < 1_000_000, 32.0, 33.0)),
     )
     named = {"state": "state", "position": "angle", "voltage": "flags"}
 

@@ -107,7 +107,7 @@ def test_a_fault_needs_a_test_that_is_run(tmp_path, refusal, reads):
     reads(refusal(spec(tmp_path, text + fault)))
 
 
-def test_the_second_of_a_kind_is_counted(tmp_path, refusal):
+def test_refusal_counts_tables_of_the_same_name(tmp_path, refusal):
     second = '[[logs]]\nmechanisms = "shooter"\n' + FAULT + FAULT + "at = -9.0"
 
     assert refusal(spec(tmp_path, PLAIN + second)).startswith(

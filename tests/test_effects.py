@@ -329,7 +329,7 @@ def asked(act, **known):
 
 
 @pytest.mark.parametrize(("name", "kind"), [p for p in PAIRS if "force" in EFFECTS[p[0]].hooks])
-def test_a_term_never_pushes_harder_than_the_back_emf_holds_back(name, kind):
+def test_an_effect_never_accelerates_a_mechanism_without_voltage(name, kind):
     # beyond what it stores and gives back, kV·v and the term together never feed the motion
     found, scale = EFFECTS[name], MECHANISMS[kind].scale
     values = hidden(name, kind, 2.0).parts[0].parameters

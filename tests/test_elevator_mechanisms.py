@@ -27,7 +27,7 @@ def recorded(name):
 
 
 @pytest.mark.parametrize(("name", "weight", "inertia", "lift"), ELEVATORS)
-def test_its_weight_and_its_inertia_are_those_of_its_stages(name, weight, inertia, lift):
+def test_elevator_has_the_weight_and_inertia_of_its_stages(name, weight, inertia, lift):
     built = find_mechanism(name)
     radius = 2.0 * 0.0222 if name == "cascade-elevator" else 0.0222
     volts_per_newton = NEO.resistance * radius / (2 * NEO.torque_constant * built.ratio)

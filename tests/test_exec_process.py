@@ -16,7 +16,7 @@ def test_the_exit_code_is_handed_on(code):
     assert run_process([sys.executable, "-c", f"raise SystemExit({code})"]) == code
 
 
-def test_it_runs_where_it_is_told_with_what_it_is_told(tmp_path):
+def test_program_runs_in_the_given_folder_with_the_given_arguments(tmp_path):
     program = "import os; open('found', 'w').write(os.environ['COLOR'])"
 
     assert (

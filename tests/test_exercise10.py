@@ -48,7 +48,7 @@ def lacking(found):
     return {one.id: (one.seen, one.hint) for one in found.values() if one.status != "passed"}
 
 
-def test_fifty_students_get_every_kind_and_a_conversion_each():
+def test_fifty_students_get_every_kind_of_gain_and_each_gets_a_conversion():
     variants = [OWN.module.draw(student) for student in CLASS]
 
     assert {one.kind for one in variants} == {*KINDS}

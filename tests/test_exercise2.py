@@ -58,7 +58,7 @@ def test_either_formula_will_do_for_everybody(copy):
             assert sum(check.points for check in results.values()) == 11
 
 
-def test_between_them_they_get_every_trouble_verdict_and_flag():
+def test_some_student_gets_each_trouble_verdict_and_flag():
     variants = [OWN.module.draw(student) for student in CLASS]
 
     assert {one.kind for one in variants} == {"drivetrain", "elevator", "turret"}

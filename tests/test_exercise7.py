@@ -210,7 +210,7 @@ def test_every_word_can_be_read_and_stands_in_the_task(name):
     assert f"| {name} |" in (OWN.folder / "README.md").read_text("utf-8")
 
 
-def test_no_feedback_names_what_it_really_is():
+def test_no_feedback_names_the_right_fault():
     for said, really in product(LINE.FAULTS, repeat=2):
         words = re.compile(rf"\b{really.replace('-', '[ -]')}\b")
         assert not words.search(FEEDBACK.explain_overlooked(really))
@@ -265,8 +265,8 @@ def test_a_little_jitter_and_noise_look_little_in_a_picture():
         replace(run, time=run.time + rng.uniform(-0.001, 0.001, len(run))) for run in clean.runs
     )
     log = replace(clean, runs=runs)
-    whole = look.drawn(log, log.runs).figure.axes
-    close = look.drawn(log, log.runs[:1], begin=0.0, end=0.1).figure.axes
+    whole = look.draw_signals(log, log.runs).figure.axes
+    close = look.draw_signals(log, log.runs[:1], begin=0.0, end=0.1).figure.axes
     tests = len(log.runs)
 
     for row in range(4):

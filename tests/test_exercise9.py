@@ -121,7 +121,7 @@ def test_fifty_students_get_mechanisms_that_can_be_fitted():
             assert asked.is_right(variant.fit.gains[name])
 
 
-def test_explaining_the_voltage_is_recognized(copy):
+def test_gain_of_a_fit_that_explains_the_voltage_is_recognized(copy):
     for student in ("ann", "ben", "cat", "dan", "eve", "fay"):
         variant = OWN.module.draw(student)
         lookalike = OWN.module.read(

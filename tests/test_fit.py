@@ -159,7 +159,7 @@ def test_a_log_that_says_its_type_needs_no_option():
     [
         (dict(type="spring"), "unknown type 'spring'. Choose one of: simple, elevator, arm"),
         (dict(method="guess"), "unknown method 'guess'. Choose one of: output-error, sysid"),
-        (dict(median=16), "a median window of 16 samples. Choose 1"),
+        (dict(median=16), "a median window of 16 samples is not possible. Choose 1"),
     ],
     ids=lambda value: str(value)[:20],
 )

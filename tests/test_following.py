@@ -28,7 +28,7 @@ def followed(kind, *, wanted=UP, **changes):
 
 
 @pytest.mark.parametrize("kind", PLANTS)
-def test_right_gains_follow(kind, reads):
+def test_right_gains_follow_the_profile(kind, reads):
     one = followed(kind)
     off = np.abs(np.subtract(one.position, one.target.position)).max()
 

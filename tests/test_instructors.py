@@ -56,7 +56,7 @@ def test_a_command_that_is_wrong_would_be_seen():
         grade.get_command(context, "class").make_context("class", ["x", "--exports", "y"])
 
 
-def test_it_lists_the_misconceptions_the_examiner_names(text):
+def test_guide_lists_the_misconceptions_that_the_examiner_names(text):
     rows = re.findall(r"^\| (M-[A-Z0-9-]+) \|[^|]*\| (\d+) \| (.*) \|$", text, re.MULTILINE)
 
     assert rows == [

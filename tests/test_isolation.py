@@ -561,7 +561,7 @@ def alive(pid):
 
 
 @pytest.mark.skipif(not landlock.find_abi_version(), reason="this system has no Landlock")
-def test_where_the_kernel_can_isolate_it_does():
+def test_kernel_isolates_the_child_where_it_can():
     assert LEVEL.startswith(f"isolated (Landlock ABI {landlock.find_abi_version()}, ")
     if platform.machine() in seccomp.TABLES:
         assert LEVEL.endswith("system calls filtered)")

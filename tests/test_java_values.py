@@ -58,7 +58,7 @@ def test_what_javac_or_java_refuses_is_refused():
         values.remainder(1, 0)
 
 
-def test_what_is_unknown_stays_unknown():
+def test_result_of_an_unknown_value_is_unknown():
     unknown = Unknown("speed")
     assert values.add(unknown, 1) is values.less(2.0, unknown) is unknown
     assert values.same(unknown, None) is text.format("%.2f", [unknown]) is unknown
@@ -76,7 +76,7 @@ def test_equality_of_values():
 
 
 @pytest.mark.parametrize(("pattern", "case"), FORMATS.items())
-def test_formats(pattern, case):
+def test_string_format_is_that_of_java(pattern, case):
     assert text.format(pattern, case[0]) == case[1]
 
 

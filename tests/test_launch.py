@@ -79,7 +79,7 @@ NO_EVENTS = {
 
 
 @pytest.mark.parametrize("why", NO_EVENTS)
-def test_what_is_ordinary_is_no_event(why):
+def test_ordinary_run_has_no_launch_event(why):
     assert find_launch_event(NO_EVENTS[why]()) is None
 
 

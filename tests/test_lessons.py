@@ -190,7 +190,9 @@ def test_every_question_is_on_a_slide(text, run):
 @each_lesson
 def test_every_picture_has_words_and_draws_only_on_white(text, run):
     pages = [Page(html) for html in _htmls(run(text))]
-    assert any(page.pictures or page.animations for page in pages)
+    assert any(page.pictures or page.animations for page in pages), (
+        "no cell shows a picture: call a function of sim.plot"
+    )
     for picture in (picture for page in pages for picture in page.pictures):
         assert len(picture["alt"]) > 40
         assert picture["src"].startswith("data:image/svg+xml;base64,")
@@ -494,7 +496,7 @@ def test_no_code_of_a_lesson_holds_a_right_answer(text):
     tree = ast.parse(text.read_text(encoding="utf-8"))
     said = {node.value for node in ast.walk(tree) if isinstance(node, ast.Constant)}
 
-    assert answers
+    assert answers, "no question of lesson_answers.toml has a right answer of several words"
     assert answers & said == set()
 
 
@@ -508,6 +510,7 @@ def test_little_code_is_in_sight_and_a_cell_of_it_is_short(text):
             assert not re.search(PLUMBING, cell.source, re.MULTILINE), cell.source
             in_sight.append([line for line in cell.source.splitlines() if line.strip()])
 
+    assert in_sight, "no cell has code in sight: one that only imports, asks or shows is folded"
     assert max(map(len, in_sight)) <= 12
     assert sum(map(len, in_sight)) <= 60
     for cell in cells:

@@ -149,7 +149,7 @@ def test_notebook_and_file_give_the_same(course, capsys, text):
 
 @pytest.mark.parametrize("size", [3, 3.0, np.float64(3), np.int32(3), np.array(3), np.array([3])])
 @pytest.mark.usefixtures("course")
-def test_a_number_of_numpy_is_a_number(size):
+def test_number_of_numpy_counts_as_an_answer(size):
     assert submit(1, size=size, color="green").grade.status == "passed"
 
 
@@ -201,7 +201,7 @@ def test_a_file_of_code_is_graded_as_it_stands(root, tmp_path, monkeypatch):
     assert "is answered in ExampleSubsystem.java or" in str(submit(4, ramp=0.5))
 
 
-def test_numbers_of_a_class_are_only_received(course):
+def test_answers_of_a_class_package_get_a_receipt_and_no_grade(course):
     checks = course / "exercises" / "exercise1" / "checks.py"
     checks.write_text(
         checks.read_text("utf-8") + "\ndef make_files(student):\n    return {}\n", encoding="utf-8"

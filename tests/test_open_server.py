@@ -30,7 +30,7 @@ def drive(tmp_path):
     return write_log(slipped_log(), tmp_path / "drive one.wpilog")
 
 
-def test_it_serves_the_page_to_this_machine_alone(server):
+def test_server_gives_the_page_to_this_machine_alone(server):
     status, content = ask(server, "")
 
     assert status == 200
@@ -61,7 +61,7 @@ def test_a_foreign_host_or_origin_is_refused(server, headers, method):
 
 
 @pytest.mark.parametrize("word", ["", "wrong", "..", "%C3%A9"])
-def test_without_the_word_of_the_address_there_is_nothing(server, word):
+def test_server_answers_nothing_without_the_secret_word_of_its_address(server, word):
     connection = http.client.HTTPConnection("127.0.0.1", server.server_address[1], timeout=20)
     connection.putrequest("GET", f"/{word}/logs", skip_host=True)
     connection.putheader("Host", server.hosts[0])

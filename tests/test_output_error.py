@@ -112,7 +112,7 @@ def test_where_the_recipe_is_biased_this_is_not(noise, ka, within):
 @pytest.mark.parametrize(
     "kinds", [("triangle",), ("multistep",), ("coast", "triangle"), ("chirp",)], ids=str
 )
-def test_any_kinds_of_test_will_do(kinds):
+def test_gains_are_found_from_any_kinds_of_tests(kinds):
     truth = MECHANISMS["drivetrain"].gains
     routine = Routine(ramp=0.5, step=2.5, kinds=kinds)  # below what limits the current
 

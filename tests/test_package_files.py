@@ -211,7 +211,7 @@ def test_a_file_that_holds_the_secret_is_refused(course, capsys, reads):
     reads(capsys.readouterr().err)
 
 
-def test_modules_are_found_through_one_another(tmp_path):
+def test_modules_imported_by_imported_modules_are_found(tmp_path):
     for name, text in {
         "checks.py": "from .a import x\nimport os\nfrom grader import check\n",
         "a.py": "def f():\n    from . import b\n",

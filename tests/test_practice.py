@@ -164,7 +164,7 @@ def test_files_may_have_names_of_their_own(tmp_path, solved):
     assert own["routine-step"].status == "passed"
 
 
-def test_a_wrong_gain_does_not_cost_the_constants_too(tmp_path, solved):
+def test_a_wrong_gain_costs_no_points_for_right_constants(tmp_path, solved):
     texts = {**solved, "answers.toml": scale_numbers(2.0, "kV")(solved["answers.toml"])}
     results = grade_answer(tmp_path, texts)
 

@@ -49,7 +49,7 @@ def test_true_gains_and_nothing_hidden_leave_no_error():
     ("changes", "least"),
     [({"kG": 0.9}, 2.0), ({"kV": 1.1}, 5.0), ({"kA": 1.5}, 2.0), ({"kS": 0.0}, 3.0)],
 )
-def test_each_wrong_gain_leaves_more_and_kp_makes_it_smaller(changes, least):
+def test_each_wrong_gain_increases_the_tracking_error_and_kp_reduces_it(changes, least):
     wrong = {name: value * changes.get(name, 1.0) for name, value in LIFT.gains.items()}
     alone, helped = error(wrong), error(wrong, kp=20.0)
 

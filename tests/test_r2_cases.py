@@ -81,7 +81,7 @@ def measured(five):
     return np.median(rows, axis=0)
 
 
-def test_every_row_of_the_reference_is_made(cases_by_name):
+def test_there_is_a_case_for_every_row_of_the_table(cases_by_name):
     assert list(cases_by_name) == list(TABLE)
 
 
@@ -115,7 +115,7 @@ def about(one, other):
     return one * other > 0 and 1 / TWICE <= one / other <= TWICE
 
 
-def test_seventeen_of_nineteen_pass_for_good(cases_by_name):
+def test_seventeen_of_nineteen_damaged_logs_have_a_good_r2(cases_by_name):
     """The reference's count leaves the weak battery out: it would be a twentieth, and passes."""
     wrong = [five for name, five in cases_by_name.items() if five[0].harmful]
     counted = [five for five in wrong if five[0].name != "commanded volts, 10 V step"]

@@ -80,14 +80,15 @@ def test_the_set_up_is_two_commands_of_one_line():
 
 
 @pytest.mark.parametrize("folder", ["lessons", "exercises"])
-def test_what_is_said_to_be_there_is_there(root, folder):
+def test_guide_lists_the_lessons_and_exercises_that_there_are(root, folder):
     row = next(
         line for line in GUIDE.read_text(encoding="utf-8").splitlines()
         if line.startswith(f"| {folder} |")
     )  # fmt: skip
     there = {int(re.search(r"\d+", path.name)[0]) for path in (root / folder).glob("*[0-9]*")}
 
-    assert {int(number) for number in re.findall(r"(?:\| |· )(\d+) ", row)} == there
+    listed = {int(number) for number in re.findall(r"(?:\| |· )(\d+) ", row)}
+    assert listed == there, f"{GUIDE.name} lists other {folder} than there are"
 
 
 def test_the_readme_is_short_and_its_pictures_speak():

@@ -277,7 +277,7 @@ def test_a_log_that_repeats_what_was_fitted_is_no_proof():
 # -- what is no physics --------------------------------------------------------------------------
 
 
-def test_voltages_of_other_moments_are_explained_by_nothing():
+def test_shifted_voltages_are_explained_by_no_effect():
     rng = np.random.default_rng(1)
 
     def dealt(log):

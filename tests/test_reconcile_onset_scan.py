@@ -97,7 +97,7 @@ def dynamic():
     ],
     ids=["late in a step", "early", "early, for good", "at rest", "at rest, for good"],
 )
-def test_its_moment_is_where_the_innovations_change(dynamic, shared, after, lasts, off):
+def test_onset_is_where_the_innovations_change(dynamic, shared, after, lasts, off):
     until = dynamic + lasts if lasts < LATER else LATER
     values = {"extra": 0.02, "onset": dynamic + after, "until": until, "shared": shared}
     log = log_with((Part("inertia-change", values),))

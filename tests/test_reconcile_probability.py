@@ -70,12 +70,9 @@ def test_each_piece_of_evidence_counts_as_it_should(name, by, likelier):
 @given(times=st.floats(0.2, 10.0))
 def test_the_size_is_told_in_everyday_sizes(times):
     # The largest everyday lag, times a factor, is that factor in everyday sizes.
-    lag = EFFECTS["delay"].parameters[0]
-    largest = max(
-        (n for n in range(1, 2000) if EFFECTS["delay"].is_ordinary({lag.name: n * 1e-5}, {})),
-    )
+    (lag,) = EFFECTS["delay"].parameters
 
-    found = compute_log_size("delay", {f"delay.{lag.name}": times * largest * 1e-5})
+    found = compute_log_size("delay", {"kV": 2.0, f"delay.{lag.name}": times * lag.everyday})
 
     assert -FARTHEST <= found <= LARGEST_SIZE
     assert found == pytest.approx(min(math.log(times), LARGEST_SIZE), abs=0.01)

@@ -54,7 +54,7 @@ def test_a_page_is_alone_and_legible_on_every_screen(saved, viewport, theme):
     assert page.complaints == []
 
 
-def test_it_is_as_alive_as_the_page_of_the_server(saved):
+def test_saved_page_reacts_like_the_page_of_the_server(saved):
     page = saved(drive_log(), "--own-kp", "300", "--loop", "position")
 
     page.locator("#paste").click()

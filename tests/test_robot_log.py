@@ -71,7 +71,7 @@ def ours(path: Path) -> dict[str, tuple[str, str, list[int], list[object]]]:
             entry.time.tolist(),
             entry.texts() if entry.type in {"string", "json"} else entry.numbers().tolist(),
         )
-        for entry in read_contents(path).entries
+        for entry in read_contents(path).list_entries()
     }
 
 

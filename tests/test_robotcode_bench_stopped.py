@@ -74,7 +74,7 @@ def test_a_crash_tells_its_line_and_where_it_was(tmp_path, changes, line, said, 
     assert "\n" not in stop.said
 
 
-def test_private_names_are_told_as_the_learner_wrote_them(tmp_path):
+def test_messages_show_private_names_as_the_learner_wrote_them(tmp_path):
     text = changed(("self.left", "self._left"), ("METERS_PER_PULSE", "_PULSE"))
 
     assert [one.name for one in ran(tmp_path, text).devices][:2] == ["_left", "right"]

@@ -13,7 +13,7 @@ from sim.core.log import KINDS
 @pytest.mark.parametrize(
     ("asked", "said"),
     [
-        (dict(ramp=0.0), "a ramp of 0 V/s. Choose a number above 0"),
+        (dict(ramp=0.0), "a ramp of 0 V/s is out of range. Choose a number above 0"),
         (dict(ramp=math.nan), "a ramp of nan V/s"),
         (dict(step=-3.0), "a step of -3 V"),
         (dict(step=24.0), "at most 12 V"),

@@ -81,7 +81,7 @@ def test_a_tired_battery_browns_out_in_a_step_and_not_in_a_ramp():
 
 
 @pytest.mark.parametrize("wrong", [{"wall": 0.0}, {"wall": 9.0, "tape": -1.0}], ids=str)
-def test_a_length_that_is_none_is_refused(wrong, reads):
+def test_length_of_zero_or_less_is_refused(wrong, reads):
     with pytest.raises(BadRequest) as refused:
         Floor(**wrong)
     reads(refused.value)

@@ -43,7 +43,7 @@ def test_a_filter_in_the_sensor_says_the_mean_of_a_while():
     assert seen.velocity[5:] == pytest.approx(mean[5:], abs=2e-3)
 
 
-def test_frames_stand_until_the_next_with_their_noise():
+def test_reading_and_its_noise_stay_the_same_until_the_next_frame():
     _, _, seen = sensed(frame=0.1, velocity_noise=0.1)
 
     steps = np.count_nonzero(np.diff(seen.velocity))

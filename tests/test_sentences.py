@@ -72,7 +72,7 @@ def test_reconcile_tells_a_story_in_these_words():
     )
 
 
-def test_the_gap_is_told_in_these_words():
+def test_sentences_about_the_gap_are_these():
     signals = {
         f"{signal}, {error:+g} noises": replace(PLACE, signal=signal, error=error).sentence
         for signal in ("velocity", "position")

@@ -106,8 +106,8 @@ def test_a_ramp_starts_after_two_loops_and_has_499_samples_as_wpilibs():
 @pytest.mark.parametrize(
     ("routine", "period", "said"),
     [
-        (Routine(), 2.0, "a period of 2 s. Choose 0.0005 to 0.5 s"),
-        (Routine(timeout=0.1), 0.02, "a timeout of 0.1 s has 4 loops of 0.02 s. Ask for a longer"),
+        (Routine(), 2.0, "a loop period of 2 s is out of range. Choose 0.0005 to 0.5 s"),
+        (Routine(timeout=0.1), 0.02, "a timeout of 0.1 s is too short: 4 loops"),
     ],
     ids=["slow loop", "short test"],
 )

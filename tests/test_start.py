@@ -68,7 +68,7 @@ def course(tmp_path, monkeypatch):
     return tmp_path
 
 
-def test_it_shows_where_one_stands_before_anything_is_made(course, capsys):
+def test_start_shows_what_is_there_before_it_makes_anything(course, capsys):
     assert run_command(["start", "--no-lab", "--student", "ann"]) == 0
     out = capsys.readouterr().out
 
@@ -176,7 +176,7 @@ def test_commands_of_this_environment_are_found_in_its_terminals(course):
     ids=["closed", "Ctrl-C", "Ctrl-C twice", "broken"],
 )
 @pytest.mark.usefixtures("course")
-def test_it_ends_quietly_with_jupyterlab(monkeypatch, capsys, ends, code):
+def test_start_ends_without_a_message_when_jupyterlab_ends(monkeypatch, capsys, ends, code):
     monkeypatch.setattr(Lab, "ends", ends)
 
     assert run_command(["start"]) == code

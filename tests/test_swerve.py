@@ -71,7 +71,7 @@ def both(drive, routine=GENTLE):
 # ---- the drive ----
 
 
-def test_its_gains_are_those_of_its_parts():
+def test_swerve_drive_has_the_gains_of_its_parts():
     """By hand: one newton at the floor takes c volts, and the lever is the diagonal's half."""
     r, kt, ke = 12 / 366, 7.09 / 366, (12 - 12 / 366 * 2) / (6000 * 2 * math.pi / 60)
     c = r * 0.0508 / (4 * kt * 6.75)
@@ -136,7 +136,7 @@ def test_slip_beside_a_hidden_joint_is_left_out_and_it_is_said():
     assert simulate(robot, GENTLE, rng=rng()).doubts == ()
 
 
-def test_below_the_slip_nothing_changes_by_a_digit():
+def test_grip_changes_nothing_below_the_slip_voltage():
     free = replace(KRAKEN.translation, grip=None)
     one, other = (simulate(x, GENTLE, rng=rng()) for x in (KRAKEN.translation, free))
 
@@ -217,12 +217,12 @@ def test_a_wrong_lever_is_named(times, says):
 @pytest.mark.parametrize(
     ("change", "says"),
     [
-        (dict(mass=0.0), "a mass of 0 kg"),
-        (dict(mass=math.nan), "a mass of nan kg"),
-        (dict(lever=-1.0), "a lever of -1 m"),
+        (dict(mass=0.0), "no mass is 0 kg"),
+        (dict(mass=math.nan), "no mass is nan kg"),
+        (dict(lever=-1.0), "no lever is -1 m"),
     ],
 )
-def test_a_robot_there_cannot_be_is_refused(change, says):
+def test_an_impossible_mass_or_lever_is_refused(change, says):
     turning, straight = both(KRAKEN)
 
     with pytest.raises(BadRequest, match=says):
@@ -562,7 +562,7 @@ def test_without_a_lever_the_speeds_tell_it():
     assert found.value == pytest.approx(own_share(KRAKEN), rel=0.01)
 
 
-def test_it_is_in_the_json_and_a_tanks_lever_is_grave(logs, capsys):
+def test_json_holds_the_moment_of_inertia_and_a_grave_warning_of_a_wrong_lever(logs, capsys):
     code, said, _ = run(
         capsys, "fit", logs / "turning.wpilog", *TURNED, "--straight", logs / "straight.wpilog",
         "--mass", 60, "--lever", 0.3, "--json",

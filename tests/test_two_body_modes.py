@@ -167,7 +167,7 @@ def test_a_joint_overshoots_as_its_damping_says(damping):
     assert max(bent) == pytest.approx((1.0 + overshoot) * height, rel=0.01)
 
 
-def test_row_is_what_a_motion_and_its_pushes_become():
+def test_table_row_moves_a_body_by_a_constant_force():
     tables = np.zeros(TABLES_SIZE)
     prepare_series(tables, MOVES, 0.0, 0.1, 0.2, 50.0, 0.0)
     at = make_table_from_half(tables, MOVES, 0.01, 0)

@@ -76,7 +76,7 @@ def fit_gains(*files, cwd):
     return json.loads(done.stdout)["gains"]
 
 
-def test_its_growing_log_gives_after_each_test_what_the_file_gives(root, tmp_path, port):
+def test_growing_log_gives_after_each_test_the_gains_of_the_whole_file(root, tmp_path, port):
     (tmp_path / "logs").mkdir()
     watch = Watch(tmp_path / "logs", cwd=tmp_path)
     try:

@@ -15,8 +15,8 @@ from wpilog_file import (
     start,
 )
 
-from sim.io.formats.wpilog.contents import Contents, read_contents
-from sim.io.formats.wpilog.entry import KINDS, Entry
+from sim.io.entries.entry import Entry
+from sim.io.formats.wpilog.contents import SIZES, Contents, read_contents
 from sim.io.formats.wpilog.records import find_records, pad, read_headers
 
 TMP = settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
@@ -29,7 +29,7 @@ def contents_in(tmp_path: Path, *parts: bytes) -> Contents:
 
 
 def values(entry: Entry) -> list[object]:
-    return entry.numbers().tolist() if entry.type in KINDS else list(entry.texts())
+    return entry.numbers().tolist() if entry.type in SIZES else entry.texts()
 
 
 ANY_RECORD = st.tuples(
@@ -66,7 +66,7 @@ def test_first_record_stands_after_the_extra_header(tmp_path: Path, extra: bytes
 
     found = read_contents(path)
 
-    assert [entry.name for entry in found.entries] == ["it"]
+    assert [entry.name for entry in found.list_entries()] == ["it"]
     assert found.damage is None
 
 
@@ -91,7 +91,7 @@ def test_each_type_is_decoded(
         tmp_path, record(0, 5, start(7, "it", kind, "unit")), record(7, 123_456, packed, widths)
     )
 
-    (entry,) = found.entries
+    (entry,) = found.list_entries()
     assert (entry.name, entry.type, entry.metadata) == ("it", kind, "unit")
     assert entry.time.tolist() == [123_456]
     assert values(entry) == [expected]
@@ -115,7 +115,7 @@ def test_an_entry_that_comes_back_under_another_id_is_joined_in_time_order(tmp_p
         record(3, 50, struct.pack("<f", 5.0)),
     )
 
-    first, other = found.entries
+    first, other = found.list_entries()
     assert (first.metadata, first.time.tolist(), values(first)) == (
         "Meter",
         [10, 20, 30, 40],

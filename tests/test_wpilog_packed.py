@@ -38,7 +38,7 @@ def assert_same(one, other):
         np.testing.assert_array_equal(mine.velocity, others.velocity)
 
 
-def test_it_is_read_by_its_content_whatever_its_name(plain, packed):
+def test_packed_log_is_recognized_by_its_content(plain, packed):
     renamed = packed.rename(packed.with_name("packed.wpilog"))
 
     assert_same(read(renamed), read(plain))
@@ -82,7 +82,7 @@ def test_one_that_unpacks_to_too_much_is_refused(packed, monkeypatch):
         read(packed)
 
 
-def test_it_can_be_watched_while_it_grows(plain, tmp_path):
+def test_growing_packed_log_can_be_watched(plain, tmp_path):
     content = plain.read_bytes()
     half = len(content) // 2
     path = tmp_path / "grows.wpilogxz"

@@ -36,10 +36,10 @@ def shape(found, wanted):
     """Entries that are wanted, and what is odd about a file."""
     rows = [
         (
-            entry.name, entry.type, entry.metadata, entry.time.tolist(), entry.size.tolist(),
-            entry.payloads,
+            entry.name, entry.type, entry.metadata, entry.time.tolist(),
+            entry.values.dtype, entry.values.astype(bytes).tolist(),
         )
-        for entry in found.entries if wanted(entry)
+        for entry in found.list_entries() if wanted(entry)
     ]  # fmt: skip
     return rows, found.damage, found.orphans
 

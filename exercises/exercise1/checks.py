@@ -119,10 +119,10 @@ def kv_unit(answers: StudentAnswers) -> None:
     if volts == right.powers[:2] and sum(length) == -1 and max(length) == 0 and not any(rest):
         hint = f"this is the right kind of unit, but your velocities are in {symbol}/s"
         raise WrongAnswer(raw, hint=hint, misconception="M-UNITS", earned=1.0)
-    raise WrongAnswer(raw, hint=_about_unit(given.powers), misconception="M-UNITS")
+    raise WrongAnswer(raw, hint=_explain_unit(given.powers), misconception="M-UNITS")
 
 
-def _about_unit(given: tuple[int, ...]) -> str:
+def _explain_unit(given: tuple[int, ...]) -> str:
     volt, second, *length = given
     if any(given[4:]):
         return "multiply your unit by that of your velocity: the result must be volts"

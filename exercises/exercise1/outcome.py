@@ -24,7 +24,7 @@ HARDLY = 0.05  # [share of the speed wanted] below which it hardly moves
 
 
 def find_outcome(given: Mapping[str, object], variant: Variant) -> Consequence | None:
-    """What the wrong ones of the four numbers would do; None where none is both there and wrong."""
+    """The motion that the wrong ones of the four answers cause; None if no answer is wrong."""
     motions, words = [], []
     for name in MOMENTS:
         asked = variant.asked(name)
@@ -61,7 +61,7 @@ def _simulate_moment(name: str, volts: float, variant: Variant) -> tuple[tuple[A
 
 
 def _describe_end(wanted: float, found: float, symbol: str, *, after: str) -> str:
-    """What is to be seen in the end, with one digit: it is a picture, not a measurement."""
+    """A sentence about the end of the picture, with numbers of one digit."""
     if abs(found) <= HARDLY * abs(wanted):
         return "hardly moves"
     if found * wanted < 0.0:

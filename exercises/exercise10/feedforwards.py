@@ -80,7 +80,7 @@ class Seen:
 
 
 def explain(seen: str, slip: WrongNumber, earned: float = 0.0) -> WrongAnswer:
-    """What is seen of a slip, in words."""
+    """A sentence about the effect of a slip."""
     return WrongAnswer(seen, hint=slip.says, misconception=slip.misconception, earned=earned)
 
 

@@ -60,7 +60,7 @@ class Variant:
     coded_in: str = ""
 
     def held_by(self, kind: str) -> "Variant":
-        """The same mechanism with its gains where a class puts them.
+        """The mechanism with its gains in the unit in which a class takes them.
 
         Phoenix 6 counts rotations of the mechanism and puts out volts. A Spark counts in the unit
         of its conversion factors, here the code's, and its kP gives a duty cycle.

@@ -28,7 +28,7 @@ SLIPS = Slips(Path(__file__).with_name("slips.toml"))
 
 @dataclass(frozen=True)
 class Variant:
-    """What one learner gets.
+    """The numbers, options and reasons in one learner's questions.
 
     Args:
         numbers: field of a question's text -> number.
@@ -48,7 +48,7 @@ class Variant:
 
     @property
     def slips(self) -> tuple[Lookalike, ...]:
-        """What slips would make of it [V]."""
+        """The wrong voltages [V] that known slips give."""
         ks, kv, rpm = (self.numbers[name] for name in ("ks", "kv", "target"))
         return SLIPS.list_lookalikes(
             (

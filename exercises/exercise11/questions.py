@@ -12,7 +12,7 @@ DECISIONS = ("always", "recommended", "optional", "usually not")
 
 @dataclass(frozen=True)
 class Row:
-    """One mechanism.
+    """A mechanism in the table of a question.
 
     Args:
         name: as in the answer file.

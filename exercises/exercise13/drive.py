@@ -53,7 +53,7 @@ class Variant:
 
     @property
     def drive(self) -> SwerveDrive:
-        """It on the bench."""
+        """The swerve drive for the simulation."""
         return SwerveDrive(
             motor=find_motor(self.motor),
             ratio=self.ratio,

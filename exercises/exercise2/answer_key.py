@@ -66,7 +66,7 @@ def judge_list(raw: object, variant: Variant) -> None:
         found.append((f"name at least {LEAST} causes that are possible", ""))
         lost = 3
     else:
-        order, evidence = _about_order(possible, variant), _about_evidence(possible, variant)
+        order, evidence = _explain_order(possible, variant), _explain_evidence(possible, variant)
         found += [(one, "") for one in (order, evidence) if one]
         lost += 2 if evidence else 1 if order else 0
     if found:
@@ -114,7 +114,7 @@ def _refused(cause: str, variant: Variant) -> Problem | None:
     return (DISAGREES[line], "") if line else None
 
 
-def _about_order(causes: list[str], variant: Variant) -> str:
+def _explain_order(causes: list[str], variant: Variant) -> str:
     """What is wrong with the order; the cause that the file shows may also stand first."""
     kinds = [KINDS[one] for one in causes]
     rest = kinds[1:] if causes[0] == find_evident(variant) else kinds
@@ -126,7 +126,7 @@ def _about_order(causes: list[str], variant: Variant) -> str:
     )
 
 
-def _about_evidence(causes: list[str], variant: Variant) -> str:
+def _explain_evidence(causes: list[str], variant: Variant) -> str:
     """What the list lacks: the cause that the file shows or, on a sound mechanism, two kinds."""
     evident = find_evident(variant)
     if evident:

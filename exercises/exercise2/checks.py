@@ -79,7 +79,7 @@ def difference(answers: StudentAnswers) -> None:
     if theirs > 0.0 and _near(value, variant.percent(theirs), variant):
         says = "it follows from your kV_theory, but your kV_theory is not right yet"
         raise WrongAnswer(_shown(value), hint=says, earned=1.0)
-    raise WrongAnswer(_shown(value), hint=_about_percent(value, variant))
+    raise WrongAnswer(_shown(value), hint=_explain_percent(value, variant))
 
 
 def _own_theory(answers: StudentAnswers) -> float:
@@ -126,7 +126,7 @@ def _near(value: float, percent: float, variant: Variant) -> bool:
     return abs(value - percent) <= POINT * max(1.0, ratio)
 
 
-def _about_percent(value: float, variant: Variant) -> str:
+def _explain_percent(value: float, variant: Variant) -> str:
     """What a wrong percentage may have been."""
     percent = variant.percent(variant.parts.theoretical_kv)
     undone = (

@@ -17,7 +17,7 @@ FLAGS = ("fine", "watch", "stop")
 
 @dataclass(frozen=True)
 class Parts:
-    """What is built in.
+    """The motors, gearing and wheel of a mechanism.
 
     Args:
         motor: as on its label.
@@ -75,7 +75,7 @@ class Variant:
 
     @property
     def symbol(self) -> str:
-        """Of its unit of position."""
+        """The symbol of its unit of position."""
         return "m" if self.parts.diameter else "rot"
 
     @property
@@ -98,12 +98,12 @@ class Variant:
 
     @property
     def verdict(self) -> str:
-        """What the difference says."""
+        """The verdict on the difference between measured and theoretical kV."""
         return find_verdict(self.percent(self.parts.theoretical_kv))
 
     @property
     def flag(self) -> str:
-        """What kS says."""
+        """The verdict on kS: fine, watch or stop."""
         if self.friction > self.measured * self.speed:
             return "stop"
         return "watch" if self.friction > FRICTION else "fine"

@@ -47,7 +47,7 @@ def _draw_variant(rng: np.random.Generator) -> Variant:
 
 
 def _read_hold(gravity: float, friction: float, *, reading: int, rng: np.random.Generator) -> Hold:
-    """What is read off where gravity takes this much [V], and friction that much [V]."""
+    """The two hold voltages for a gravity voltage [V] and a friction voltage [V]."""
     lower, upper = (
         round(float(gravity + edge + rng.normal(0.0, READING_ERROR)), 2) + 0.0  # never -0.00
         for edge in (-friction, friction)

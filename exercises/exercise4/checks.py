@@ -51,7 +51,7 @@ def read(path: Path, *, student: str, run: bool = True) -> Runs:  # noqa: ARG001
 
 
 def _both(runs: Runs, judge: Callable[[RoutineFacts], str | None]) -> str | None:
-    """Judge the program, whatever the conditions are that nobody can know."""
+    """Judge the program under both values of each condition that is not known."""
     return judge_runs(runs, judge)
 
 
@@ -75,10 +75,10 @@ def _number(
 @check(points=1, after=routine)
 def ramp(runs: Runs) -> str | None:
     """The quasistatic test raises the voltage by 0.5 V every second."""
-    return _number(runs, RAMP, _about_ramp)
+    return _number(runs, RAMP, _explain_ramp)
 
 
-def _about_ramp(facts: RoutineFacts, value: float) -> tuple[str, str]:
+def _explain_ramp(facts: RoutineFacts, value: float) -> tuple[str, str]:
     if (value, facts.step.value) == (STEP.value, RAMP.value):
         return "Ramp and step are swapped: the ramp comes first.", "M-ARGORDER"
     if 0 < value < RAMP.value:
@@ -89,10 +89,10 @@ def _about_ramp(facts: RoutineFacts, value: float) -> tuple[str, str]:
 @check(points=1, after=routine)
 def step(runs: Runs) -> str | None:
     """The dynamic test applies a step of 3.5 V."""
-    return _number(runs, STEP, _about_step)
+    return _number(runs, STEP, _explain_step)
 
 
-def _about_step(_facts: RoutineFacts, value: float) -> tuple[str, str]:
+def _explain_step(_facts: RoutineFacts, value: float) -> tuple[str, str]:
     if value == LESSON_STEP:
         return "3 V is an example in many lessons, and fine on many robots.", ""
     if value > FULL_BATTERY:

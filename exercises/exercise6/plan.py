@@ -70,16 +70,16 @@ class Machine:
 
     @property
     def scatter(self) -> float:
-        """Of an acceleration made from the samples before and after."""
+        """The noise of an acceleration that is computed from the samples before and after."""
         return self.noise / (math.sqrt(2.0) * PERIOD)
 
     def speed(self, push: float, ramp: float, time: float) -> float:
-        """After a time of moving [s]."""
+        """The distance from the start after a time of moving [s]."""
         e = -math.expm1(-time / self.tau)
         return (push * e + ramp * (time - self.tau * e)) / self.kv
 
     def place(self, push: float, ramp: float, time: float) -> float:
-        """After a time of moving [s], from where it began."""
+        """The distance from the start after a time of moving [s]."""
         e, tau = -math.expm1(-time / self.tau), self.tau
         risen = time * time / 2.0 - tau * time + tau * tau * e
         return (push * (time - tau * e) + ramp * risen) / self.kv
@@ -146,11 +146,11 @@ class Test:
         return self.place(self.lasts) + self.machine.stops_in(self.fastest)
 
     def speed(self, time: float) -> float:
-        """After a time of moving [s]."""
+        """The distance from the start after a time of moving [s]."""
         return self.machine.speed(self.push, self.ramp, time)
 
     def place(self, time: float) -> float:
-        """After a time of moving [s]."""
+        """The distance from the start after a time of moving [s]."""
         return self.machine.place(self.push, self.ramp, time)
 
     def when(self, what: Callable[[float], float], value: float) -> float:

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 DATA = Path(__file__).resolve().parent / "data"
 TESTS = ("quasistatic-forward", "quasistatic-reverse", "dynamic-forward", "dynamic-reverse")
 DOTS = 150  # samples in a picture up to which each gets a dot
-MARGIN = 0.05  # [share] of an axis above and below what is drawn
+MARGIN = 0.05  # [share] of an axis above and below what is draw_signals
 CLOSEST = 0.1  # [share of the whole log's range] an axis shows at least: noise stays small
 ALL = 1e9  # [s] later than any log ends
 FAULTS = SpanText(
@@ -68,7 +68,7 @@ def main(log: str, test: str, begin: float, end: float, student: str, *, page: b
             serve_page([place], view=PageView(raw=True, span_text=_span_text(place)))
             return
         runs = [run for run in found.runs if test in ("", run.test)]
-        picture = drawn(found, runs, begin=begin, end=end)
+        picture = draw_signals(found, runs, begin=begin, end=end)
         target = place.with_name(f"{place.stem}{_suffix(test, begin, end)}.svg")
         picture.save(target)
     except Refusal as refusal:
@@ -91,7 +91,9 @@ def _suffix(test: str, begin: float, end: float) -> str:
     return f"-{test}{times}" if test else times
 
 
-def drawn(log: "Log", runs: "Sequence[Run]", *, begin: float = 0.0, end: float = ALL) -> Picture:
+def draw_signals(
+    log: "Log", runs: "Sequence[Run]", *, begin: float = 0.0, end: float = ALL
+) -> Picture:
     """Four signals of some tests, one below the other, one test beside the next.
 
     Args:

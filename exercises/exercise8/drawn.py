@@ -110,7 +110,7 @@ def _draw_variant(kind: str, rng: np.random.Generator) -> Variant | None:
 
 
 def _is_solvable(variant: Variant) -> bool:
-    """Whether who cuts by eye earns all, and who leaves anything out does not."""
+    """Whether cuts by eye earn all points, and a preparation that lacks a part does not."""
     log, asked, reference = variant.log, variant.asked, variant.reference
     full = POINTS * len(asked)
     if (
@@ -141,6 +141,6 @@ def _is_solvable(variant: Variant) -> bool:
 
 
 def _cut(reference: Preparation, early: float, times: float) -> Preparation:
-    """As the reference, but cut so much earlier [s], with so many times the threshold."""
+    """The reference preparation, with earlier cuts [s] and a multiple of its threshold."""
     keep = {test: (begin, end - early) for test, (begin, end) in reference.keep.items()}
     return replace(reference, keep=keep, threshold=times * reference.threshold)

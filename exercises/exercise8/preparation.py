@@ -24,7 +24,7 @@ BETWEEN = re.compile(r"\s*(?:(?:to|until|till|from|and|seconds?|secs?|s)\b\s*|[-
 
 @dataclass(frozen=True)
 class Preparation:
-    """What is kept of a log.
+    """The parts of a log that are fitted, and how they are filtered.
 
     Args:
         keep: test -> [s] from, to, since the test began; a test that is missing is kept whole.
@@ -37,7 +37,7 @@ class Preparation:
     median: int
 
     def kept(self, run: Run) -> Run:
-        """What is left of a run once it is trimmed."""
+        """The samples of a run that remain after it is trimmed."""
         first, last = self.keep.get(run.test, (0.0, float("inf")))
         since = run.time - run.time[0]
         return run.select((since >= first - 1e-9) & (since <= last + 1e-9))

@@ -302,7 +302,7 @@ def _judge_gain(name: str, log: Hidden, answer: CallResult) -> Miss | None:
 
 
 def _format_print(text: str) -> str:
-    """What was printed, in one line."""
+    """The printed text, shortened to one line."""
     line = " ".join(text.split())
     short = line if len(line) <= PRINTED else f"{line[:PRINTED]}…"
     return f"It printed: {short}" if line else ""

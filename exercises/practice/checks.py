@@ -98,12 +98,12 @@ class Answers:
 
     @cached_property
     def routine(self) -> Any:  # noqa: ANN401 - of a module that is loaded by path
-        """As exercise 4 runs it."""
+        """The run of the routine, made as in exercise 4."""
         return self._read("subsystem", FOURTH)
 
     @cached_property
     def bindings(self) -> object:
-        """As exercise 5 runs it."""
+        """The run of the buttons, made as in exercise 5."""
         return self._read("container", FIFTH)
 
     @property
@@ -136,7 +136,7 @@ class Answers:
 
     @cached_property
     def theory(self) -> Any:  # noqa: ANN401 - of a module that is loaded by path
-        """As exercise 2 looks at it."""
+        """The comparison with theory, made as in exercise 2."""
         return StudentAnswers(self.given, team_of(self.measured, self.given, TEAM), self.student)
 
 

@@ -47,7 +47,7 @@ class Measured:
 
     @property
     def symbol(self) -> str:
-        """Of its unit of position."""
+        """The symbol of its unit of position."""
         return UNITS[self.units]
 
 
@@ -82,7 +82,7 @@ def of_robot(path: Path, given: Mapping[str, object]) -> Measured:
 
 
 def _is_file(path: Path) -> bool:
-    """Whether there is such a file; none has a name that no system can have."""
+    """Whether a file of this name is there; False if no system allows the name."""
     try:
         return path.is_file()
     except (OSError, ValueError):
@@ -121,7 +121,7 @@ def _parts(given: Mapping[str, object], units: str) -> Parts:
 
 
 def team_of(measured: Measured, given: Mapping[str, object], team: ModuleType) -> object:
-    """This mechanism as exercise 2 looks at one.
+    """The mechanism as a team of exercise 2, whose gains that exercise checks against physics.
 
     Args:
         measured: the mechanism.

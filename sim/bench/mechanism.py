@@ -183,7 +183,7 @@ class Mechanism:
         known = find_effect(effect)
         if not (math.isfinite(size) and 0.0 <= size <= LARGEST):
             raise BadRequest(
-                f"{effect} of size {size:g}",
+                f"{effect} cannot have size {size:g}",
                 advice=f"Choose 0 to {LARGEST:g}; 1 is what an ordinary robot has.",
             )
         if any(part.effect == effect for part in self.hidden):

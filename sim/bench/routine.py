@@ -52,14 +52,14 @@ class Routine:
             value = getattr(self, name)
             if not (math.isfinite(value) and 0.0 < value <= most):
                 raise BadRequest(
-                    f"a {name} of {value:g} {symbol}",
+                    f"a {name} of {value:g} {symbol} is out of range",
                     advice=f"Choose a number above 0, at most {most:g} {symbol}.",
                 )
 
         unknown = [kind for kind in self.kinds if kind not in KINDS]
         if unknown or not self.kinds or len(set(self.kinds)) < len(self.kinds):
             raise BadRequest(
-                f"tests of the kinds {', '.join(self.kinds) or '(none)'}",
+                f"a kind of test is unknown, missing or there twice: {', '.join(self.kinds)}",
                 advice=f"Choose from these, each at most once: {', '.join(KINDS)}.",
             )
 

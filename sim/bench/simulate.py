@@ -72,7 +72,7 @@ def simulate(
     model, slips = mechanism.model, make_slip_effect(mechanism)
     wires = make_power_path_array(mechanism, duty_cycle=duty_cycle)
     parts = STEPS_PER_LOOP if mechanism.sensor.latency or mechanism.sensor.frame else 1
-    runs: list[Run] = []
+    runs, coarse = list[Run](), slice(None, None, parts)
     state, start, last, cut, gripped = State(), PAUSE, 0.0, False, False
     for test in routine.tests:
         time = _loop_times(mechanism, routine, test, period=period, rng=rng)
@@ -85,11 +85,11 @@ def simulate(
         if wheels_slip(mechanism, track):
             active, gripped = (model + slips, gripped) if slips else (model, True)
             track, state = _move(active, time, voltage, begin=begin, wires=wires)
-        end = (_find_end(track.take_every(parts), mechanism, test=test) - 1) * parts + 1
+        end = (_find_end(track.select(coarse), mechanism, test=test) - 1) * parts + 1
         time, voltage = time[:end], voltage[:end]
         if end < track.position.size and state.memory.any():  # without heating after the end
             track, state = _move(active, time, voltage, begin=begin, wires=wires)
-        loops, seen = time[::parts], _delay_limits(track.truncate(end), voltage, time, model)
+        loops, seen = time[coarse], _delay_limits(track.select(slice(end)), voltage, time, model)
         run = _record_run(mechanism, test, time, seen, loops=loops, rng=rng, electrical=electrical)
         runs.append(replace(run, time=np.round(start + loops, DIGITS)))
         cool_down(state, model, PAUSE)
@@ -142,7 +142,7 @@ def _record_run(
         mechanism.sensor, position=track.position, velocity=track.seen, time=time, read_at=loops,
         rng=rng,
     )  # fmt: skip
-    logged = track.take_every((time.size - 1) // (loops.size - 1))
+    logged = track.select(slice(None, None, (time.size - 1) // (loops.size - 1)))
     extra = {"current": logged.current, "bus_voltage": logged.bus} if electrical else {}
     return Run(test, loops, logged.applied, *seen, **extra)
 
@@ -161,7 +161,7 @@ def _check_period(period: float) -> None:
     """Refuse a loop period out of range."""
     if not FASTEST <= period <= SLOWEST:
         raise BadRequest(
-            f"a period of {period:g} s",
+            f"a loop period of {period:g} s is out of range",
             advice=f"Choose {FASTEST:g} to {SLOWEST:g} s; a robot program loops every 0.02 s.",
         )
 
@@ -225,7 +225,7 @@ def _loop_times(
     count = math.floor(timeout / period + 1e-9) - LOOPS_BEFORE_DRIVE + 1
     if count < MIN_SAMPLES:
         raise BadRequest(
-            f"a timeout of {timeout:g} s has {max(count, 0)} loops of {period:g} s",
+            f"a timeout of {timeout:g} s is too short: {max(count, 0)} loops of {period:g} s",
             advice="Ask for a longer timeout or a shorter period.",
         )
     late = np.clip(jitter * rng.standard_normal(count), -0.2 * period, 0.2 * period)
@@ -253,7 +253,7 @@ def _find_end(track: Track, mechanism: Mechanism, *, test: str) -> int:
         end = int(np.argmax(beyond)) if beyond.any() else end
     if end < MIN_SAMPLES:
         raise BadRequest(
-            f"{test} lasts {end} loops",
+            f"{test} is too short: it lasts only {end} loops",
             advice="Ask for a longer timeout, a shorter period or a smaller step.",
         )
     return end

@@ -25,7 +25,7 @@ COMMANDS = {  # each in a module or a folder of this name; the list of commands 
     "simulate": "Run the four tests on a simulated MECHANISM, and write a log.",
     "watch": "Fit a robot's log after each test, and say what to do next.",
 }
-FOLDERS = ("fit", "open", "watch")
+FOLDERS = ("fit", "open", "reconcile", "watch")
 
 
 class Commands(click.Group):

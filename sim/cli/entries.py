@@ -39,7 +39,8 @@ def entries(file: Path, *, as_json: bool) -> None:
 
 def describe_entry(entry: Entry) -> dict[str, object]:
     """An entry as plain data; ``signal`` is empty if it is not a motor's signal."""
-    device, signal = (identify_signal(entry) if entry.type in NUMBERS else None) or ("", "")
+    found = identify_signal(entry.name, entry.metadata) if entry.type in NUMBERS else None
+    device, signal = found or ("", "")
     if entry.type == STRING and names_tests(entry):
         signal = "state"
     return {

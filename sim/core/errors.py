@@ -39,7 +39,7 @@ class Refusal(Exception):  # noqa: N818 - not an error of the program
         return _rebuild, (type(self), self.what, self.where, self.action or self.advice)
 
     def move(self, where: str) -> Self:
-        """The same refusal of another place."""
+        """The refusal with another place."""
         return self.__class__(self.what, where=where, advice=self.action or self.advice)
 
     def __str__(self) -> str:

@@ -98,7 +98,7 @@ class KalmanFilter:
     def _follow_covariance(
         self, voltage_error: Array, starts: frozenset[int]
     ) -> tuple[NDArray[np.intp], Array]:
-        """Samples at which the predicted covariance is not the steady one, and it there (3, m).
+        """Samples at which the predicted covariance is not the steady one, and its values (3, m).
 
         Written with plain floats: a search does this for thousands of samples, again and again.
         """

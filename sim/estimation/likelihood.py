@@ -270,7 +270,7 @@ class PredictionErrorProblem:
             nuisance: the nuisance parameters of each run.
             kalman_filter: corrects the state; the default is an open-loop simulation.
         """
-        return Track.from_array(self._filter_runs(model, nuisance, kalman_filter, self.batch))
+        return Track(*self._filter_runs(model, nuisance, kalman_filter, self.batch).T)
 
     def predict_errors(
         self,

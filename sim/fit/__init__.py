@@ -61,7 +61,7 @@ def fit(log: Log, *, type: str = "", method: str = METHODS[0], median: int = 1) 
         return fit_wpilib_sysid(log, type=chosen, median=median)
     if median != 1:
         raise BadRequest(
-            f"a median window of {median} samples with method {method}",
+            f"method {method} has no median filter, but a window of {median} samples was asked for",
             advice=(
                 "The median filter belongs to SysId's method: add --method sysid. Our method "
                 "needs no filter."

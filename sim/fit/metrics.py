@@ -95,7 +95,7 @@ def _simulate_without_gravity_angle(
 def _simulate_arm(
     part: Rows, decay: list[float], gain: list[float], gains: Mapping[str, float]
 ) -> Array:
-    """Velocities of an arm."""
+    """The velocities of an arm simulated with the gains, from the first sample of a test."""
     ks, kg, offset = gains["kS"], gains["kG"], gains["offset_rad"]
     x, v = float(part.position[0]), float(part.velocity[0])
     model = [v]

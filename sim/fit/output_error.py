@@ -206,21 +206,21 @@ def _choose_lags(
     problem: PredictionErrorProblem, plain: Estimate
 ) -> tuple[PredictionErrorProblem, Estimate, OpenLoopReplay]:
     """The best estimate, with an averaged velocity, a delay, or both, if they improve it enough."""
-    point = _add_lags(problem, plain, FIRST_LAGS, settle=fit_tracking)
+    point = _add_lags(problem, plain, FIRST_LAGS, refit=fit_tracking)
     everything, problem = problem, drop_outliers(problem, point)
 
-    def open_loop(first: Estimate) -> Estimate:
+    def fit_without_filter(first: Estimate) -> Estimate:
         if problem is not everything:
             first = fit_tracking(problem, first.structure, first.values)
         return fit_open_loop(problem, first)
 
-    found = open_loop(point)
+    found = fit_without_filter(point)
     if point is not plain:
-        without = open_loop(plain)
+        without = fit_without_filter(plain)
         found = found if found.cost < without.cost - WORTH else without
     replay = replay_open_loop(problem, found)
     if replay.has_misfit or found.process_noise > HOLDS * problem.noise.velocity**2:
-        other = open_loop(_fit_both_lags(problem, plain))
+        other = fit_without_filter(_fit_both_lags(problem, plain))
         more = len(other.structure.effects) - len(found.structure.effects)
         if other.cost < found.cost - WORTH * max(more, 0):
             found, replay = other, replay_open_loop(problem, other)
@@ -295,13 +295,13 @@ def _fit_both_lags(problem: PredictionErrorProblem, plain: Estimate) -> Estimate
 def _add_short_lags(problem: PredictionErrorProblem, found: Estimate) -> Estimate:
     """An estimate with nearly correct gains, with those short lags that improve it enough."""
 
-    def settle(
+    def refit(
         problem: PredictionErrorProblem, structure: ModelStructure, values: Mapping[str, float]
     ) -> Estimate:
         first = problem.evaluate(structure, values, found.nuisance, found.process_noise)
         return fit_open_loop(problem, refine(problem, first))
 
-    return _add_lags(problem, found, SHORT_LAGS, settle=settle)
+    return _add_lags(problem, found, SHORT_LAGS, refit=refit)
 
 
 def _add_lags(
@@ -309,7 +309,7 @@ def _add_lags(
     point: Estimate,
     lags: Mapping[str, Sequence[float]],
     *,
-    settle: Callable[[PredictionErrorProblem, ModelStructure, Mapping[str, float]], Estimate],
+    refit: Callable[[PredictionErrorProblem, ModelStructure, Mapping[str, float]], Estimate],
 ) -> Estimate:
     """An estimate with those lags that improve it enough, added one after another.
 
@@ -317,7 +317,7 @@ def _add_lags(
         problem: the measurements.
         point: the best estimate without them.
         lags: parameter -> start values [sample periods].
-        settle: fits a structure from some values.
+        refit: fits a structure from some values.
     """
     left = {name: sizes for name, sizes in lags.items() if name not in point.values}
     while left:
@@ -339,7 +339,7 @@ def _add_lags(
         best = int(np.argmax(worth))
         name, value = tried[best]
         structure = point.structure + name.partition(".")[0]
-        other = settle(problem, structure, {**point.values, name: value})
+        other = refit(problem, structure, {**point.values, name: value})
         if not other.cost < point.cost - least[best]:
             break
         point = other

@@ -89,7 +89,7 @@ def prepare_rows(log: Log, *, median: int = 1) -> PreparedRows:
     """
     if median not in MEDIAN_WINDOWS:
         raise BadRequest(
-            f"a median window of {median} samples",
+            f"a median window of {median} samples is not possible",
             advice=f"Choose {MEDIAN_WINDOWS[0]} (no filter) to {MEDIAN_WINDOWS[-1]}.",
         )
     raw = {test: _rows_of_run(run) for test, run in _first_runs(log).items()}

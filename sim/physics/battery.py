@@ -56,7 +56,7 @@ class Battery:
     def __post_init__(self) -> None:
         if not (LOWEST <= self.rest <= HIGHEST and 0.0 <= self.resistance <= LARGEST_RESISTANCE):
             raise BadRequest(
-                f"a battery of {self.rest:g} V with {self.resistance:g} Ω",
+                f"no robot has a battery of {self.rest:g} V with {self.resistance:g} Ω",
                 advice=f"Choose {LOWEST:g} to {HIGHEST:g} V, and 0 to {LARGEST_RESISTANCE:g} Ω. "
                 "A good one has 12.6 V and 0.02 Ω.",
             )

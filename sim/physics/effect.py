@@ -18,6 +18,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from sim.core.units import BATTERY
 from sim.physics.voltage_residual import VoltageResidual
 
 KINDS = ("term", "path", "sense", "two-body")
@@ -71,6 +72,8 @@ class Parameter:
         least: smallest physical value.
         most: largest physical value.
         neutral: value at which the effect is absent.
+        everyday: size up to which it is normal on a robot in good order, at the free speed of 12 V
+            if its unit contains a position; 0 if no size is.
         searched: whether a search changes it in small steps; if not, it keeps its start value.
         counts: whether the data determine it, so that it counts as a free parameter of a model.
         stepwise: whether the simulation jumps with it, so that a derivative needs a large step.
@@ -83,6 +86,7 @@ class Parameter:
     least: float = 0.0
     most: float = math.inf
     neutral: float = 0.0
+    everyday: float = 0.0
     searched: bool = True
     counts: bool = True
     stepwise: bool = False
@@ -144,11 +148,11 @@ class Effect:
         symmetric: whether negated voltages give a negated motion, for all parameters.
         stored_energy: [V·unit] potential energy, a function of ``x`` and the parameters, whose
             slope is ``force``; None if it stores none.
-        shortest_time: [s] shortest time scale, from parameters and gains; None if it is not fast.
+        shortest_time: [s] shortest time scale, from parameters and gains; infinite if it has none.
         shortest_length: [unit] shortest length scale, from parameters, of an effect that depends on
-            position: it needs short steps only where the motion is fast. None if it has none.
+            position: it needs short steps only where the motion is fast. Infinite if it has none.
         narrowest_speed: [unit/s] shortest speed scale, from parameters: a search takes short steps
-            where the speed changes fast. None if it has none.
+            where the speed changes fast. Infinite if it has none.
         order: place in the path from command to motor or from motion to sensor, for a chain.
         reason_against: why a mechanism cannot have it, from its scale; empty if it can.
         inertia_shares: [1] shares of kA with which the first start is tried as well, for an effect
@@ -157,7 +161,6 @@ class Effect:
         simpler: the effect with fewer parameters that acts about the same; empty if there is none.
         same_in_motion: the effect that is equal to it while the mechanism moves; empty if none is.
         simplify: parameters of ``simpler``, from those of this effect and the voltage residual.
-        is_ordinary: whether it is as small as on a robot in good order, from parameters and gains.
     """
 
     name: str
@@ -172,9 +175,9 @@ class Effect:
     hooks: Mapping[str, Callable[..., Any]]
     symmetric: bool = True
     stored_energy: Callable[..., float] | None = None
-    shortest_time: Callable[[Mapping[str, float], Mapping[str, float]], float] | None = None
-    shortest_length: Callable[[Mapping[str, float]], float] | None = None
-    narrowest_speed: Callable[[Mapping[str, float]], float] | None = None
+    shortest_time: Callable[[Mapping[str, float], Mapping[str, float]], float] = lambda *_: math.inf
+    shortest_length: Callable[[Mapping[str, float]], float] = lambda _: math.inf
+    narrowest_speed: Callable[[Mapping[str, float]], float] = lambda _: math.inf
     order: int = 0
     reason_against: Callable[[Scale], str] = field(default=lambda _: "")
     inertia_shares: tuple[float, ...] = ()
@@ -183,9 +186,6 @@ class Effect:
     same_in_motion: str = ""
     simplify: Callable[[Mapping[str, float], VoltageResidual], Mapping[str, float]] = field(
         default=lambda _values, _residual: {}
-    )
-    is_ordinary: Callable[[Mapping[str, float], Mapping[str, float]], bool] = field(
-        default=lambda _, __: False
     )
 
     @property
@@ -212,6 +212,20 @@ class Effect:
     def neutral(self) -> dict[str, float]:
         """Parameter -> the value at which the effect is absent."""
         return {parameter.name: parameter.neutral for parameter in self.parameters}
+
+    def compute_everyday_size(self, values: Mapping[str, float]) -> float:
+        """[1] size over the largest that is normal on a robot in good order; infinite if none is.
+
+        Args:
+            values: the model's gains, and ``effect.parameter`` -> value.
+        """
+        free_speed = BATTERY / max(values["kV"], 1e-9)
+        sizes = [
+            values[f"{self.name}.{one.name}"] * free_speed**one.power / one.everyday
+            for one in self.parameters
+            if one.everyday
+        ]
+        return math.hypot(*sizes) if sizes else math.inf
 
     def find_contract_breaches(self) -> list[str]:
         """Sentences that say how this effect breaks the contract; empty if it does not."""

@@ -34,7 +34,7 @@ class Part:
         known = find_effect(self.effect)
         if set(self.parameters) != set(known.names):
             raise BadRequest(
-                f"{self.effect} with {', '.join(self.parameters) or 'no parameters'}",
+                f"{self.effect} has other parameters than {', '.join(self.parameters) or 'none'}",
                 advice=f"Give: {', '.join(known.names)}.",
             )
         for parameter in known.parameters:

@@ -147,7 +147,7 @@ class EffectSearch:
 
     @property
     def views(self) -> ResidualViews:
-        """What remains on the fitted runs and those of the validation log, seen from five sides."""
+        """Pictures of the voltage residual of the fitted runs and of the validation log."""
         return make_residual_views(self.hand.recordings.fitted_runs, self.model)
 
     @property

@@ -37,7 +37,7 @@ def plot_hold_window(
         raise BadRequest("every voltage needs one speed", advice="Give as many speeds as voltages.")
     low, high = window
     if low > high:
-        raise BadRequest(f"a window from {low:g} to {high:g} V", advice="Give the lower one first.")
+        raise BadRequest(f"{low:g} to {high:g} V is no window", advice="Give the lower one first.")
     figure, ((axes,),) = make_panels(1, 1, height=3.6)
     axes.axvspan(low, high, color=BAND, alpha=0.35, label="it stays: kG − kS to kG + kS")
     axes.axhline(0.0, color=REFERENCE, linewidth=0.8)

@@ -107,7 +107,7 @@ class ResidualViews:
 
     @property
     def headline(self) -> str:
-        """What the views explain, in a sentence."""
+        """A sentence about the share of the residual that each view explains."""
         if self.is_noise:
             return "Only noise remains."
         share = _percent(self.unexplained)

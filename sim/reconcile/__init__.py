@@ -117,7 +117,7 @@ def _make_story(
         complete: whether the search ended before its budget.
     """
     unit = recordings.unit
-    chapters = shown.chapters(rounds)
+    chapters = shown.make_chapters(rounds)
     log_notes = shown.notes(chapters[-1], rounds[-1].gap.velocity)
     residuals = ResidualSummary.summarize(problem, rounds[-1].candidate.estimate)
     findings, judged, refuted = make_findings(

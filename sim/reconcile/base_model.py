@@ -46,14 +46,14 @@ def fit_base_model(problem: PredictionErrorProblem, recordings: Recordings) -> E
     structure = ModelStructure(recordings.type)
     nuisance = RunNuisance.at_first_samples(len(problem.records))
 
-    def search(ka: float) -> Estimate:
+    def fit_from_inertia(ka: float) -> Estimate:
         values = {name: {**guess, "kA": ka}[name] for name in structure.names}
         start = problem.evaluate(structure, values, nuisance, problem.noise.velocity**2)
         found = levenberg_marquardt(problem, start, steps=STEPS, enough=1.0)
         return minimize_fully(problem, scan_process_noise(problem, found))
 
     starts = (guess["kA"], SLOW * guess["kV"])
-    base = min(map(search, starts), key=lambda one: one.cost)
+    base = min(map(fit_from_inertia, starts), key=lambda one: one.cost)
     if not math.isfinite(base.cost):
         parts = "without its damaged parts, " if recordings.damage.excluded else ""
         raise NotIdentifiable(

@@ -125,7 +125,7 @@ class HeldOutLog:
         found = map_residuals(self.log, base.tracks, compared=self.compared_samples, floor=noise)
         return found.find_places(PLACES_SHOWN, signal="velocity") if found else ()
 
-    def chapters(self, rounds: Sequence[SelectionRound]) -> tuple[Chapter, ...]:
+    def make_chapters(self, rounds: Sequence[SelectionRound]) -> tuple[Chapter, ...]:
         """Each model's gap and simulated runs."""
         return tuple(map(self._chapter, rounds))
 

@@ -149,6 +149,4 @@ def list_blocked_candidates(weighed: Sequence[WeighedCandidate]) -> list[Weighed
 
 def is_ordinary_size(effect: str, values: Mapping[str, float]) -> bool:
     """Whether an effect is no larger than on any healthy robot."""
-    known = EFFECTS[effect]
-    own = {name: values[f"{effect}.{name}"] for name in known.names}
-    return known.is_ordinary(own, values)
+    return EFFECTS[effect].compute_everyday_size(values) <= 1.0

@@ -97,26 +97,8 @@ def compute_log_size(effect: str, values: Mapping[str, float]) -> float:
         effect: name of the effect.
         values: the model's gains, and ``effect.parameter`` -> value.
     """
-    known = EFFECTS[effect]
-
-    def is_ordinary(times: float) -> bool:
-        return known.is_ordinary(
-            {
-                one.name: one.neutral + (values[f"{effect}.{one.name}"] - one.neutral) / times
-                for one in known.parameters
-            },
-            values,
-        )
-
-    low, high = -FARTHEST, LARGEST_SIZE
-    if is_ordinary(math.exp(low)):
-        return low
-    if not is_ordinary(math.exp(high)):
-        return high
-    for _ in range(30):  # halvings of the range, far below what the probability notices
-        middle = 0.5 * (low + high)
-        low, high = (low, middle) if is_ordinary(math.exp(middle)) else (middle, high)
-    return high
+    size = EFFECTS[effect].compute_everyday_size(values)
+    return min(max(math.log(size), -FARTHEST), LARGEST_SIZE) if size > 0.0 else -FARTHEST
 
 
 def compute_rival_share(effect: str, score: float, tried: Mapping[str, float]) -> float:

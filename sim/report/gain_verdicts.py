@@ -109,7 +109,7 @@ def _one_digit(number: float) -> str:
 
 
 def _advice(name: str, log: Log) -> str:
-    """What to record so that a gain becomes usable."""
+    """A sentence about the test that makes a gain usable."""
     slow, fast = (
         [run for run in log.runs if run.kind == kind] for kind in ("quasistatic", "dynamic")
     )

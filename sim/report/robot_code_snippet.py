@@ -332,7 +332,7 @@ def convert_units(found: Fit, unit: str, *, radius: float | None) -> Conversion:
     if given.angular != wanted.angular:
         if radius is None or not (math.isfinite(radius) and radius > 0.0):
             raise BadRequest(
-                f"no radius between {given.name} and {wanted.name}", advice=Action("radius")
+                f"{given.name} become {wanted.name} only with a radius", advice=Action("radius")
             )
         between = radius if wanted.angular else 1.0 / radius  # [m/rad], or its inverse
     factor = wanted.si * between / given.si

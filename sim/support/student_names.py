@@ -23,7 +23,7 @@ def check_student_name(text: str) -> str:
     if not name:
         raise BadRequest("the student's name is empty", advice=advice)
     if len(name) > LONGEST:
-        raise BadRequest(f"the student's name has {len(name)} characters", advice=advice)
+        raise BadRequest(f"the student's name is too long: {len(name)} characters", advice=advice)
     if not name.isprintable():
         raise BadRequest(
             f"the student's name {name!r} contains an invisible character", advice=advice

@@ -19,7 +19,7 @@ Solved = Callable[[float, float, float], object]
 
 @dataclass(frozen=True)
 class FilledGaps:
-    """The lines of a fit: the student's if they are right, else the right ones.
+    """The three lines of a lesson's fit that the student fills in; a wrong one is replaced.
 
     Args:
         left: function of voltage, velocity and acceleration, (n,) each; the left side, (n,).

@@ -17,9 +17,8 @@ from time import perf_counter
 import numpy as np
 from wpiutil.log import DataLogReader
 
-from sim.io.formats.wpilog.contents import read_contents
+from sim.io.formats.wpilog.contents import SIZES, read_contents
 from sim.io.formats.wpilog.control import Start, make_start_payload
-from sim.io.formats.wpilog.entry import KINDS
 from sim.io.formats.wpilog.records import MAGIC
 
 HEADER = MAGIC + bytes((0, 1, 0, 0, 0, 0))
@@ -85,11 +84,10 @@ def mixed(count: int, rng: np.random.Generator) -> bytes:
 
 def ours(path: Path) -> int:
     """Read everything, in arrays; strings in lists."""
-    found = read_contents(path)
     kept = {
-        entry.name: (entry.time, entry.texts() if entry.type == "string" else entry.values())
-        for entry in found.entries
-        if entry.type in KINDS or entry.type == "string"
+        entry.name: (entry.time, entry.texts() if entry.type == "string" else entry.numbers())
+        for entry in read_contents(path).list_entries()
+        if entry.type in SIZES or entry.type == "string"
     }
     return sum(len(time) for time, _ in kept.values())
 
@@ -131,7 +129,7 @@ def rows(count: int, repetitions: int) -> Iterator[str]:
         for make in (doubles, strings, mixed):
             path = Path(folder) / f"{make.__name__}.wpilog"
             path.write_bytes(make(count, rng))
-            total = count + len(read_contents(path).entries)
+            total = count + len(read_contents(path).list_entries())
             pairs = [(seconds(ours, path), seconds(theirs, path)) for _ in range(repetitions)]
             if len({found for pair in pairs for _, found in pair}) != 1:
                 yield f"{make.__name__}: the readers disagree: {pairs}"

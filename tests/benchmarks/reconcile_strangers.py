@@ -140,7 +140,7 @@ def _stranger(
     acts: Mapping[str, Callable[..., float]],
     example: Callable[[Scale, float], Mapping[str, float]],
     *,
-    pace: Callable[[Mapping[str, float], Mapping[str, float]], float] | None = None,
+    pace: Callable[[Mapping[str, float], Mapping[str, float]], float] = lambda *_: math.inf,
     cannot: Callable[[Scale], str] = lambda _: "",
 ) -> Effect:
     """An effect with no more than a making needs; ``numbers`` are names with their neutral values.

@@ -221,10 +221,10 @@ class ButtonBench(Bench):
         for one in devices:
             if hasattr(one, "_value") and isinstance(one._value, bool):
                 one._value = sensors
-        self._turn(None)
+        self._turn_switch(None)
         self._loops(2)
 
-    def _turn(self, switch: tuple[str, Any] | None) -> None:
+    def _turn_switch(self, switch: tuple[str, Any] | None) -> None:
         """Turn a switch on the dashboard; the one before goes back."""
         if self.switch is not None:
             path, before = self.switch
@@ -348,7 +348,7 @@ class ButtonBench(Bench):
         if not set(TESTS) - set(found):
             return
         self._set_mode(mode)
-        self._turn(switch)
+        self._turn_switch(switch)
         inputs = self._inputs()
         singles: list[Input] = []
         for count in (1, 2):
@@ -373,7 +373,7 @@ class ButtonBench(Bench):
     ) -> Press:
         """Hold what starts a test to its end, let it go in the middle, and try it in a match."""
         self._set_mode(mode)
-        self._turn(switch)
+        self._turn_switch(switch)
         self._hold(inputs, on=True)
         ran, driven = [], []
         for _ in range(HELD):

@@ -22,7 +22,7 @@ def _is_number(value: Any) -> bool:
 
 
 def compare_motor(name: str, rows: Sequence["Row"], sent: tuple[Sent, ...]) -> Driven:
-    """What a motor got in a test."""
+    """The commands of a motor in a test, compared with the test's voltage."""
     unknown = next(
         (r.applied[name].unknown_text for r in rows if isinstance(r.applied[name], Unknown)), ""
     )

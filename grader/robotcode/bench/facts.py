@@ -156,7 +156,7 @@ class Signal:
 
 @dataclass(frozen=True)
 class TestRun:
-    """One test.
+    """One test that a program ran.
 
     Args:
         lasted: [s] until it ended by itself; infinite if it was still running when let go.

@@ -252,7 +252,7 @@ def list_slots() -> Iterator[Gains]:
 
 
 def _find_sparks(kind: str) -> Iterator[tuple[int, dict[str, Any]]]:
-    """What REVLib's configurations of one class were given: those in use, else those made."""
+    """Line and settings of REVLib's configurations of a class: those in use, or else all."""
     part = "closedLoop.feedForward." if kind == FEED_FORWARD else "closedLoop."
     used = [
         (

@@ -206,7 +206,7 @@ class JavaSubject(Subject):
         raise error  # ours, and no fault of the learner's
 
     def describe(self) -> dict[str, Any]:
-        """What is known of the text."""
+        """The facts that the program's text tells without running it."""
         unknown = {n: int(at) for n, at in (WORLD.undecided | self.program.unknown).items()}
         return {
             "errors": tuple(self.program.errors.values()),

@@ -23,7 +23,7 @@ from grader.robotcode.bench.simulation import (
     SAGGED,
     Mount,
     Simulation,
-    number_of,
+    find_device_number,
     walk_fields,
 )
 from grader.robotcode.library.base import Unknown
@@ -185,7 +185,7 @@ class RoutineBench(Bench):
             leader = self.simulation.leaders.get(id(one)) if motor else None
             lost = motor and one._leader is not None and leader is None
             turner = self.simulation.turned_by.get(id(one))
-            number = number_of(one)
+            number = find_device_number(one)
             found.append(
                 DeviceFacts(
                     self.simulation.name(one),

@@ -54,12 +54,12 @@ class GearedShaft:
 
     @property
     def position(self) -> float:
-        """[rot]."""
+        """Position of the rotor [rot]."""
         return self.shaft.position / GEARING
 
     @property
     def velocity(self) -> float:
-        """[rot/s]."""
+        """Velocity of the rotor [rot/s]."""
         return self.shaft.velocity / GEARING
 
 
@@ -104,7 +104,7 @@ class Simulation:
 
     def name(self, device: Device) -> str:
         """The name of the field that holds a device."""
-        number = number_of(device)
+        number = find_device_number(device)
         place = WORLD.devices.index(device) if number is None else number
         return self.names.get(id(device)) or f"{type(device).__name__} {place}"
 
@@ -155,7 +155,7 @@ class Simulation:
 
     def direction(self, motor: Motor) -> float:
         """1 if a positive voltage of the motor drives the task's mechanism forward, else -1."""
-        mount = self.mounts.get(number_of(motor), Mount())
+        mount = self.mounts.get(find_device_number(motor), Mount())
         return -1.0 if mount.backward != motor._inverted and self.mounts else 1.0
 
     def find_limit(self, motor: Motor) -> float:
@@ -204,7 +204,7 @@ class Simulation:
         WORLD.time += PERIOD
 
 
-def number_of(device: Device) -> int | None:
+def find_device_number(device: Device) -> int | None:
     """The CAN ID or the number of the port of a device; None if nobody knows it."""
     return next((one for one in device._port if isinstance(one, int)), None)
 

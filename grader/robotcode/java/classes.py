@@ -91,7 +91,7 @@ class Method:
         """The types whose values a parameter holds as they are; None where it has to be seen."""
         return [values.TYPES.get(one) for one in self.kinds]
 
-    def cost(self, args: Sequence[Any], kinds: Sequence[str], *, spread: bool) -> float:
+    def compute_cost(self, args: Sequence[Any], kinds: Sequence[str], *, spread: bool) -> float:
         """How far the arguments have to be converted; infinite if they do not fit."""
         wanted = list(self.kinds)
         if spread:
@@ -102,7 +102,10 @@ class Method:
         if len(wanted) != len(args):
             return math.inf
         told = [*kinds, *[""] * len(args)]
-        return sum(self.owner.cost(k, a, t) for k, a, t in zip(wanted, args, told, strict=False))
+        return sum(
+            self.owner.compute_conversion_cost(k, a, t)
+            for k, a, t in zip(wanted, args, told, strict=False)
+        )
 
     def bind(self, args: Sequence[Any], *, spread: bool) -> list[Any]:
         """The arguments as the parameters hold them."""
@@ -143,7 +146,7 @@ class Overloads:
         if self.only is not None and len(args) == len(self.only.kinds):
             return self.only, False
         for spread in (False, True):
-            costs = [one.cost(args, kinds, spread=spread) for one in self.methods]
+            costs = [one.compute_cost(args, kinds, spread=spread) for one in self.methods]
             best = min(costs)
             if best < math.inf:
                 return self.methods[costs.index(best)], spread
@@ -234,7 +237,7 @@ class JavaClass:
 
     @property
     def full_name(self) -> str:
-        """As Java's getName has it."""
+        """The name of the class with those of its outer classes, as Java's getName returns it."""
         if self.outer is not None:
             return f"{self.outer.full_name}${self.name}"
         return f"{self.unit.package}.{self.name}".lstrip(".")
@@ -263,7 +266,7 @@ class JavaClass:
             if not any(other is not one and issubclass(other, one) for other in bases)
             and one not in bases[:i]
         ]  # fmt: skip
-        content = {"java": self, "fake_complete": False} if self.lombok else {"java": self}
+        content = {"java": self, "fake_complete": False} if self.uses_lombok else {"java": self}
         made = _make_type(self.name or "Anonymous", tuple(bases), content)
         self.__dict__["cls"] = made
         self.state = "new"
@@ -273,7 +276,7 @@ class JavaClass:
         return made
 
     @property
-    def lombok(self) -> bool:
+    def uses_lombok(self) -> bool:
         """Whether Lombok may write methods of it that stand nowhere."""
         return any(one.full.startswith("lombok.") for one in self.unit.imports)
 
@@ -369,7 +372,7 @@ class JavaClass:
             one = one.parent
         return one
 
-    def cost(self, kind: str, value: Any, static: str) -> float:
+    def compute_conversion_cost(self, kind: str, value: Any, static: str) -> float:
         """How far a value has to be converted for a parameter; infinite if it cannot be."""
         given = static or type_names.kind_of(value)
         plain = BOXES.get(given, given)

@@ -190,7 +190,7 @@ def _declare_method(owner: JavaClass, node: Node) -> None:
     if inner and returns.rstrip("[]") in inner:
         made.returns = ""
     if body is not None:
-        made.run = _lazily(owner, made, body, inner)
+        made.run = _compile_at_first_call(owner, made, body, inner)
     if constructor and made.name != owner.name:
         owner.unit.program.error(
             f"{made.name} has no return type. Is it a constructor of {owner.name}?", made.at
@@ -199,7 +199,7 @@ def _declare_method(owner: JavaClass, node: Node) -> None:
     twins.append(made)
 
 
-def _lazily(
+def _compile_at_first_call(
     owner: JavaClass, method: Method, body: Node, variables: set[str]
 ) -> Callable[..., Any]:
     """A method that compiles itself when it is first called."""

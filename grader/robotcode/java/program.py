@@ -314,7 +314,7 @@ class Program:
             self.error(f"there is no {name}. Did you mean {close[0]}?", one.at)
 
     def resolve_or_report(self, name: str, scope: JavaClass, at: At, frame: Any = None) -> Any:
-        """The class of a name; where there is none, the error is written down, or it is unknown."""
+        """The class of a name; if there is none, an error is reported and it is unknown."""
         found = self.resolve(name, scope, frame)
         if found is not None:
             return found

@@ -206,7 +206,7 @@ def get_field(value: Any, name: str) -> Any:
 
 
 def is_about_arguments(problem: Exception) -> bool:
-    """Whether a TypeError comes from a call of ours, to which the function never got."""
+    """Whether a TypeError says that a function was called with wrong arguments."""
     trace = problem.__traceback__
     while trace is not None and trace.tb_next is not None:
         trace = trace.tb_next

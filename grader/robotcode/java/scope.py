@@ -46,7 +46,7 @@ class Arguments:
 
     @property
     def kinds(self) -> tuple[str, ...]:
-        """Their types."""
+        """The types of the variables."""
         return tuple(one.kind for one in self.codes)
 
 

@@ -207,7 +207,7 @@ STRING_METHODS: dict[str, Callable[..., Any]] = {
 
 
 def _count_time(method: Callable[..., Any]) -> Callable[..., Any]:
-    """The same; a long text costs steps."""
+    """The method of a text, in which a long text counts as several steps of the program."""
 
     @functools.wraps(method)
     def run(text: str, *args: Any) -> Any:

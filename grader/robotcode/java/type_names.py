@@ -101,7 +101,7 @@ def make_array(kind: str, sizes: Sequence[Any]) -> Any:
 
 
 def array_get(array: Any, index: Any) -> Any:
-    """An element.
+    """The element of an array at an index.
 
     Raises:
         ArrayIndexOutOfBoundsException: there is none of this index.

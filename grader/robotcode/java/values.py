@@ -213,7 +213,7 @@ class JavaError(Throwable, package=_LANG, name="Error"):
 
 
 class RuntimeException(JavaException, package=_LANG):
-    """What no method has to declare."""
+    """Java's exception that no method has to declare."""
 
 
 class IllegalArgumentException(RuntimeException, package=_LANG):
@@ -245,11 +245,11 @@ class IndexOutOfBoundsException(RuntimeException, package=_LANG):
 
 
 class ArrayIndexOutOfBoundsException(IndexOutOfBoundsException, package=_LANG):
-    """The same, of an array."""
+    """Java's exception for an array's index out of bounds."""
 
 
 class StringIndexOutOfBoundsException(IndexOutOfBoundsException, package=_LANG):
-    """The same, of a text."""
+    """Java's exception for a text's index out of bounds."""
 
 
 class NegativeArraySizeException(RuntimeException, package=_LANG):

@@ -523,7 +523,7 @@ SWERVE = f"{CTRE}.swerve {CTRE}.mechanisms.swerve"
 
 
 class _Constants(Fake):
-    """Settings by whatever name they are given; what was not given is unknown."""
+    """Constants of a swerve drive or module by name; one that was not set is unknown."""
 
     def __init__(self, *_values: Any, **_named: Any) -> None:
         self._values: dict[str, Any] = {}

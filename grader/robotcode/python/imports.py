@@ -83,7 +83,7 @@ class OwnLoader(SourceFileLoader):
     own: tuple[str, ...] = ()
 
     def source_to_code(self, data: Any, path: Any, **_options: Any) -> CodeType:  # type: ignore[override]
-        """Compile it."""
+        """Compile a learner's file, with its private names changed."""
         return compile_own(data, str(path), self.own)
 
 

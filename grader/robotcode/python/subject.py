@@ -264,7 +264,7 @@ class PythonSubject(Subject):
         return f". Did you mean {near[0]}?" if near else ""
 
     def describe(self) -> dict[str, Any]:
-        """What is known of the text."""
+        """The facts that the program's text tells without running it."""
         unknown = WORLD.undecided | WORLD.singletons.get("unknown", {})
         return {
             "errors": (),

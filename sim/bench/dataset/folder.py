@@ -19,7 +19,6 @@ from sim.support.os_errors import refuse_os_errors
 from sim.support.printable import list_first
 from sim.support.secret import Secret
 
-LISTED = 3  # files in a message, at most
 MODIFIED = 946_684_800  # [s] 2000-01-01: real times would show how long each log took
 WRITE = (
     "Make room there, or name a folder you may write to; then run the same command again: what is "
@@ -86,7 +85,7 @@ class DatasetPlace:
         if foreign and not self.overwrite:
             raise BadRequest(
                 "these files are in the folder, but do not belong to this spec and secret: "
-                f"{list_first(sorted(foreign), most=LISTED)}",
+                f"{list_first(sorted(foreign))}",
                 where=str(self.folder),
                 advice="Name another folder with -o, move these files away, or add --overwrite: it "
                 "replaces files, and the key no longer contains those that the spec lacks.",

@@ -141,7 +141,7 @@ def _check(turning: Fit, straight: Fit, *, mass: float, lever: float | None) -> 
     """Refuse what ``compute_moment_of_inertia`` cannot use."""
     for name, number, unit in (("mass", mass, "kg"), ("lever", lever, "m")):
         if number is not None and not (math.isfinite(number) and number > 0.0):
-            raise BadRequest(f"a {name} of {number:g} {unit}", advice="Give a number above zero.")
+            raise BadRequest(f"no {name} is {number:g} {unit}", advice="Give a number above zero.")
     if not find_unit(turning.units).angular:
         raise BadRequest(
             f"the log of turning is in {turning.units}",

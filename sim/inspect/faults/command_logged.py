@@ -80,13 +80,13 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
         if start is None:
             continue
         judged += 1
-        damage = _limited(index, run, start)
+        damage = _detect_limit(index, run, start)
         if damage is not None:
             found.append(damage)
     return found if len(found) >= min(judged, 2) else []
 
 
-def _limited(index: int, run: Run, start: "_Start") -> Damage | None:
+def _detect_limit(index: int, run: Run, start: "_Start") -> Damage | None:
     """The damage if a current limit explains a start; else None."""
     free = _search(start, lacks=np.zeros(1))
     if free.error < BENT * start.length:

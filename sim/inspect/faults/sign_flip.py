@@ -93,7 +93,7 @@ def _falls_by_gravity(run: Run, log: Log) -> bool:
 
 def _damage(index: int, run: Run, said: list[str], *, velocity_only: bool) -> Damage:
     """The damage of a run; ``said`` are the observations."""
-    volts, speed = _typical(run.voltage), _typical(run.velocity)
+    volts, speed = _compute_median_of_large(run.voltage), _compute_median_of_large(run.velocity)
     cure = (
         "Give velocity the sign of the position's slope"
         if velocity_only
@@ -113,7 +113,7 @@ def _damage(index: int, run: Run, said: list[str], *, velocity_only: bool) -> Da
     )
 
 
-def _typical(values: Array) -> float:
+def _compute_median_of_large(values: Array) -> float:
     """The median of the larger half of the values; 0 if there are none."""
     hard = values[_find_large(values)]
     return float(np.median(hard)) if hard.size else 0.0

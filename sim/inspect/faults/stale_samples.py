@@ -46,7 +46,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
     """Find runs in which most readings are repeated for several samples during motion."""
     steps = {"velocity": features.velocity_step, "position": features.position_step}
     held = {
-        name: [_held(getattr(run, name), run.moving, step=step) for run in features.log.runs]
+        name: [_count_held(getattr(run, name), run.moving, step=step) for run in features.log.runs]
         for name, step in steps.items()
     }
     for index, run in enumerate(features.log.runs):
@@ -55,7 +55,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
             yield _damage(index, run, stale)
 
 
-def _held(values: Array, moving: Flags, *, step: float) -> Counts:
+def _count_held(values: Array, moving: Flags, *, step: float) -> Counts:
     """[samples] (m,) lengths of the repeated readings in motion between two clear jumps."""
     starts, lengths = find_held_samples(values)
     clear = np.abs(np.diff(values[starts])) > JUMP * step

@@ -114,8 +114,8 @@ def _make_log(found: _Mechanism, motors: tuple[MotorEntries, ...], *, where: str
     Raises:
         MissingSignal: no run has enough samples.
     """
-    result = cut_runs(motors, found.intervals, options=found.options, where=where)
-    if not result.runs:
+    runs, units, doubts = cut_runs(motors, found.intervals, options=found.options, where=where)
+    if not runs:
         names = quote_names([entry.name for entry in motors[0].signals.values()])
         raise MissingSignal(
             f"no run holds two samples of {names} while {found.state.entry.name!r} names its test",
@@ -123,15 +123,15 @@ def _make_log(found: _Mechanism, motors: tuple[MotorEntries, ...], *, where: str
             advice="Log the signals in the routine's own log callback, and run the tests again.",
         )
     type_ = found.options.type or ""
-    if found.type_by_name and type_ == "arm" and not UNITS[result.units].angular:
+    if found.type_by_name and type_ == "arm" and not UNITS[units].angular:
         type_ = ""  # a mechanism that moves in meters is not an arm
     return Log(
-        result.runs,
-        units=result.units,
+        tuple(runs),
+        units=units,
         mechanism=found.state.mechanism,
         type=type_,
         source=where,
-        doubts=(*found.doubts, *result.doubts),
+        doubts=(*found.doubts, *doubts),
         computed=find_missing_motion(motors[0].signals) or "",
     )
 

@@ -21,7 +21,6 @@ from sim.io.entries.entry import (
     OPTIONAL,
     Entry,
     MotorEntries,
-    ValuesEntry,
     can_be_fitted,
 )
 from sim.io.entries.names import split_unit, split_words
@@ -65,7 +64,11 @@ def find_devices(entries: Sequence[Entry]) -> list[MotorEntries]:
     """The devices of a log, with the signals found by the names and units of their entries."""
     found: dict[str, dict[str, Entry]] = {}
     for entry in entries:
-        if entry.type in NUMBERS and len(entry) and (identified := identify_signal(entry)):
+        if (
+            entry.type in NUMBERS
+            and len(entry)
+            and (identified := identify_signal(entry.name, entry.metadata))
+        ):
             device, signal = identified
             own = found.setdefault(device, {})
             if signal not in own or len(entry) > len(own[signal]):
@@ -102,15 +105,15 @@ def _add_shared_motion(devices: Sequence[MotorEntries]) -> list[MotorEntries]:
     return completed
 
 
-def identify_signal(entry: Entry) -> tuple[str, str] | None:
+def identify_signal(name: str, metadata: str) -> tuple[str, str] | None:
     """Device and signal of an entry; None if it is not a signal of a motor."""
-    name, unit = split_unit(entry.name)
+    name, unit = split_unit(name)
     path, last = re.fullmatch(r"(.*[/:])?(.*)", name, re.DOTALL).groups("")  # type: ignore[union-attr]
     words = split_words(last)
     folder = split_words(re.split(r"[/:]", path.rstrip("/:"))[-1])
     if OTHERS.intersection(words) or SENSORS.intersection(folder):
         return None
-    signal = _find_signal(words, find_unit_in_metadata(entry.metadata) or unit)
+    signal = _find_signal(words, find_unit_in_metadata(metadata) or unit)
     if folder[:1] == ["spark"] and words == ["voltage"]:
         signal = "bus_voltage"  # REV/Spark-3/VOLTAGE of REV's converter is the battery voltage
     if not signal:
@@ -128,11 +131,8 @@ def identify_signal(entry: Entry) -> tuple[str, str] | None:
 
 def may_be_signal(name: str, metadata: str) -> bool:
     """Whether an entry of numbers may be a signal of a motor, or has a similar name."""
-    if any(word[:4] in name.lower() for word in NEEDED + OPTIONAL):
-        return True
-    return (
-        identify_signal(Entry(name, NUMBERS[0], metadata, np.zeros(0, dtype=np.int64))) is not None
-    )
+    alike = any(word[:4] in name.lower() for word in NEEDED + OPTIONAL)
+    return alike or identify_signal(name, metadata) is not None
 
 
 def select_driven_devices(
@@ -219,7 +219,7 @@ def _compute_voltage(signals: Mapping[str, Entry]) -> dict[str, Entry]:
     if duty is not None and bus is not None and "voltage" not in found:
         volts = bus.numbers()[np.maximum(np.searchsorted(bus.time, duty.time, side="right") - 1, 0)]
         name = f"{duty.name} × {bus.name}"
-        found["voltage"] = ValuesEntry(name, duty.type, "Volt", duty.time, duty.numbers() * volts)
+        found["voltage"] = Entry(name, duty.type, "Volt", duty.time, duty.numbers() * volts)
     return found
 
 

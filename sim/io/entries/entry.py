@@ -2,7 +2,7 @@
 
 from collections.abc import Container, Mapping
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +13,7 @@ Numbers: TypeAlias = NDArray[np.int64]
 
 NUMBERS = ("double", "float", "int64")  # types that a signal may have, preferred ones first
 STRING = "string"
+SECOND = 1e6  # [µs]
 NEEDED = ("voltage", "position", "velocity")  # signals of a motor for a fit
 OPTIONAL = ("current", "bus_voltage")
 
@@ -36,23 +37,25 @@ class Entry:
         type: ``double``, ``string``, …
         metadata: its metadata in the log; may be empty.
         time: (n,) time of each value [µs], never decreasing.
+        values: (n,) numbers, or texts of type string; empty for other types.
     """
 
     name: str
     type: str
     metadata: str
     time: Numbers
+    values: NDArray[Any]
 
     def __len__(self) -> int:
         return int(self.time.size)
 
     def numbers(self) -> Array:
-        """The values (n,) of an entry with a type in ``NUMBERS``."""
-        raise NotImplementedError
+        """The values (n,) of an entry with a type in ``NUMBERS``, in double precision."""
+        return self.values.astype(np.float64)
 
     def texts(self) -> list[str]:
         """The values of an entry of type string."""
-        raise NotImplementedError
+        return list(map(str, self.values))
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,22 +74,3 @@ class MotorEntries:
     def is_complete(self) -> bool:
         """Whether it has voltage, position and velocity."""
         return all(signal in self.signals for signal in NEEDED)
-
-
-@dataclass(frozen=True, eq=False)
-class ValuesEntry(Entry):
-    """An entry whose values are in memory.
-
-    Args:
-        values: (n,) numbers or texts.
-    """
-
-    values: Array | tuple[str, ...]
-
-    def numbers(self) -> Array:
-        """The values (n,) of an entry with a type in ``NUMBERS``."""
-        return np.asarray(self.values, dtype=np.float64)
-
-    def texts(self) -> list[str]:
-        """The values of an entry of type string."""
-        return list(map(str, self.values))

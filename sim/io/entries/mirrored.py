@@ -7,6 +7,7 @@ import numpy as np
 
 from sim.core.doubt import Doubt
 from sim.core.log import Log, Run
+from sim.core.vocabulary import find_test_sign
 
 
 def turn_mirrored_motors(logs: Mapping[str, Log]) -> dict[str, Log]:
@@ -25,10 +26,7 @@ def turn_mirrored_motors(logs: Mapping[str, Log]) -> dict[str, Log]:
 
 def _sum_voltage(log: Log) -> float:
     """Sum of voltages, negated in reverse tests [V]; negative for a mirrored motor."""
-    return sum(
-        (1.0 if run.direction == "forward" else -1.0) * float(np.sum(run.voltage))
-        for run in log.runs
-    )
+    return sum(find_test_sign(run.test) * float(np.sum(run.voltage)) for run in log.runs)
 
 
 def _reverse_log(log: Log, name: str) -> Log:

@@ -334,7 +334,11 @@ def make_no_motor_error(
     details = (
         f". Entries with similar names: {quote_names(list(dict.fromkeys(near)))}" if near else ""
     )
-    arrays = [one.name for one in entries if one.type.endswith("[]") and identify_signal(one)]
+    arrays = [
+        one.name
+        for one in entries
+        if one.type.endswith("[]") and identify_signal(one.name, one.metadata)
+    ]
     details += f". Arrays cannot be used: {quote_names(arrays)}" if arrays else ""
     return MissingSignal(
         f"{what} during the tests. Each motor needs three entries: voltage, position and "

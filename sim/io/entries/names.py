@@ -13,6 +13,7 @@ from sim.core.advice import Action
 from sim.core.errors import MissingSignal
 from sim.core.vocabulary import DIRECTIONS, KINDS, TESTS
 from sim.io.entries.entry import Entry
+from sim.support.printable import list_first
 
 _SAME = {
     "slow": "quasistatic",
@@ -21,7 +22,6 @@ _SAME = {
     "backwards": "reverse",
     "forwards": "forward",
 }
-MOST_LISTED = 4  # [names] in a message at most
 
 
 class EntryName(NamedTuple):
@@ -95,7 +95,7 @@ def find_requested_entry(
             where=where,
             advice=Action("entry-type", (" or ".join(kinds), f"--{role}")),
         )
-    near = get_close_matches(name, [entry.name for entry in entries], n=MOST_LISTED, cutoff=0.5)
+    near = get_close_matches(name, [entry.name for entry in entries], cutoff=0.5)
     raise MissingSignal(
         f"there is no entry {name!r} to take {role} from",
         where=where,
@@ -114,8 +114,7 @@ def explain_unfit_entry(entry: Entry, *, kinds: Collection[str]) -> str:
 
 def quote_names(names: Sequence[str]) -> str:
     """The first few names, in quotes, for a message."""
-    more = ", …" if len(names) > MOST_LISTED else ""
-    return ", ".join(repr(name) for name in names[:MOST_LISTED]) + more
+    return list_first([repr(name) for name in names])
 
 
 def number_names(names: Sequence[str]) -> str:

@@ -21,32 +21,16 @@ from sim.io.entries.clock import (
     logs_only_changes,
     select_covered_times,
 )
-from sim.io.entries.entry import NEEDED, OPTIONAL, MotorEntries, Numbers
+from sim.io.entries.entry import NEEDED, OPTIONAL, SECOND, MotorEntries, Numbers
 from sim.io.entries.state import RunInterval
 from sim.io.entries.units import EntryScale, choose_scale, is_from_network_tables
 from sim.io.format import ReadOptions, make_run
 
-SECOND = 1e6  # [µs]
 MIN_SAMPLES = 2  # samples of a run at least
 ENDS = 2  # samples that a run may lose without a doubt, one at each end
 OPPOSED = -0.5  # [1] cosine similarity; motors that work against each other are near -1
 
 Signals: TypeAlias = Mapping[str, Sequence[Series]]  # signal -> its series for each motor
-
-
-@dataclass(frozen=True)
-class CutRuns:
-    """The runs cut from a mechanism's signals, with doubts about them.
-
-    Args:
-        runs: the runs in the order they were recorded.
-        units: the unit of position of the log.
-        doubts: warnings about them.
-    """
-
-    runs: tuple[Run, ...]
-    units: str
-    doubts: tuple[Doubt, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,8 +56,11 @@ def cut_runs(
     *,
     options: ReadOptions,
     where: str,
-) -> CutRuns:
+) -> tuple[list[Run], str, list[Doubt]]:
     """Cut the signals of a mechanism's motors into its runs; several motors count as their mean.
+
+    Returns:
+        The runs in the order they were recorded, their unit of position, and doubts about them.
 
     Raises:
         BadRequest: motors logged in an angle and in a length, or that work against each other.
@@ -94,13 +81,12 @@ def cut_runs(
     whole = [run for run in sampled if run.time.size >= MIN_SAMPLES]
     doubts += _doubt_short_runs(sampled, where)
     doubts += _doubt_combined_motors(motors, whole, where)
-    runs = []
+    units, runs = scales[0].units, []
     for run in whole:
-        si = UNITS[scales[0].units].si
-        found, warnings = make_run(run.test, _average_motors(run), si=si, where=where)
+        found, warnings = make_run(run.test, _average_motors(run), si=UNITS[units].si, where=where)
         runs.append(found)
         doubts += warnings
-    return CutRuns(tuple(runs), scales[0].units, tuple(doubts))
+    return runs, units, doubts
 
 
 def _choose_scales(

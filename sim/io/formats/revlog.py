@@ -20,7 +20,7 @@ from sim.core.doubt import Doubt
 from sim.core.errors import UnreadableFile
 from sim.core.log import Log
 from sim.io.entries import assemble_logs
-from sim.io.entries.entry import ValuesEntry
+from sim.io.entries.entry import Entry
 from sim.io.format import ReadOptions
 
 SUFFIXES = (".revlog",)
@@ -55,7 +55,7 @@ def recognizes(head: bytes) -> bool:
     return number >> 29 == 0 and number >> 16 & 0xFF == REV and number >> 24 & 0x1F in DEVICES
 
 
-def entries(path: Path) -> list[ValuesEntry]:
+def entries(path: Path) -> list[Entry]:
     """The signals of all SPARKs of a file.
 
     Raises:
@@ -120,7 +120,7 @@ def _load_frames(path: Path) -> _Frames:
     return _Frames(frames, len(content) - end)
 
 
-def _make_entries(frames: NDArray[np.void], *, default_units: bool) -> list[ValuesEntry]:
+def _make_entries(frames: NDArray[np.void], *, default_units: bool) -> list[Entry]:
     """Voltage, current, position and velocity of each SPARK.
 
     Args:
@@ -130,7 +130,7 @@ def _make_entries(frames: NDArray[np.void], *, default_units: bool) -> list[Valu
     number = frames["id"]
     ours = (number >> 16 & 0xFF == REV) & (number >> 24 & 0x1F == SPARK)
     ours &= number >> 10 & 0x3F == STATUS_CLASS
-    made: list[ValuesEntry] = []
+    made: list[Entry] = []
     for device in np.unique(number[ours] & 0x3F).tolist():
         own = frames[ours & (number & 0x3F == device)]
         own = own[np.argsort(own["time"], kind="stable")]
@@ -143,13 +143,13 @@ def _make_entries(frames: NDArray[np.void], *, default_units: bool) -> list[Valu
 
 def _decode_frames(
     device: int, general: NDArray[np.void], motion: NDArray[np.void], *, default_units: bool
-) -> Iterator[ValuesEntry]:
+) -> Iterator[Entry]:
     """The signals in the frames ``STATUS_0`` and ``STATUS_2`` of a SPARK."""
 
-    def entry(name: str, metadata: str, of: NDArray[np.void], values: ArrayLike) -> ValuesEntry:
+    def entry(name: str, metadata: str, of: NDArray[np.void], values: ArrayLike) -> Entry:
         time = of["time"].astype(np.int64) * 1000
         numbers = np.asarray(values, dtype=np.float64)
-        return ValuesEntry(f"REV/Spark-{device}/{name}", "double", metadata, time, numbers)
+        return Entry(f"REV/Spark-{device}/{name}", "double", metadata, time, numbers)
 
     data = general["data"]
     duty = (data & np.uint64(0xFFFF)).astype(np.uint16).view(np.int16) * DUTY_STEP

@@ -13,8 +13,6 @@ import numpy as np
 from sim.physics.effect import Effect, Parameter, Scale
 from sim.physics.voltage_residual import VoltageResidual
 
-EVERYDAY = 0.025  # [V] by which friction varies between runs anyway: a tenth of a usual kS
-
 
 def coulomb_friction(way: float, lean: float) -> float:
     """[V] dry friction beyond kS in direction ``way``."""
@@ -32,11 +30,6 @@ def find_start_values(residual: VoltageResidual) -> Iterator[Mapping[str, float]
     yield {"lean": float(lean)}
 
 
-def is_ordinary(values: Mapping[str, float], _: Mapping[str, float]) -> bool:
-    """Whether it is normal: no gear and no bearing is equal in both directions."""
-    return abs(values["lean"]) <= EVERYDAY
-
-
 EFFECT = Effect(
     name="asymmetric-friction",
     kind="term",
@@ -44,7 +37,12 @@ EFFECT = Effect(
     formula="lean (kS + lean forward, kS - lean in reverse)",
     parameters=(
         Parameter(
-            "lean", "added to kS forward, subtracted in reverse", "V", least=-12.0, most=12.0
+            "lean",
+            "added to kS forward, subtracted in reverse",
+            "V",
+            least=-12.0,
+            most=12.0,
+            everyday=0.025,  # a tenth of a usual kS, by which friction varies between runs, too
         ),
     ),
     fingerprint="Forward needs more voltage than reverse by the same amount at every speed.",
@@ -58,7 +56,6 @@ EFFECT = Effect(
     },
     example=ordinary_parameters,
     start_values=find_start_values,
-    is_ordinary=is_ordinary,
     hooks={"coulomb_friction": coulomb_friction},
     same_in_motion="constant-load",
     symmetric=False,

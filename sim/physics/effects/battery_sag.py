@@ -14,8 +14,6 @@ from sim.core.units import BATTERY
 from sim.physics.effect import Effect, Parameter, Scale
 from sim.physics.voltage_residual import VoltageResidual
 
-EVERYDAY = 0.1  # [1] share of a battery in good order
-
 
 def transform_voltage(u: float, v: float, kv: float, share: float) -> float:
     """[V] voltage at the motor for a command ``u``."""
@@ -39,11 +37,6 @@ def find_start_values(residual: VoltageResidual) -> Iterator[Mapping[str, float]
     yield {"share": 6.0}
 
 
-def is_ordinary(values: Mapping[str, float], _: Mapping[str, float]) -> bool:
-    """Whether it is normal: a good battery with good plugs has as much."""
-    return values["share"] <= EVERYDAY
-
-
 EFFECT = Effect(
     name="battery-sag",
     kind="path",
@@ -51,7 +44,12 @@ EFFECT = Effect(
         "a battery whose voltage drops under current, although the log shows the commanded voltage"
     ),
     formula="(u - kV·v)/(1 + share·(u/12)²) in place of u - kV·v",
-    parameters=(Parameter("share", "resistance of the battery / of the motors", "1", most=100.0),),
+    parameters=(
+        # a good battery with good plugs has a tenth
+        Parameter(
+            "share", "resistance of the battery / of the motors", "1", most=100.0, everyday=0.1
+        ),
+    ),
     fingerprint="Steps start more slowly than kA says, and larger steps even more so.",
     inspect="Check whether the battery is old, whether an Anderson connector is loose, and whether "
     "the log contains the commanded voltage.",
@@ -69,5 +67,4 @@ EFFECT = Effect(
     start_values=find_start_values,
     hooks={"transform_voltage": transform_voltage},
     order=3,
-    is_ordinary=is_ordinary,
 )

@@ -13,8 +13,6 @@ import numpy as np
 from sim.physics.effect import Effect, Parameter, Scale
 from sim.physics.voltage_residual import VoltageResidual
 
-EVERYDAY = 0.06  # [V] amplitude in any mechanism, from gear teeth and magnets
-
 MIN_PERIODS, MAX_PERIODS, FINER = 4.0, 80.0, 0.25  # [periods along the travel] and step
 MAX_SAMPLES = 1500  # samples of which a spectrum is computed
 PEAKS = 3  # peaks of the spectrum that become start values
@@ -74,19 +72,15 @@ def find_start_values(residual: VoltageResidual) -> Iterator[Mapping[str, float]
         left[max(best - 3, 0) : best + 4] = 0.0
 
 
-def is_ordinary(values: Mapping[str, float], _: Mapping[str, float]) -> bool:
-    """Whether it is normal: teeth and magnets cause as much in any mechanism."""
-    return math.hypot(values["cosine"], values["sine"]) <= EVERYDAY
-
-
 EFFECT = Effect(
     name="cogging",
     kind="term",
     summary="a force that repeats with the position (magnets, a sprocket that is not round)",
     formula="cosine·cos(turns·x) + sine·sin(turns·x)",
     parameters=(
-        Parameter("cosine", "its cosine part", "V", least=-12.0, most=12.0),
-        Parameter("sine", "its sine part", "V", least=-12.0, most=12.0),
+        # teeth and magnets cause as much in any mechanism
+        Parameter("cosine", "its cosine part", "V", least=-12.0, most=12.0, everyday=0.06),
+        Parameter("sine", "its sine part", "V", least=-12.0, most=12.0, everyday=0.06),
         Parameter(
             "turns", "angle of the wave per position", "rad/{u}", power=1, least=1e-6, neutral=1.0
         ),
@@ -114,5 +108,4 @@ EFFECT = Effect(
     stored_energy=stored_energy,
     shortest_time=shortest_time,
     shortest_length=shortest_length,
-    is_ordinary=is_ordinary,
 )

@@ -12,8 +12,6 @@ import numpy as np
 from sim.physics.effect import Effect, Parameter, Scale
 from sim.physics.voltage_residual import VoltageResidual
 
-EVERYDAY = 0.025  # [V] by which friction varies between runs anyway: a tenth of a usual kS
-
 
 def force(load: float) -> float:
     """[V] force toward negative positions."""
@@ -36,17 +34,15 @@ def find_start_values(residual: VoltageResidual) -> Iterator[Mapping[str, float]
     yield {"load": float(load)}
 
 
-def is_ordinary(values: Mapping[str, float], _: Mapping[str, float]) -> bool:
-    """Whether it is normal: no floor is level, and no gear is equal in both directions."""
-    return abs(values["load"]) <= EVERYDAY
-
-
 EFFECT = Effect(
     name="constant-load",
     kind="term",
     summary="a constant force in one direction (weight, constant-force spring, slope)",
     formula="load",
-    parameters=(Parameter("load", "constant voltage", "V", least=-12.0, most=12.0),),
+    parameters=(
+        # friction varies as much between runs, no floor is level, and no gear is the same both ways
+        Parameter("load", "constant voltage", "V", least=-12.0, most=12.0, everyday=0.025),
+    ),
     fingerprint="The missing voltage is the same at every speed and position, and has one sign.",
     inspect="Check whether an elevator was fitted as simple, whether a constant-force spring "
     "pulls, and whether the field slopes.",
@@ -62,7 +58,6 @@ EFFECT = Effect(
     },
     example=ordinary_parameters,
     start_values=find_start_values,
-    is_ordinary=is_ordinary,
     hooks={"force": force},
     symmetric=False,
     stored_energy=stored_energy,

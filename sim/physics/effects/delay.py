@@ -12,8 +12,6 @@ import numpy as np
 from sim.physics.effect import Effect, Parameter, Scale
 from sim.physics.voltage_residual import VoltageResidual
 
-EVERYDAY = 0.006  # [s] of a CAN bus and a loop of 200 Hz
-
 
 def command_delay(lag: float) -> float:
     """[s] delay of a command: the parameter ``lag`` itself."""
@@ -39,17 +37,13 @@ def find_start_values(residual: VoltageResidual) -> Iterator[Mapping[str, float]
         yield {"lag": lag}
 
 
-def is_ordinary(values: Mapping[str, float], _: Mapping[str, float]) -> bool:
-    """Whether it is normal: a CAN bus and a loop of 200 Hz cause as much."""
-    return values["lag"] <= EVERYDAY
-
-
 EFFECT = Effect(
     name="delay",
     kind="path",
     summary="a delay between command and motor",
     formula="u(t) = V(t - lag)",
-    parameters=(Parameter("lag", "time from command to motor", "s", most=0.5),),
+    # a CAN bus and a loop of 200 Hz cause as much
+    parameters=(Parameter("lag", "time from command to motor", "s", most=0.5, everyday=0.006),),
     fingerprint="Nothing happens for a moment after every change of voltage.",
     inspect="Check whether the log is written in a different loop than the motor output, whether "
     "the CAN bus is busy, and whether a slew-rate limit is set.",
@@ -61,5 +55,4 @@ EFFECT = Effect(
     example=ordinary_parameters,
     start_values=find_start_values,
     hooks={"command_delay": command_delay},
-    is_ordinary=is_ordinary,
 )

@@ -10,11 +10,8 @@ https://github.com/wpilibsuite/frc-docs/blob/250e32128d9a93f27d58bc3cd1d0b3ab5ee
 
 from collections.abc import Iterator, Mapping
 
-from sim.core.units import BATTERY
 from sim.physics.effect import Effect, Parameter, Scale
 from sim.physics.voltage_residual import VoltageResidual
-
-EVERYDAY = 0.9  # [V] at the free speed of 12 V without drag
 
 
 def force(v: float, drag: float) -> float:
@@ -33,22 +30,15 @@ def find_start_values(residual: VoltageResidual) -> Iterator[Mapping[str, float]
     yield {"drag": max(float(drag), 0.05 / max(residual.top_speed, 1e-9) ** 2)}
 
 
-def is_ordinary(values: Mapping[str, float], gains: Mapping[str, float]) -> bool:
-    """Whether it is normal.
-
-    Warm motors, a weak battery and rolling wheels bend the voltage-velocity line by as much. In 442
-    logs with known effects, hidden drag is 1.2 V and more at the free speed, and drag that is found
-    where none is hidden is mostly below 1 V.
-    """
-    return values["drag"] * (BATTERY / gains["kV"]) ** 2 <= EVERYDAY
-
-
 EFFECT = Effect(
     name="drag",
     kind="term",
     summary="air drag, which grows with the square of speed",
     formula="drag·v·|v|",
-    parameters=(Parameter("drag", "volts per squared speed", "V·s²/{u}²", power=2),),
+    # Warm motors, a weak battery and rolling wheels bend the voltage-velocity line by as much. In
+    # 442 logs with known effects, hidden drag is 1.2 V and more at the free speed, and drag that is
+    # found where none is hidden is mostly below 1 V.
+    parameters=(Parameter("drag", "volts per squared speed", "V·s²/{u}²", power=2, everyday=0.9),),
     fingerprint="The missing voltage grows with speed, the same in both directions, and is zero"
     " near standstill.",
     inspect="Check whether a part moves air: a flywheel or a roller that works as a fan, spokes, "
@@ -67,5 +57,4 @@ EFFECT = Effect(
     example=ordinary_parameters,
     start_values=find_start_values,
     hooks={"force": force},
-    is_ordinary=is_ordinary,
 )

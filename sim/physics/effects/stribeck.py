@@ -13,8 +13,6 @@ import numpy as np
 from sim.physics.effect import Effect, Parameter, Scale
 from sim.physics.voltage_residual import VoltageResidual
 
-EVERYDAY = 0.06  # [V] additional breakaway friction of any gearbox
-
 
 def coulomb_friction(v: float, extra: float, slow: float) -> float:
     """[V] dry friction beyond kS at the velocity ``v``."""
@@ -46,18 +44,14 @@ def find_start_values(residual: VoltageResidual) -> Iterator[Mapping[str, float]
         yield {"extra": max(float(extra), 0.02), "slow": slow}
 
 
-def is_ordinary(values: Mapping[str, float], _: Mapping[str, float]) -> bool:
-    """Whether it is normal: every gearbox has a little more friction at rest than in motion."""
-    return values["extra"] <= EVERYDAY
-
-
 EFFECT = Effect(
     name="stribeck",
     kind="term",
     summary="breakaway friction: larger at very low speed",
     formula="extra·exp(-|v|/slow)·sgn(v)",
     parameters=(
-        Parameter("extra", "friction added to kS at rest", "V", most=12.0),
+        # every gearbox has a little more friction at rest than in motion
+        Parameter("extra", "friction added to kS at rest", "V", most=12.0, everyday=0.06),
         Parameter("slow", "speed over which it fades", "{u}/s", power=-1, least=1e-6, neutral=1.0),
     ),
     fingerprint=(
@@ -71,5 +65,4 @@ EFFECT = Effect(
     hooks={"coulomb_friction": coulomb_friction},
     shortest_time=shortest_time,
     narrowest_speed=narrowest_speed,
-    is_ordinary=is_ordinary,
 )

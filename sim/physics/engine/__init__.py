@@ -31,17 +31,7 @@ from sim.physics.engine.model_arrays import (
     sum_backlash,
 )
 from sim.physics.engine.run_batch import RunBatch
-from sim.physics.engine.stepping import (
-    APPLIED,
-    BUS,
-    CURRENT,
-    EXPECTED,
-    LOAD_POSITION,
-    POSITION,
-    SEEN,
-    VELOCITY,
-    allocate_output,
-)
+from sim.physics.engine.stepping import EXPECTED, allocate_output
 from sim.physics.engine.two_body_modes import TABLES_SIZE
 from sim.physics.model import Model
 
@@ -104,7 +94,7 @@ class State:
 
 @dataclass(frozen=True, eq=False)
 class Track:
-    """A simulated motion, sample by sample, without sensor noise.
+    """A simulated motion, sample by sample, without sensor noise: the columns of the output.
 
     Args:
         position: (n,) [m or rad] at the motor, which is what a sensor there reads.
@@ -113,8 +103,8 @@ class Track:
         applied: (n,) [V] at the motor, before the effects on the voltage.
         bus: (n,) [V] of the battery; 0 without a battery.
         current: (n,) [A] of one motor; 0 without a battery.
-        seen: (n,) [m/s or rad/s] the velocity that the sensor reports.
         expected: (n,) [m or rad] the predicted position, before the Kalman correction.
+        seen: (n,) [m/s or rad/s] the velocity that the sensor reports.
     """
 
     position: Array
@@ -123,29 +113,17 @@ class Track:
     applied: Array
     bus: Array
     current: Array
-    seen: Array
     expected: Array
-
-    @classmethod
-    def from_array(cls, out: Array) -> "Track":
-        """The motion from the engine's output array (n, 8)."""
-        return cls(
-            out[:, POSITION], out[:, VELOCITY], out[:, LOAD_POSITION], out[:, APPLIED],
-            out[:, BUS], out[:, CURRENT], out[:, SEEN], out[:, EXPECTED],
-        )  # fmt: skip
+    seen: Array
 
     @property
     def sensor_readings(self) -> Array:
         """(n, 2) position and velocity as the sensors report them."""
         return np.column_stack((self.position, self.seen))
 
-    def take_every(self, step: int) -> "Track":
-        """A copy with every ``step``-th sample, from the first."""
-        return Track(*(getattr(self, one.name)[::step] for one in fields(self)))
-
-    def truncate(self, end: int) -> "Track":
-        """A copy with the first ``end`` samples."""
-        return Track(*(getattr(self, one.name)[:end] for one in fields(self)))
+    def select(self, samples: slice) -> "Track":
+        """The motion at some of the samples."""
+        return Track(*(getattr(self, one.name)[samples] for one in fields(self)))
 
 
 def simulate_run(
@@ -194,7 +172,7 @@ def simulate_run(
         np.empty((0, 2)), out,
     )  # fmt: skip
     state.clock += float(time[-1] - time[0])
-    return Track.from_array(out)
+    return Track(*out.T)
 
 
 def _as_contiguous(array: Array) -> Array:
@@ -231,7 +209,7 @@ def filter_runs(
         errors: (n, 2) array for the innovations, measured minus predicted, or None.
 
     Returns:
-        (n, 8) all runs, one after another, as ``Track.from_array`` takes it; the last two columns,
+        (n, 8) all runs, one after another, with the columns of ``Track``; the last two columns,
         from ``EXPECTED`` on, are the predictions before the Kalman correction.
     """
     on, parameters = make_effect_arrays(model)

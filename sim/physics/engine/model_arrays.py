@@ -109,26 +109,18 @@ def _shortest_time(model: Model, *, places: bool = True) -> float:
     scales = [model.gains["kA"] / max(model.gains["kV"], 1e-9)]
     for part in model.parts:
         effect = EFFECTS[part.effect]
-        if effect.shortest_time is not None and (places or effect.shortest_length is None):
+        if places or effect.shortest_length(part.parameters) == math.inf:
             scales.append(effect.shortest_time(part.parameters, model.gains))
     return min(scales)
 
 
 def _shortest_length(model: Model) -> float:
     """[unit] the shortest length scale of the effects; infinite if none has one."""
-    spans = [math.inf]
-    for part in model.parts:
-        span = EFFECTS[part.effect].shortest_length
-        if span is not None:
-            spans.append(span(part.parameters))
-    return min(spans)
+    scales = (EFFECTS[part.effect].shortest_length(part.parameters) for part in model.parts)
+    return min(scales, default=math.inf)
 
 
 def _narrowest_speed(model: Model) -> float:
     """[unit/s] the smallest speed scale of the effects; infinite if none has one."""
-    spans = [math.inf]
-    for part in model.parts:
-        span = EFFECTS[part.effect].narrowest_speed
-        if span is not None:
-            spans.append(span(part.parameters))
-    return min(spans)
+    scales = (EFFECTS[part.effect].narrowest_speed(part.parameters) for part in model.parts)
+    return min(scales, default=math.inf)

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from sim.core.errors import BadSample, UnreadableFile
-from sim.io.entries.entry import STRING, Entry, ValuesEntry
+from sim.io.entries.entry import SECOND, STRING, Entry
 from sim.io.entries.names import split_unit, split_words
 from sim.io.entries.units import SECONDS
 from sim.io.formats.csv.table import is_number, read_text
@@ -22,7 +22,7 @@ TIMES = frozenset({"t", "time", "timestamp"})
 SLOWEST = 0.5  # [s] between two rows; where it seems to be more, the times are not in seconds
 LISTED = ({"name", "value"}, {"key", "value"})  # the other columns of a list
 EMPTY = ("", "null")  # cells without a value
-PAUSE = 1e6  # [µs] put between two runs, where each begins at the same time
+PAUSE = 1.0  # [s] put between two runs, where each begins at the same time
 IDLE = "none"  # the state between them
 
 _Sample = tuple[float, str]  # time [µs] and cell
@@ -73,12 +73,12 @@ def read_entries(path: Path) -> list[Entry]:
     times = np.array(written) * _find_unit(unit, written)
     begins = set() if listed else set((np.flatnonzero(np.diff(times) < 0.0) + 1).tolist())
     for begin in sorted(begins):  # each run has a clock of its own
-        times[begin:] += times[begin - 1] - times[begin] + PAUSE
+        times[begin:] += times[begin - 1] - times[begin] + PAUSE * SECOND
     for number, row in enumerate(cells):
         for name, cell in [(row[0], row[1])] if listed else zip(titles, row, strict=True):
             samples = found.setdefault(name, [])
             if number in begins and samples and not is_number(samples[-1][1]):
-                samples.append((times[number] - PAUSE / 2.0, IDLE))
+                samples.append((times[number] - 0.5 * PAUSE * SECOND, IDLE))
             if cell.strip() not in EMPTY:
                 samples.append((times[number], cell.strip()))
     if not any(found.values()):
@@ -109,13 +109,15 @@ def read_columns(path: Path) -> list[Entry]:
 
 def _find_unit(name: str, times: Sequence[float]) -> float:
     """The unit of the times [µs]: by the name of their column, else by how far rows are apart."""
-    named = next((1e6 * SECONDS[word] for word in _split_time(name) if word in SECONDS), None)
+    named = next((SECOND * SECONDS[word] for word in _split_time(name) if word in SECONDS), None)
     steps = np.abs(np.diff(times))
     steps = steps[steps > 0.0]
     if named is not None or not steps.size:
-        return named or 1e6
+        return named or SECOND
     step = float(np.median(steps))
-    return next(unit for unit in (1e6, 1e3, 1.0) if step * unit < SLOWEST * 1e6 or unit == 1.0)
+    return next(
+        unit for unit in (SECOND, 1e3, 1.0) if step * unit < SLOWEST * SECOND or unit == 1.0
+    )
 
 
 def _parse_time(cell: str, *, where: str) -> float:
@@ -137,8 +139,8 @@ def _make_entries(found: Iterable[tuple[str, list[_Sample]]]) -> Iterator[Entry]
     for name, samples in found:
         samples.sort(key=lambda sample: sample[0])
         time = np.array([sample[0] for sample in samples]).round().astype(np.int64)
-        cells = tuple(sample[1] for sample in samples)
+        cells = np.array([sample[1] for sample in samples], dtype=np.object_)
         try:
-            yield ValuesEntry(name, "double", "", time, np.array(cells, dtype=np.float64))
+            yield Entry(name, "double", "", time, cells.astype(np.float64))
         except ValueError:
-            yield ValuesEntry(name, STRING, "", time, cells)
+            yield Entry(name, STRING, "", time, cells)

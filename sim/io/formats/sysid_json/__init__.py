@@ -7,7 +7,6 @@ logs two sides, which are averaged unless one is chosen. The format is only read
 """
 
 import re
-from dataclasses import dataclass
 from pathlib import Path
 
 from sim.core.doubt import Doubt
@@ -19,7 +18,7 @@ from sim.io.formats.sysid_json.drivetrain import SIDES, read_drivetrain
 from sim.io.formats.sysid_json.file_header import FileHeader, read_header
 from sim.io.formats.sysid_json.rows import (
     RowForm,
-    check_columns,
+    check_numbers,
     detect_form,
     load_json,
     parse_tables,
@@ -47,75 +46,50 @@ def read(path: Path, options: ReadOptions) -> dict[str, Log]:
         BadSample: a number that cannot be a measurement.
         BadRequest: an unknown side, or names of entries, which this format does not have.
     """
-    document = _Document.load(path, options)
-    if len(document.form.sides) == 1 or options.motor or not options.each_motor:
-        return {"": document.log(options.motor)}
-    return {side: document.log(side) for side in SIDES}
-
-
-@dataclass(frozen=True, eq=False)
-class _Document:
-    """The parsed content of a file.
-
-    Args:
-        where: the file.
-        header: its header.
-        tables: test -> (n, columns) its rows.
-        form: the meaning of the columns.
-        doubts: warnings about the file.
-    """
-
-    where: str
-    header: FileHeader
-    tables: dict[str, Array]
-    form: RowForm
-    doubts: tuple[Doubt, ...]
-
-    @classmethod
-    def load(cls, path: Path, options: ReadOptions) -> "_Document":
-        """Read a file.
-
-        Raises:
-            Refusal: as ``read``.
-        """
-        where = str(path)
-        if options.entries:
-            raise BadRequest(
-                "the columns of this format have no names",
-                where=where,
-                advice="Leave out --state, --voltage, --position and --velocity.",
-            )
-        refuse_pick(options.pick, where=where)
-        document = load_json(path)
-        header = read_header(document, options, where=where)
-        tables, doubts = parse_tables(document, where=where)
-        form = detect_form(tables, header, where=where)
-        check_columns(tables, form, where=where)
-        return cls(where, header, tables, form, (*header.doubts, *doubts))
-
-    def log(self, motor: str | None) -> Log:
-        """The log of one side, or of the mean of both."""
-        header, form = self.header, self.form
-        sides, odd = _read_sides(self.tables, form, header, motor, where=self.where)
-        runs = []
-        doubts = [*self.doubts, *odd]
-        for test in sorted(self.tables, key=lambda test: float(self.tables[test][0, 0])):
-            table = self.tables[test]
-            signals = sides[test].signals(time=table[:, 0], scale=header.per_rotation)
-            if form.battery is not None:
-                signals["bus_voltage"] = table[:, form.battery]
-            run, repeated = make_run(test, signals, si=find_unit(header.units).si, where=self.where)
-            runs.append(run)
-            doubts.extend(repeated)
-        return Log(
-            tuple(runs),
-            units=header.units,
-            mechanism=header.mechanism,
-            # two sides: a drivetrain
-            type=header.type or ("simple" if len(form.sides) > 1 else ""),
-            source=self.where,
-            doubts=tuple(doubts),
+    where = str(path)
+    if options.entries:
+        raise BadRequest(
+            "the columns of this format have no names",
+            where=where,
+            advice="Leave out --state, --voltage, --position and --velocity.",
         )
+    refuse_pick(options.pick, where=where)
+    document = load_json(path)
+    header = read_header(document, options, where=where)
+    tables, doubts = parse_tables(document, where=where)
+    form = detect_form(tables, header, where=where)
+    check_numbers(tables, form, where=where)
+    single = len(form.sides) == 1 or options.motor or not options.each_motor
+    motors = {"": options.motor} if single else {side: side for side in SIDES}
+    return {
+        name: _make_log(tables, form, header, motor, where=where).add_doubts(*doubts)
+        for name, motor in motors.items()
+    }
+
+
+def _make_log(
+    tables: dict[str, Array], form: RowForm, header: FileHeader, motor: str | None, *, where: str
+) -> Log:
+    """The log of one side, or of the mean of both."""
+    sides, odd = _read_sides(tables, form, header, motor, where=where)
+    runs = []
+    doubts = [*header.doubts, *odd]
+    for test in sorted(tables, key=lambda test: float(tables[test][0, 0])):
+        signals = sides[test].signals(time=tables[test][:, 0], scale=header.per_rotation)
+        if form.battery is not None:
+            signals["bus_voltage"] = tables[test][:, form.battery]
+        run, repeated = make_run(test, signals, si=find_unit(header.units).si, where=where)
+        runs.append(run)
+        doubts.extend(repeated)
+    return Log(
+        tuple(runs),
+        units=header.units,
+        mechanism=header.mechanism,
+        # two sides: a drivetrain
+        type=header.type or ("simple" if len(form.sides) > 1 else ""),
+        source=where,
+        doubts=tuple(doubts),
+    )
 
 
 def _read_sides(

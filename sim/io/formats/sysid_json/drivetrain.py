@@ -18,7 +18,8 @@ import numpy as np
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
 from sim.core.log import STANDSTILL
-from sim.io.formats.sysid_json.side import Side, align_signs, find_test_sign, make_doubt
+from sim.core.vocabulary import find_test_sign
+from sim.io.formats.sysid_json.side import Side, align_signs, make_doubt
 
 # [share of the RMS of the mean velocity] a larger RMS difference of the sides is doubted
 APART = 0.2

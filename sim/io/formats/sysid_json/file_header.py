@@ -61,7 +61,9 @@ def read_header(document: Mapping[str, object], options: ReadOptions, *, where: 
     mechanism = document.get("test", "")
     if not isinstance(mechanism, str):
         raise UnreadableFile(
-            "its test is not a name", where=where, advice='Write "Simple", "Elevator" or "Arm".'
+            'its "test" is no text, and should name the kind of mechanism',
+            where=where,
+            advice='Write "Simple", "Elevator" or "Arm".',
         )
     type_ = _TYPES.get(mechanism.lower(), "")
     doubts = []

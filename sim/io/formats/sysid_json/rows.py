@@ -21,7 +21,6 @@ RUNS = {
     "fast-backward": "dynamic-reverse",
 }
 TRACK_WIDTH = "track-width"  # a turn that measured the track width; not one of the tests
-_SIGNALS = ("voltage", "position", "velocity")
 EMPTIEST = 4.0  # [V] lowest battery voltage of a running robot
 
 
@@ -36,15 +35,6 @@ class RowForm:
 
     sides: tuple[tuple[int, int, int], ...]
     battery: int | None = None
-
-    @property
-    def names(self) -> dict[int, str]:
-        """Column -> its signal; the columns of a gyro are not read."""
-        names = {0: "time"} | ({} if self.battery is None else {self.battery: "battery voltage"})
-        for side, columns in zip(("left ", "right "), self.sides, strict=False):
-            prefix = side if len(self.sides) > 1 else ""
-            names |= {c: f"{prefix}{n}" for c, n in zip(columns, _SIGNALS, strict=True)}
-        return names
 
 
 _FORMS = {
@@ -179,21 +169,21 @@ def _has_battery_column(tables: Mapping[str, Array]) -> bool:
     )
 
 
-def check_columns(tables: Mapping[str, Array], form: RowForm, *, where: str) -> None:
-    """Refuse columns with values that cannot be measurements.
+def check_numbers(tables: Mapping[str, Array], form: RowForm, *, where: str) -> None:
+    """Refuse numbers that cannot be measurements; those of a gyro are not read.
 
     Raises:
         BadSample: a number is missing, not finite or absurdly large.
     """
+    used = [0, *chain(*form.sides), *(() if form.battery is None else (form.battery,))]
     for test, table in tables.items():
-        for column, name in form.names.items():
-            odd = np.flatnonzero(~(np.abs(table[:, column]) < LARGEST))
-            if odd.size:
-                raise BadSample(
-                    f"{name} is {table[odd[0], column]:.6g} in row {odd[0]}",
-                    where=f"{where}, {test}",
-                    advice="Remove that row, or record the run again.",
-                )
+        for row, place in np.argwhere(~(np.abs(table[:, used]) < LARGEST)).tolist():
+            column = used[place]
+            raise BadSample(
+                f"number {column + 1} of row {row} is {table[row, column]:.6g}",
+                where=f"{where}, {test}",
+                advice="Remove that row, or record the run again.",
+            )
 
 
 def _make_object(pairs: list[tuple[str, object]]) -> dict[str, object]:

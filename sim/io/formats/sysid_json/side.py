@@ -12,6 +12,7 @@ import numpy as np
 
 from sim.core.doubt import Doubt
 from sim.core.log import Array
+from sim.core.vocabulary import find_test_sign
 
 SIGNED = 0.2  # [share of the largest value] smaller values can have the sign of noise
 CLEAR = 0.6  # [mean of the signs] reached if 4 of 5 samples have the same sign
@@ -89,11 +90,6 @@ class Side:
             "position": self.position * scale,
             "velocity": self.velocity * scale,
         }
-
-
-def find_test_sign(test: str) -> int:
-    """The sign of the motion that a test's name states: 1 forward, -1 reverse."""
-    return 1 if test.endswith("forward") else -1
 
 
 def make_doubt(code: str, name: str, tests: list[str], *, where: str) -> Doubt:

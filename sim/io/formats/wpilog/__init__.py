@@ -15,12 +15,11 @@ from sim.core.errors import MissingSignal, UnreadableFile
 from sim.core.log import Log
 from sim.io.entries import assemble_logs
 from sim.io.entries.discovery import may_be_signal
-from sim.io.entries.entry import NUMBERS, STRING
+from sim.io.entries.entry import NUMBERS, STRING, Entry
 from sim.io.entries.state import NO_END, RunInterval
 from sim.io.format import ReadOptions
 from sim.io.formats.wpilog.contents import FileDamage, read_contents
 from sim.io.formats.wpilog.control import Start
-from sim.io.formats.wpilog.entry import FileEntry
 from sim.io.formats.wpilog.records import MAGIC, XZ_MAGIC
 from sim.io.formats.wpilog.writing import write
 
@@ -34,13 +33,13 @@ def recognizes(head: bytes) -> bool:
     return head.startswith((MAGIC, XZ_MAGIC))
 
 
-def entries(path: Path) -> list[FileEntry]:
+def entries(path: Path) -> list[Entry]:
     """All entries of a file.
 
     Raises:
         UnreadableFile: the file is empty, or not a WPILOG file.
     """
-    return list(read_contents(path).entries)
+    return read_contents(path).list_entries()
 
 
 def read(path: Path, options: ReadOptions) -> dict[str, Log]:
@@ -60,12 +59,12 @@ def read(path: Path, options: ReadOptions) -> dict[str, Log]:
     where = str(path)
     named = set(options.entries.values())
     found = read_contents(path, partial(_is_wanted, named=named))
-    damage = found.damage
-    if not found.entries:
+    damage, every = found.damage, found.list_entries()
+    if not every:
         raise _make_unreadable_error(damage, found.end, where, "there is no record before it")
     try:
         with np.errstate(all="ignore"):  # values that are not finite are refused later
-            logs, spans = assemble_logs(found.entries, options=options, where=where)
+            logs, spans = assemble_logs(every, options=options, where=where)
     except MissingSignal as missing:
         if damage is None:
             raise

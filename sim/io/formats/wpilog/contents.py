@@ -12,13 +12,13 @@ from functools import partial
 from itertools import pairwise
 from os import SEEK_END
 from pathlib import Path
-from typing import IO, TypeAlias
+from typing import IO, Any, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
-from sim.io.entries.entry import Numbers
+from sim.io.entries.entry import Entry, Numbers
 from sim.io.formats.wpilog.control import METADATA, START, Start, parse_control_record
-from sim.io.formats.wpilog.entry import KINDS, SIZES, FileEntry
 from sim.io.formats.wpilog.records import (
     PAD,
     Bytes,
@@ -32,6 +32,9 @@ from sim.io.formats.wpilog.records import (
 
 Wanted: TypeAlias = Callable[[Start], bool]
 
+NUMBERS = {"double": "<f8", "int64": "<i8", "float": "<f4", "boolean": "?"}
+DTYPES = NUMBERS | {"string": "O", "json": "O"}
+SIZES = {kind: np.dtype(dtype).itemsize for kind, dtype in NUMBERS.items()}  # [bytes] of a value
 WINDOW = 1 << 21  # [bytes] read at a time; a longer record gets a window of its own
 SMALL_IDS = 1 << 16  # smaller ids fit 16 bits, which NumPy sorts by radix sort
 LIKELY_SIZE = 1 << 16  # [bytes] of a text or array; a larger size is taken for damage
@@ -54,24 +57,6 @@ class FileDamage:
     torn: bool
 
 
-@dataclass(frozen=True, eq=False)
-class Contents:
-    """The entries of a file.
-
-    Args:
-        entries: the entries in the order in which they first appear.
-        end: the offset up to which the file was read.
-        damage: why the rest of the file was not read; None if all was read.
-        orphans: number of records before the start of their entry, as in the continuation of
-            another file.
-    """
-
-    entries: tuple[FileEntry, ...]
-    end: int
-    damage: FileDamage | None
-    orphans: int
-
-
 @dataclass
 class _Series:
     """The samples of an entry so far, in pieces: one for each window.
@@ -80,41 +65,40 @@ class _Series:
         type: the entry's type.
         metadata: its last metadata that is not empty.
         is_wanted: whether its values are kept.
-        headers: (2, n) payload size [bytes] and time [µs].
-        payloads: the payloads, joined.
+        times: their times [µs].
+        values: the values; none of types that are not in ``DTYPES``.
     """
 
     type: str
     metadata: str = ""
     is_wanted: bool = True
-    headers: list[Numbers] = field(default_factory=list)
-    payloads: list[bytes] = field(default_factory=list)
+    times: list[Numbers] = field(default_factory=list)
+    values: list[NDArray[Any]] = field(default_factory=list)
 
     def add(self, head: Numbers, window: bytes, buffer: Bytes) -> None:
         """Add samples of a window with these headers."""
-        _, _, size, _, payload = head
+        _, _, size, time, payload = head
+        self.times.append(time.copy())  # of the window, no more is kept
         if self.type in SIZES:
-            values = view_as_numbers(buffer, np.dtype(KINDS[self.type]))[payload].tobytes()
-        else:
+            values = view_as_numbers(buffer, np.dtype(DTYPES[self.type]))
+            self.values.append(values[payload])
+        elif self.type in DTYPES:
             spans = zip(payload.tolist(), (payload + size).tolist(), strict=True)
-            values = b"".join([window[begin:end] for begin, end in spans])
-        self.headers.append(head[2:4].copy())  # of the window, no more is kept
-        self.payloads.append(values)
+            texts = [window[begin:end].decode("utf-8", "replace") for begin, end in spans]
+            self.values.append(np.array(texts, dtype=np.object_))
 
-    def make_entry(self, name: str) -> FileEntry:
+    def make_entry(self, name: str) -> Entry:
         """The samples so far, in the order of time."""
-        size, time = np.concatenate([np.zeros((2, 0), dtype=np.int64), *self.headers], axis=1)
-        payloads = b"".join(self.payloads)
+        time = np.concatenate([np.zeros(0, dtype=np.int64), *self.times])
+        values = np.concatenate([np.zeros(0, dtype=DTYPES.get(self.type)), *self.values])
         if (time[1:] < time[:-1]).any():
             order = np.argsort(time, kind="stable")
-            ends = np.cumsum(size)
-            spans = zip((ends - size)[order].tolist(), ends[order].tolist(), strict=True)
-            payloads = b"".join([payloads[begin:end] for begin, end in spans])
-            size, time = size[order], time[order]
-        return FileEntry(name, self.type, self.metadata, time, size, payloads)
+            time = time[order]
+            values = values[order] if values.size else values
+        return Entry(name, self.type, self.metadata, time, values)
 
 
-def read_contents(path: Path, wanted: Wanted = bool) -> Contents:
+def read_contents(path: Path, wanted: Wanted = bool) -> "Contents":
     """The entries of a file up to its first invalid record, without the values of unwanted ones.
 
     Args:
@@ -126,21 +110,20 @@ def read_contents(path: Path, wanted: Wanted = bool) -> Contents:
             ends before its first record.
     """
     with open_log(path) as stream:
-        reader = RecordReader(wanted)
-        reader.read(stream, where=str(path))
-        if reader.unknown:
+        contents = Contents(wanted)
+        contents.read(stream, where=str(path))
+        if contents.unknown:
             # The first record of an entry that was not started later either is invalid
-            number, (offset, _) = min(reader.unknown.items(), key=lambda item: item[1])
-            reader = RecordReader(wanted)
-            reader.read(stream, where=str(path), before=offset)
-            reader.problem = f"a record of the unknown entry {number}"
-        return Contents(
-            reader.list_entries(), reader.end, reader.find_damage(stream), reader.orphans
-        )
+            number, (offset, _) = min(contents.unknown.items(), key=lambda item: item[1])
+            contents = Contents(wanted)
+            contents.read(stream, where=str(path), before=offset)
+            contents.problem = f"a record of the unknown entry {number}"
+        contents.damage = contents.find_damage(stream)
+        return contents
 
 
-class RecordReader:
-    """Groups the whole records of a file, and later those that were appended.
+class Contents:
+    """The entries in the whole records of a file, and later those that were appended.
 
     Args:
         wanted: tells whether the values of an entry are wanted.
@@ -149,15 +132,16 @@ class RecordReader:
     def __init__(self, wanted: Wanted) -> None:
         self.end = 0  # the offset up to which the file was read
         self.problem = ""  # of the record there, as a clause
+        self.damage: FileDamage | None = None  # why the rest was not read; None if all was read
         self.unknown: dict[int, tuple[int, int]] = {}  # id -> offset of its first record, count
-        self.orphans = 0
+        self.orphans = 0  # records before the start of their entry: another file's continuation
         self._wanted = wanted
         self._series: dict[tuple[str, str], _Series] = {}
         self._open: dict[int, _Series | None] = {}  # id -> its entry; None after it is finished
 
-    def list_entries(self) -> tuple[FileEntry, ...]:
-        """The entries so far."""
-        return tuple(series.make_entry(name) for (name, _), series in self._series.items())
+    def list_entries(self) -> list[Entry]:
+        """The entries so far, in the order in which they first appear."""
+        return [series.make_entry(name) for (name, _), series in self._series.items()]
 
     def read(self, stream: IO[bytes], *, where: str, before: int | None = None) -> None:
         """Read on to the first invalid record, the last whole one, or the offset ``before``.

@@ -7,7 +7,7 @@ from sim.core.errors import MissingSignal
 from sim.io.entries.entry import STRING
 from sim.io.entries.state import RunInterval, find_run_intervals, find_state_entries
 from sim.io.format import ReadOptions
-from sim.io.formats.wpilog.contents import RecordReader
+from sim.io.formats.wpilog.contents import Contents
 from sim.io.formats.wpilog.records import PREFACE, open_log
 
 
@@ -24,7 +24,7 @@ class GrowingLog:
     def __init__(self, path: Path, *, state: str | None = None) -> None:
         self._options = ReadOptions(entries={"state": state} if state else {})
         self._size = 0  # [bytes] at the last call
-        self._reader = RecordReader(lambda entry: entry.type == STRING)
+        self._contents = Contents(lambda entry: entry.type == STRING)
         self.path = path  # the file may be renamed while it grows
 
     def list_tests(self) -> tuple[RunInterval, ...]:
@@ -40,8 +40,8 @@ class GrowingLog:
             return ()
         where = str(self.path)
         with open_log(self.path) as stream:
-            self._reader.read(stream, where=where)
-        entries = self._reader.list_entries()
+            self._contents.read(stream, where=where)
+        entries = self._contents.list_entries()
         with suppress(MissingSignal):
             states = find_state_entries(entries, options=self._options, where=where)
             found = [one for state in states for one in find_run_intervals(state, where=where)[0]]

@@ -52,14 +52,16 @@ def pack_record(number: int, time: int, payload: bytes) -> bytes:
     return LONG.pack(LONG_BITS, number, len(payload), time) + payload
 
 
-def pack_numbers(number: int, time: Numbers, values: Array) -> list[bytes]:
-    """The records of doubles of one entry, at their times [µs]."""
-    kind, bits = ("u1", SHORT_BITS) if number <= BYTE else ("<u4", LONG_BITS)
+def pack_records(number: int, time: Numbers, values: Array | bytes) -> list[bytes]:
+    """The records of one entry at several times [µs]: of doubles, or of the same text."""
+    dtype = f"S{len(values)}" if isinstance(values, bytes) else "<f8"
+    length = np.dtype(dtype).itemsize
+    kind, bits = ("u1", SHORT_BITS) if max(number, length) <= BYTE else ("<u4", LONG_BITS)
     table = np.empty(
         time.size,
-        [("bits", "u1"), ("id", kind), ("size", kind), ("time", "<u8"), ("value", "<f8")],
+        [("bits", "u1"), ("id", kind), ("size", kind), ("time", "<u8"), ("value", dtype)],
     )
-    table["bits"], table["id"], table["size"] = bits, number, values.itemsize
+    table["bits"], table["id"], table["size"] = bits, number, length
     table["time"], table["value"] = time, values
     whole, size = table.tobytes(), table.itemsize
     return [whole[at : at + size] for at in range(0, len(whole), size)]

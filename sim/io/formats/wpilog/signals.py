@@ -7,20 +7,18 @@ as the name of a test, is an entry of strings that is written when it changes.
 import struct
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from itertools import repeat
 from pathlib import Path
 
 import numpy as np
 
 from sim.core.errors import BadRequest
 from sim.core.log import Array
-from sim.io.entries.entry import Numbers
+from sim.io.entries.entry import SECOND, Numbers
 from sim.io.formats.wpilog.control import Start, make_start_payload
-from sim.io.formats.wpilog.records import FILE_HEADER, pack_numbers, pack_record
+from sim.io.formats.wpilog.records import FILE_HEADER, pack_record, pack_records
 from sim.support.atomic_file import write_atomically
 from sim.support.os_errors import refuse_os_errors
 
-SECOND = 1e6  # [µs]
 ADVICE = "Choose a folder that exists and that you may write to."
 # Type of an entry -> format of a value
 PACKING = {"double": "<d", "float": "<f", "int64": "<q", "boolean": "<?"}
@@ -33,12 +31,12 @@ class SignalGroup:
     Args:
         time: (n,) [s]; negative times are written as 0.
         signals: name of the entry -> (n,) values.
-        texts: name of the entry -> (time [s], text) in the order of time.
+        texts: name of the entry -> (time or times [s], text) in the order of time.
     """
 
     time: Array
     signals: Mapping[str, Array]
-    texts: Mapping[str, Sequence[tuple[float, str]]] = field(default_factory=dict)
+    texts: Mapping[str, Sequence[tuple[float | Array, str]]] = field(default_factory=dict)
 
 
 def encode_signals(groups: Sequence[SignalGroup], units: Mapping[str, str]) -> bytes:
@@ -52,20 +50,21 @@ def encode_signals(groups: Sequence[SignalGroup], units: Mapping[str, str]) -> b
     for group in groups:
         kinds |= dict.fromkeys(group.signals, "double") | dict.fromkeys(group.texts, "string")
     ids = {name: number for number, name in enumerate(kinds, start=1)}
-    times: list[int] = []  # [µs] of each record; tuples of both would take twice as long
+    times: list[Numbers] = [np.zeros(0, dtype=np.int64)]  # [µs] of the records
     records: list[bytes] = []
     for group in groups:
-        time = _to_microseconds(group.time)
-        for name, values in group.signals.items():
-            times += time.tolist()
-            records += pack_numbers(ids[name], time, values)
-        for name, changes in group.texts.items():
-            at = _to_microseconds(np.array([when for when, _ in changes])).tolist()
-            times += at
-            payloads = (text.encode() for _, text in changes)
-            records += map(pack_record, repeat(ids[name]), at, payloads)
-    order = sorted(range(len(times)), key=times.__getitem__)
-    begin = times[order[0]] if order else 0
+        parts: list[tuple[str, float | Array, Array | bytes]] = [
+            (name, group.time, values) for name, values in group.signals.items()
+        ]
+        parts += [
+            (name, time, text.encode()) for name, some in group.texts.items() for time, text in some
+        ]
+        for name, time, values in parts:
+            times.append(_to_microseconds(np.atleast_1d(time)))
+            records += pack_records(ids[name], times[-1], values)
+    every = np.concatenate(times)
+    order = np.argsort(every, kind="stable").tolist()
+    begin = int(every[order[0]]) if order else 0
     entries = (
         Start(number, name, kinds[name], units.get(name, "")) for name, number in ids.items()
     )

@@ -13,9 +13,9 @@ import numpy as np
 
 from sim.core.log import Array, Log
 from sim.core.units import UNITS
-from sim.io.entries.entry import NEEDED, OPTIONAL, Numbers
+from sim.io.entries.entry import NEEDED, OPTIONAL, SECOND, Numbers
 from sim.io.entries.state import IDLE, WORD
-from sim.io.formats.wpilog.signals import SECOND, SignalGroup, encode_signals
+from sim.io.formats.wpilog.signals import SignalGroup, encode_signals
 
 PACKED = ".wpilogxz"  # suffix of a log compressed with xz
 REST = 1_000_000  # [µs] pause before a run that is moved after the run before it
@@ -67,8 +67,8 @@ def make_motor_groups(logs: Mapping[str, Log]) -> tuple[list[SignalGroup], dict[
                     entry = f"{name}-{motor}-{mechanism}"
                     signals[entry] = values / si.get(name, 1.0)
                     units[entry] = metadata.get(name, "Volt")
-        states = [(one, first.runs[number].test) for one in (time / SECOND).tolist()]
-        states.append((_find_run_end(time, after) / SECOND, IDLE[0]))
+        end = _find_run_end(time, after) / SECOND
+        states = ((time / SECOND, first.runs[number].test), (end, IDLE[0]))
         groups.append(SignalGroup(time / SECOND, signals, {f"{WORD}-{mechanism}": states}))
     return groups, units
 

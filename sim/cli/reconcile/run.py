@@ -1,6 +1,7 @@
-"""``sysid reconcile``."""
+"""``sysid reconcile``: the search for effects, and what it writes."""
 
 import json
+from collections.abc import Sequence
 from contextlib import nullcontext
 from pathlib import Path
 
@@ -12,14 +13,7 @@ from sim.cli.open.page_data import replace_gains
 from sim.cli.open.reconcile_job import search_effects
 from sim.cli.open.saved_page import save_page
 from sim.cli.open.session import OpenLog
-from sim.cli.options import (
-    FILE,
-    as_json,
-    combine_options,
-    paste_options,
-    reading_options,
-    refuse_overwriting,
-)
+from sim.cli.options import refuse_overwriting
 from sim.core.log import Log
 from sim.fit import Fit, fit
 from sim.physics.engine import engine_can_compile
@@ -32,36 +26,9 @@ from sim.support.extras import format_install_command
 UNSURE = ("unexplained", "ambiguous")  # verdicts with exit code 1
 
 
-# Validation data, limits of the search, and the file to write.
-reconcile_options = combine_options(
-    click.option("--validation", type=FILE, help="Other runs: they must confirm each effect."),
-    click.option("--held-out", type=FILE, help="More runs, used only to show the gap."),
-    click.option(
-        "--travel",
-        type=float,
-        help="Distance from stop to stop, in the log's units, if known.",
-    ),
-    click.option(
-        "--effort",
-        type=click.FloatRange(min=0.0, min_open=True),
-        metavar="X",
-        default=1.0,
-        show_default=True,
-        help="Search X times as long before the search stops with the best model so far.",
-    ),
-    click.option("--html", type=FILE, help="Write a page with every figure and number."),
-    paste_options,
-    click.option("--radius", type=float, help="Radius of wheel or drum [m], for --paste."),
-)
-
-
-@click.command()
-@click.argument("files", nargs=-1, required=True, type=FILE)
-@reconcile_options
-@reading_options
-@as_json
-def reconcile(  # noqa: PLR0917 - click passes options by name
-    files: tuple[Path, ...],
+def reconcile_files(
+    files: Sequence[Path],
+    *,
     validation: Path | None,
     held_out: Path | None,
     travel: float | None,
@@ -71,19 +38,12 @@ def reconcile(  # noqa: PLR0917 - click passes options by name
     season: str,
     radius: float | None,  # noqa: ARG001 - the code of --paste reads it
     reader: LogReader,
-    as_json: bool,  # noqa: FBT001 - click passes it by name
+    as_json: bool,
 ) -> int:
-    """Find effects that the model of a mechanism does not contain.
+    """Find effects and print or write them, as the command's options say; returns the exit code.
 
-    The command also shows how much these effects reduce the gap, and the gains of the model that
-    contains them. FILES contain the four tests of one mechanism. An effect is accepted only if the
-    model with it predicts the runs of --validation better; without --validation, each run is
-    predicted from the others.
-
-    For example: sysid reconcile arm.wpilog --validation faster.wpilog --html arm.html
-
-    Exit code 0 means that nothing is missing, or that the missing effects were found; 1 that
-    something remains unexplained or ambiguous.
+    Raises:
+        Refusal: a file cannot be read or written, or a log cannot be fitted.
     """
     refuse_overwriting(html, inputs=[*files, validation, held_out])
     if html is not None:

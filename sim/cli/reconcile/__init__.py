@@ -1,0 +1,5 @@
+"""``sysid reconcile``: the command, and its work."""
+
+from sim.support.lazy_package import lazy_modules
+
+__getattr__ = lazy_modules(__name__)
