@@ -88,7 +88,8 @@ def test_bent_voltage_has_the_mean_of_the_smooth_voltage_between_its_samples():
     slides = np.append(np.diff(volts(time)), 0.0)
     true = [np.mean(volts(one + np.linspace(0.0, period, 2001))) for one in time[:-1]]
     straight = volts(time) + 0.5 * slides
-    assert (straight + bend_voltage(slides))[1:-2] == pytest.approx(true[1:-1], abs=1e-4)  # by the mean over 2001 points
+    bent = straight + bend_voltage(slides)
+    assert bent[1:-2] == pytest.approx(true[1:-1], abs=1e-4)  # their mean is over 2001 points
 
 
 def test_voltage_beside_one_that_is_held_is_not_bent():
