@@ -20,7 +20,7 @@ from grader.robotcode.java.lang import Exited
 from grader.robotcode.java.program import Program
 from grader.robotcode.java.runtime import STATE, EndlessError
 from grader.robotcode.java.scope import text
-from grader.robotcode.java.steps import allow_deep_calls
+from grader.robotcode.java.steps import CannotRunError, allow_deep_calls
 from grader.robotcode.java.syntax import At
 from grader.robotcode.java.values import PRIMITIVES
 from grader.robotcode.library.base import NoSuchMember, Unknown, WrongArgument
@@ -195,8 +195,11 @@ class JavaSubject(Subject):
         line = int(STATE.at)
         if isinstance(error, EndlessError):
             return Outcome.ENDLESS, "the code here runs without end", line, "endless"
+        if isinstance(error, CannotRunError):
+            said = f"the grader cannot run line {line}: {error}"
+            return Outcome.CANNOT, said, line, "unknown"
         if isinstance(error, values.Throwable):
-            return Outcome.CRASHED, values.to_string(error), line, type_names.type_name(type(error))
+            return Outcome.CRASHED, str(error), line, type_names.type_name(type(error))
         if isinstance(error, RecursionError):
             return Outcome.CRASHED, "java.lang.StackOverflowError", line, "StackOverflowError"
         if isinstance(error, Exited):

@@ -371,7 +371,7 @@ class JavaClass:
 
     def cost(self, kind: str, value: Any, static: str) -> float:
         """How far a value has to be converted for a parameter; infinite if it cannot be."""
-        given = static or type_names.kind_of(value)
+        given = static or values.KINDS.get(type(value)) or type_names.type_name(type(value))
         plain = BOXES.get(given, given)
         if isinstance(value, Unknown):
             return 1.0
@@ -425,7 +425,7 @@ class JavaClass:
     def initialize(self) -> None:
         """Run the static initializers, once, as Java does at the first use."""
         if self.state == "failed":
-            raise values.NoClassDefFoundError(f"Could not initialize class {self.full_name}")
+            raise values.ExceptionInInitializerError(self.full_name)
         if self.state != "new":
             return
         _ = self.cls
@@ -436,7 +436,7 @@ class JavaClass:
         try:
             for run in self.on_class:
                 run(env)
-        except values.JavaException as problem:
+        except values.Throwable as problem:
             self.state = "failed"
             raise values.ExceptionInInitializerError(None, problem) from problem
 

@@ -12,7 +12,7 @@ from tree_sitter import Node
 
 from grader.robotcode.java import lang, runtime, type_names, values
 from grader.robotcode.java.classes import JavaClass, python_class
-from grader.robotcode.java.literals import read_character, read_number, read_string
+from grader.robotcode.java.literals import read_number, read_string
 from grader.robotcode.java.program import packages_of
 from grader.robotcode.java.runtime import STATE, Function
 from grader.robotcode.java.scope import (
@@ -54,14 +54,9 @@ OPERATORS: dict[str, Callable[..., Any]] = {
     "*": values.multiply,
     "/": values.divide,
     "%": values.remainder,
-    "<<": values.shift_left,
-    ">>": values.shift_right,
-    ">>>": values.shift_unsigned,
     "&": values.bit_and,
     "|": values.bit_or,
     "^": values.bit_xor,
-}
-COMPARISONS: dict[str, Callable[..., Any]] = {
     "<": values.less,
     "<=": values.less_equal,
     ">": values.greater,
@@ -69,6 +64,7 @@ COMPARISONS: dict[str, Callable[..., Any]] = {
     "==": values.same,
     "!=": values.differ,
 }
+COMPARISONS = frozenset({"<", "<=", ">", ">=", "==", "!="})
 
 
 class ExpressionCompiler(StaticTypes):
@@ -89,15 +85,17 @@ class ExpressionCompiler(StaticTypes):
     def refuse(self, message: str, node: Node) -> Code:
         """Write an error down; the value is unknown, so that the rest can be looked at, too."""
         self.program.error(message, self.at(node))
-        unknown = Unknown(text(node)[:LONGEST_TEXT])
-        return Code(lambda _env: unknown)
+        return self.unknown(node)
 
     def compile(self, node: Node) -> Code:
         """Compile an expression."""
         method = getattr(self, f"_{node.type}", None)
-        if method is None or node.is_missing:
-            return self.refuse("this cannot stand here", node)
-        return method(node)
+        return self.unknown(node) if method is None else method(node)
+
+    def unknown(self, node: Node) -> Code:
+        """Compile what is not run here: its value is unknown."""
+        unknown = Unknown(text(node)[:LONGEST_TEXT])
+        return Code(lambda _env: unknown)
 
     def coerce(self, code: Code, kind: str, node: Node) -> Run:
         """Compile the conversion of an assignment, or write down that Java refuses it."""
@@ -107,7 +105,7 @@ class ExpressionCompiler(StaticTypes):
         run, owner = code.run, self.owner
         if kind in PRIMITIVES:
             if code.constant is not MISSING:
-                value = values.cast(kind, code.constant)
+                value = values.convert(kind, code.constant)
                 return lambda _env: value
             if kind == code.kind:
                 return run
@@ -123,15 +121,15 @@ class ExpressionCompiler(StaticTypes):
             return self.refuse(f"{text(node)[:LONGEST_TEXT]} is too large a number", node)
         return _constant(*found)
 
-    _decimal_integer_literal = _hex_integer_literal = _octal_integer_literal = _number
+    _decimal_integer_literal = _hex_integer_literal = _number
     _binary_integer_literal = _decimal_floating_point_literal = _number
-    _hex_floating_point_literal = _number
-
-    def _character_literal(self, node: Node) -> Code:
-        return _constant(read_character(text(node)), "char")
 
     def _string_literal(self, node: Node) -> Code:
-        return _constant(read_string(text(node)), "String")
+        found = read_string(text(node))
+        kind = "char" if node.type == "character_literal" else "String"
+        return self.unknown(node) if found is None else _constant(found, kind)
+
+    _character_literal = _string_literal
 
     def _true(self, _node: Node) -> Code:
         return _constant(True, "boolean")
@@ -287,7 +285,7 @@ class ExpressionCompiler(StaticTypes):
         if none or isinstance(found, types.FunctionType | staticmethod | classmethod):
             return None
         kind = KINDS.get(type(found), type(found).__name__ if found is not None else "")
-        kind = cls.__name__ if name in {"TRUE", "FALSE"} else kind
+        kind = BOXES.get(_label(cls), kind)
         if found is None or isinstance(found, property | Unknown):
             return Code(lambda _env: runtime.get_static(cls, name), kind)
         value = runtime.get_static(cls, name)  # the fakes' static fields are constants
@@ -419,12 +417,16 @@ class ExpressionCompiler(StaticTypes):
         if sign in {"&&", "||"}:
             both = sign == "&&"
             return Code(lambda env: (a(env) and b(env)) if both else (a(env) or b(env)), "boolean")
-        exact, at = OPERATORS.get(sign) or COMPARISONS[sign], self.at(node)
+        exact, at = OPERATORS.get(sign), self.at(node)
+        characters = "char" in kinds and "String" not in kinds and sign not in {"==", "!="}
+        if exact is None or characters:
+            return self.unknown(node)
 
         def run(env: Env) -> Any:
             one, other = a(env), b(env)
             STATE.at = at
-            return exact(one, other)
+            result = exact(one, other)
+            return values.check_range(result) if kind == "int" else result
 
         kind = "boolean" if sign in COMPARISONS else promoted(sign, *kinds)
         if (
@@ -433,7 +435,8 @@ class ExpressionCompiler(StaticTypes):
             and not (sign in "/%" and not right.constant)
         ):
             value = exact(left.constant, right.constant)
-            return Code(lambda _env: value, kind, value)
+            if type(value) is not Unknown and values.check_range(value) is value:
+                return Code(lambda _env: value, kind, value)
         return Code(run, kind)
 
     def _unary_expression(self, node: Node) -> Code:
@@ -452,16 +455,9 @@ class ExpressionCompiler(StaticTypes):
                 return value if isinstance(value, Unknown) else not value
 
             return Code(negate, "boolean")
-        change = {
-            "-": values.negate,
-            "+": lambda v: values.add(v, 0) if isinstance(v, str) else v,
-            "~": values.complement,
-        }[sign]
-        kind = promoted("+", one.kind, "int") if one.kind else ""
-        if one.constant is not MISSING:
-            value = change(one.constant)
-            return Code(lambda _env: value, kind, value)
-        return Code(lambda env: change(run(env)), kind)
+        if sign == "-":
+            return self.operate("*", one, _constant(-1, "int"), node)
+        return one if sign == "+" else self.unknown(node)
 
     def _ternary_expression(self, node: Node) -> Code:
         condition = self.condition(node.child_by_field_name("condition"))
@@ -523,7 +519,7 @@ class ExpressionCompiler(StaticTypes):
             if not is_instance(value, kind, cls):
                 STATE.at = at
                 raise ClassCastException(
-                    f"class {type_names.class_name(value)} cannot be cast to class {kind}"
+                    f"class {values.full_name(type(value))} cannot be cast to class {kind}"
                 )
             return value
 

@@ -48,7 +48,6 @@ def declare_members(owner: JavaClass) -> None:
         _declare_canonical(owner)
         for name, kind in owner.components:
             _give(owner, name, [], kind, _reader(name))
-        _give(owner, "toString", [], "String", _describe_record)
         _give(owner, "hashCode", [], "int", _hash_record)
         _give(owner, "equals", ["Object"], "boolean", _equal_records)
 
@@ -135,17 +134,8 @@ def _components(this: Any) -> list[Any]:
     return [this.__dict__[f".{name}"] for name, _ in type(this).java.components]
 
 
-def _describe_record(this: Any) -> str:
-    names = [name for name, _ in type(this).java.components]
-    shown = (
-        f"{name}={values.to_string(one)}"
-        for name, one in zip(names, _components(this), strict=True)
-    )
-    return f"{type(this).java.name}[{', '.join(shown)}]"
-
-
 def _hash_record(this: Any) -> int:
-    return values.hash_items(map(values.hash_code, _components(this)))
+    return hash(tuple(_components(this)))
 
 
 def _equal_records(this: Any, other: Any) -> bool:

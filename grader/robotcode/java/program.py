@@ -3,7 +3,7 @@
 import difflib
 import functools
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -380,4 +380,4 @@ def iterate(value: Any) -> Iterator[Any]:
     """
     if value is None:
         raise values.NullPointerException("null cannot be looped over")
-    return iter(value)
+    return iter(value if isinstance(value, Iterable) else Unknown("what is looped over"))

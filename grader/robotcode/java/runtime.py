@@ -143,7 +143,7 @@ def make_no_member_error(cls: type, name: str, known: Iterable[str]) -> NoSuchMe
 
 
 def _table(cls: type) -> dict[str, Callable[..., Any]] | None:
-    if issubclass(cls, values.Char | bool | int | float):
+    if issubclass(cls, bool | int | float):
         return lang.BOXED_METHODS
     if cls is str:
         return text.STRING_METHODS
@@ -315,7 +315,7 @@ PLAIN: dict[type, type] = {
 OBJECT_METHODS: dict[str, Callable[..., Any]] = {
     "toString": values.to_string,
     "equals": values.equals,
-    "hashCode": values.hash_code,
+    "hashCode": lambda _one: Unknown("hashCode()"),
     "getClass": lang.class_of,
 }
 ARRAY_METHODS: dict[str, Callable[..., Any]] = {

@@ -1,22 +1,26 @@
 """Java statements, compiled to Python functions that say how they ended.
 
-A statement gives None where the next one follows, else a signal: RETURN (the value lies in the
-variables), or a Jump for break, continue and yield.
+A statement gives None where the next one follows, else a Jump: for return (the value lies in the
+variables), break, continue or yield.
 """
 
-import re
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from enum import Enum
 from typing import Any
 
 from tree_sitter import Node
 
 from grader.robotcode.java import type_names, values
 from grader.robotcode.java.classes import DECLARATIONS, JavaClass
-from grader.robotcode.java.expression_compiler import ExpressionCompiler, is_instance
+from grader.robotcode.java.expression_compiler import (
+    LONGEST_TEXT,
+    ExpressionCompiler,
+    is_instance,
+)
 from grader.robotcode.java.program import iterate
 from grader.robotcode.java.runtime import STATE
 from grader.robotcode.java.scope import MISSING, RESULT, Code, Env, Run, child, kind_of, named, text
+from grader.robotcode.java.steps import CannotRunError
 from grader.robotcode.java.values import (
     PRIMITIVES,
     NullPointerException,
@@ -36,15 +40,13 @@ JUMPS = {
 MOST_UNKNOWN = 3  # turns of a loop whose condition nobody knows
 
 
-@dataclass(frozen=True)
-class Jump:
-    """How a statement ended: ``break``, ``continue``, ``return`` or ``yield``; and its label."""
+class Jump(Enum):
+    """How a statement ended."""
 
-    kind: str
-    label: str = ""
-
-
-RETURN, BREAK, CONTINUE, YIELD = (Jump(one) for one in ("return", "break", "continue", "yield"))
+    RETURN = "return"
+    BREAK = "break"
+    CONTINUE = "continue"
+    YIELD = "yield"
 
 
 class StatementCompiler(ExpressionCompiler):
@@ -58,18 +60,20 @@ class StatementCompiler(ExpressionCompiler):
     in_lambda = 0
     gives = False  # whether the lambda around returns a value somewhere
 
-    def statement(self, node: Node, label: str = "") -> Run:
-        """Compile a statement."""
-        if node.type in LOOPS:
-            return getattr(self, f"_{node.type}")(node, label)
+    def statement(self, node: Node) -> Run:
+        """Compile a statement; one that is not run here stops the program where it is reached."""
         if node.type == ";":
             return lambda _env: None
-        method = getattr(self, f"_{node.type}", None)
-        if method is None:
-            return self.refuse("this is no statement", node).run
         if node.type == "switch_expression":
             return self._switch(node, None)
-        return method(node)
+        method = getattr(self, f"_{node.type}", None)
+        if method is not None:
+            return method(node)
+
+        def stop(_env: Env) -> Any:
+            raise CannotRunError(text(node)[:LONGEST_TEXT])
+
+        return self._lead(node, stop)
 
     def _lead(self, node: Node, run: Run) -> Run:
         """A run that says first where it is."""
@@ -204,22 +208,8 @@ class StatementCompiler(ExpressionCompiler):
         no = self.statement(other)
         return lambda env: yes(env) if condition(env) else no(env)
 
-    def _labeled_statement(self, node: Node) -> Run:
-        label, body = list(named(node))
-        name = text(label)
-        run = self.statement(body, name)
-
-        def labeled(env: Env) -> Any:
-            signal = run(env)
-            return None if signal == Jump("break", name) else signal
-
-        return labeled
-
-    def _loop(
-        self, condition: Run | None, body: Run, update: Run, label: str, *, first: bool = True
-    ) -> Run:
+    def _loop(self, condition: Run | None, body: Run, update: Run, *, first: bool = True) -> Run:
         """A loop: ``first`` asks its condition before the first turn."""
-        mine = {BREAK: "break", CONTINUE: "continue", Jump("continue", label): "continue"}
         state = STATE
 
         def loop(env: Env) -> Any:
@@ -236,32 +226,30 @@ class StatementCompiler(ExpressionCompiler):
                 asked = True
                 state.tick()
                 signal = body(env)
-                if signal is not None:
-                    kind = mine.get(signal)
-                    if kind == "break":
-                        return None
-                    if kind is None:
-                        return signal
+                if signal is Jump.BREAK:
+                    return None
+                if signal is not None and signal is not Jump.CONTINUE:
+                    return signal
                 update(env)
 
         return loop
 
-    def _while_statement(self, node: Node, label: str) -> Run:
+    def _while_statement(self, node: Node) -> Run:
         condition = self._lead(node, self.condition(node.child_by_field_name("condition")))
         body = self.statement(node.child_by_field_name("body"))
         self._refuse_never(node.child_by_field_name("condition"), node)
-        return self._loop(condition, body, lambda _env: None, label)
+        return self._loop(condition, body, lambda _env: None)
 
     def _refuse_never(self, condition: Node | None, body: Node) -> None:
         if text(condition).strip("() ") == "false":
             self.refuse("unreachable statement: the condition of this loop is never true", body)
 
-    def _do_statement(self, node: Node, label: str) -> Run:
+    def _do_statement(self, node: Node) -> Run:
         body = self.statement(node.child_by_field_name("body"))
         condition = self._lead(node, self.condition(node.child_by_field_name("condition")))
-        return self._loop(condition, body, lambda _env: None, label, first=False)
+        return self._loop(condition, body, lambda _env: None, first=False)
 
-    def _for_statement(self, node: Node, label: str) -> Run:
+    def _for_statement(self, node: Node) -> Run:
         self.frame.push()
         before = [
             self.statement(one)
@@ -275,7 +263,7 @@ class StatementCompiler(ExpressionCompiler):
         after = [self.compile(one).run for one in node.children_by_field_name("update")]
         body = self.statement(node.child_by_field_name("body"))
         self.frame.pop()
-        loop = self._loop(condition, body, lambda env: [one(env) for one in after], label)
+        loop = self._loop(condition, body, lambda env: [one(env) for one in after])
 
         def run(env: Env) -> Any:
             for one in before:
@@ -284,7 +272,7 @@ class StatementCompiler(ExpressionCompiler):
 
         return run
 
-    def _enhanced_for_statement(self, node: Node, label: str) -> Run:
+    def _enhanced_for_statement(self, node: Node) -> Run:
         self.frame.push()
         many = self.compile(node.child_by_field_name("value"))
         kind = kind_of(node.child_by_field_name("type"))
@@ -303,7 +291,7 @@ class StatementCompiler(ExpressionCompiler):
             return False
 
         self.frame.pop()
-        loop = self._loop(more, body, lambda _env: None, label)
+        loop = self._loop(more, body, lambda _env: None)
 
         def run_loop(env: Env) -> Any:
             STATE.at = at
@@ -316,7 +304,7 @@ class StatementCompiler(ExpressionCompiler):
         value = next(named(node), None)
         at = self.at(node)
         if value is None:
-            return lambda _env: RETURN
+            return lambda _env: Jump.RETURN
         code = self.compile(value)
         self.gives = True
         run = self.coerce(code, self.returns, value) if not self.in_lambda else code.run
@@ -324,19 +312,15 @@ class StatementCompiler(ExpressionCompiler):
         def back(env: Env) -> Jump:
             STATE.at = at
             env[RESULT] = run(env)
-            return RETURN
+            return Jump.RETURN
 
         return back
 
-    def _break_statement(self, node: Node) -> Run:
-        label = child(node, "identifier")
-        jump = BREAK if label is None else Jump("break", text(label))
-        return lambda _env: jump
+    def _break_statement(self, _node: Node) -> Run:
+        return lambda _env: Jump.BREAK
 
-    def _continue_statement(self, node: Node) -> Run:
-        label = child(node, "identifier")
-        jump = CONTINUE if label is None else Jump("continue", text(label))
-        return lambda _env: jump
+    def _continue_statement(self, _node: Node) -> Run:
+        return lambda _env: Jump.CONTINUE
 
     def _yield_statement(self, node: Node) -> Run:
         return _give(self.yields[-1], self.compile(next(named(node))))
@@ -364,19 +348,6 @@ class StatementCompiler(ExpressionCompiler):
     def _try_statement(self, node: Node) -> Run:
         body = self.block(node.child_by_field_name("body"))
         return self._guarded(node, body)
-
-    def _try_with_resources_statement(self, node: Node) -> Run:
-        """A try whose resources are variables; nothing that a robot opens needs to be closed."""
-        self.frame.push()
-        opened = []
-        for one in named(node.child_by_field_name("resources")):
-            name, value = (one.child_by_field_name(part) for part in ("name", "value"))
-            if value is not None:
-                kind = kind_of(one.child_by_field_name("type"))
-                opened.append(self._declare(text(name), kind, value, final=True))
-        body = self.block(node.child_by_field_name("body"))
-        self.frame.pop()
-        return self._guarded(node, _sequence([*opened, body]))
 
     def _guarded(self, node: Node, body: Run) -> Run:
         catches = [self._catch(one) for one in node.children if one.type == "catch_clause"]
@@ -441,7 +412,7 @@ class StatementCompiler(ExpressionCompiler):
         def value(env: Env) -> Any:
             env[slot] = MISSING
             signal = run(env)
-            if signal is not None and signal is not YIELD:
+            if signal is not None and signal is not Jump.YIELD:
                 return None
             if env[slot] is MISSING:
                 raise NullPointerException("no case of the switch fits")
@@ -487,7 +458,7 @@ class StatementCompiler(ExpressionCompiler):
             for _, _, body, arrow in cases[start:]:
                 signal = body(env)
                 if signal is not None:
-                    return None if signal is BREAK else signal
+                    return None if signal is Jump.BREAK else signal
                 if arrow:
                     return None
             return None
@@ -520,7 +491,7 @@ def _choose_case(cases: Sequence[tuple[list[Any], bool, Run, bool]], value: Unkn
 def _give(slot: int, code: Code) -> Run:
     def give(env: Env) -> Jump:
         env[slot] = code.run(env)
-        return YIELD
+        return Jump.YIELD
 
     return give
 
@@ -553,9 +524,7 @@ def completes(node: Node) -> bool:
         condition = text(node.child_by_field_name("condition")).strip("() ")
         endless = condition == "true" or (not condition and kind == "for_statement")
         return not endless or _breaks(node.child_by_field_name("body"))
-    if kind == "labeled_statement":
-        return completes(parts[1]) or f"break {text(parts[0])}" in text(node)
-    if kind in {"try_statement", "try_with_resources_statement"}:
+    if kind == "try_statement":
         last = child(node, "finally_clause")
         ways = [one for one in (node, *parts) if one.type in {kind, "catch_clause"}]
         bodies = [one.child_by_field_name("body") for one in ways]
@@ -578,11 +547,11 @@ def _switch_completes(node: Node) -> bool:
 
 
 def _breaks(node: Node) -> bool:
-    """Whether a body has a break of its own, or one with a label."""
+    """Whether a body has a break of its own."""
     if node.type == "break_statement":
         return True
     if node.type in LOOPS | {"switch_expression", "lambda_expression", "class_body"}:
-        return re.search(r"\bbreak\s+\w", text(node)) is not None
+        return False
     return any(map(_breaks, node.named_children))
 
 

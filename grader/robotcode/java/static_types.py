@@ -135,19 +135,13 @@ def erased_in(owner: JavaClass, kind: str) -> str:
 
 def _fits(kind: str, given: str, constant: Any) -> bool:
     """Whether a constant may be assigned to a narrower type, because its value fits."""
-    if constant is MISSING or kind not in SMALL or given not in SMALL | {"int"}:
-        return False
-    number = ord(constant) if given == "char" else int(constant)
-    narrow = values.cast(kind, number)
-    return (ord(narrow) if kind == "char" else int(narrow)) == number
+    return constant is not MISSING and kind in SMALL and given in SMALL | {"int"}
 
 
 def promoted(sign: str, left: str, right: str) -> str:
     """The type of an operation on two types; empty if it cannot be told."""
     if sign == "+" and "String" in (left, right):
         return "String"
-    if sign in {"<<", ">>", ">>>"}:
-        return ("long" if left == "long" else "int") if left in PRIMITIVES else ""
     if left == right == "boolean":
         return "boolean"
     pair = ["int" if one in SMALL else one for one in (left, right)]
