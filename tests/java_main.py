@@ -48,9 +48,8 @@ def run_main(source, *, steps=1_000_000):
     WORLD.reset("java")
     program = Program(Path("Main.java"), source=Source(Path("Main.java"), source))
     STATE.refill(steps)
-    if not program.problems:
-        program.compile_all()
-    for one in (*program.problems, *program.errors.values()):
+    program.compile_all()
+    for one in program.errors.values():
         return f"!! line {one.line}: {one.message}\n"
     PRINTED.clear()
     main, end = program.unit.classes["Main"], ""

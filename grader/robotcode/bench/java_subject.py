@@ -214,15 +214,7 @@ class JavaSubject(Subject):
         return {
             "errors": tuple(self.program.errors.values()),
             "unknown": unknown,
-            "constants": dict(self._constants()),
         }
-
-    def _constants(self) -> Any:
-        for java in self._all_classes():
-            for one in java.fields.values() if "cls" in java.__dict__ else ():
-                value = java.statics.get(one.key) if one.static else None
-                if isinstance(value, int | float) and not isinstance(value, bool):
-                    yield one.name, float(value)
 
     # -- buttons ----------------------------------------------------------------------------
 

@@ -289,8 +289,6 @@ class JavaClass:
         above = node.child_by_field_name("superclass")
         if above is not None:
             self.parent = self.resolve_node(next(named(above)))
-        if self.form == "enum_constant":
-            self.parent = self.outer
         for part in (child(node, "super_interfaces"), child(node, "extends_interfaces")):
             for one in named(next(named(part))) if part is not None else ():
                 self.interfaces.append(self.resolve_node(one))
@@ -329,8 +327,6 @@ class JavaClass:
 
     def list_constants(self) -> list[Any]:
         """All constants of an enum, in their order."""
-        if self.form == "enum_constant":
-            return self.parent.list_constants()
         self.initialize()
         return [self.statics[f".{name}"] for name, _ in self.constants]
 
@@ -381,9 +377,11 @@ class JavaClass:
                 return boxed
             return boxed + NUMBERS.index(kind) if kind in WIDENS.get(plain, ()) else math.inf
         if kind.endswith("[]"):
-            if static in {"", "null"} or static.endswith("[]"):
-                return _array_cost(kind, value)
-            return math.inf
+            if not isinstance(value, values.Array):
+                return 1.0 if value is None else math.inf
+            if value.kind == kind[:-2]:
+                return 0.0
+            return math.inf if {value.kind, kind[:-2]} & PRIMITIVES else 1.0
         if given == kind:
             return 0.0
         if kind in BOXES:
@@ -488,14 +486,6 @@ class JavaClass:
         env: Env = [made, None]
         for run in self.on_instance:
             run(env)
-
-
-def _array_cost(kind: str, value: Any) -> float:
-    if not isinstance(value, values.Array):
-        return 1.0 if value is None else math.inf
-    inner = kind[:-2]
-    same = inner == value.kind or {inner, value.kind}.isdisjoint(PRIMITIVES)
-    return (0.0 if inner == value.kind else 1.0) if same else math.inf
 
 
 def modifiers_of(node: Node) -> frozenset[str]:

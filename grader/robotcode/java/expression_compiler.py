@@ -871,15 +871,9 @@ class ExpressionCompiler(StaticTypes):
         kind = kind_of(node.child_by_field_name("type"))
         args = self.arguments(node.child_by_field_name("arguments"))
         at, arguments, kinds = self.at(node), args.run, args.kinds
-        outer = None
-        if node.children[0].type != "new":
-            outer = self.compile(node.children[0])
-            holder = self.resolve(outer.kind)
-            cls = holder.find_nested(kind) if isinstance(holder, JavaClass) else None
-            if cls is None:
-                return self.refuse(f"cannot find symbol: there is no class {kind} here", node)
-            kind = f"{outer.kind}.{kind}"
-        elif child(node, "class_body") is not None:
+        if node.children[0].type != "new":  # of an inner class, of another object
+            return self.unknown(node)
+        if child(node, "class_body") is not None:
             cls = JavaClass("", node, self.owner.unit, outer=self.owner, frame=self.frame)
             _ = cls.cls
         else:
@@ -888,7 +882,7 @@ class ExpressionCompiler(StaticTypes):
             if cls.name and ("abstract" in cls.modifiers or cls.form in {"interface", "enum"}):
                 what = "an enum" if cls.form == "enum" else "abstract"
                 return self.refuse(f"{cls.name} is {what}: new cannot make one of it", node)
-            around = self._environment(cls, outer.run if outer is not None else None)
+            around = self._environment(cls)
             create = lambda env, given: cls.make(given, kinds, around(env) if around else None)
             named_kind = kind if cls.name else ""
         elif cls is None:  # a type variable
@@ -908,10 +902,8 @@ class ExpressionCompiler(StaticTypes):
 
         return Code(make, named_kind)
 
-    def _environment(self, cls: JavaClass, outer: Run | None) -> Callable[[Env], Env] | None:
+    def _environment(self, cls: JavaClass) -> Callable[[Env], Env] | None:
         """What a new object gets to know of what is around its class."""
-        if outer is not None:
-            return lambda env: [outer(env), None]
         if cls.static:
             return None
         for frame, keys in self._levels():
@@ -968,8 +960,7 @@ class ExpressionCompiler(StaticTypes):
         first, last = node.children[0], node.children[-1]
         name, at = text(last), self.at(node)
         if first.type == "super":
-            above = self._super_call(None, name, Arguments(lambda env: env[RESULT], []), node).run
-            return Code(lambda env: Function(lambda *a: above([env[THIS], a]), at), "lambda")
+            return self.unknown(node)
         if first.type == "array_type":
             kind = kind_of(first)
             make = lambda count: type_names.make_array(kind, [count])
@@ -999,7 +990,7 @@ class ExpressionCompiler(StaticTypes):
     def _constructor_reference(self, cls: Any, at: At) -> Code:
         if not isinstance(cls, JavaClass):
             return Code(lambda _env: Function(cls, at), "lambda")
-        around = self._environment(cls, None)
+        around = self._environment(cls)
         arities = {len(one.kinds) for one in cls.constructors}
         arity = arities.pop() if len(arities) == 1 else -1
 

@@ -22,6 +22,7 @@ from grader.robotcode.java.scope import (
     text,
 )
 from grader.robotcode.java.statement_compiler import StatementCompiler, completes
+from grader.robotcode.java.steps import refuse
 from grader.robotcode.java.values import PRIMITIVES
 
 
@@ -349,26 +350,18 @@ def _enum_constant(owner: JavaClass, name: str, node: Node, number: int) -> Call
     compiler = StatementCompiler(owner, frame)
     arguments = node.child_by_field_name("arguments")
     args = compiler.arguments(arguments)
-    body = child(node, "class_body")
-    kind = owner
-    if body is not None:
-        kind = JavaClass(name, node, owner.unit, outer=owner)
-        kind.form, kind.static, kind.parent = "enum_constant", True, owner
+    own_body = child(node, "class_body") is not None
 
     def make(_env: Env) -> None:
-        cls = kind.cls
-        made = cls.__new__(cls)
+        if own_body:
+            refuse(f"{name}, a constant with a body of its own")
+        made = owner.cls.__new__(owner.cls)
         made._name, made._ordinal = name, number
-        kind.state = "ready"
-        kind.prepare(made, None)
+        owner.prepare(made, None)
         whole: Env = [None] * frame.size
-        given = args.run(whole)
-        owner.construct(made, given, args.kinds)
-        if kind is not owner:
-            kind.run_initializers(made)
+        owner.construct(made, args.run(whole), args.kinds)
         owner.statics[f".{name}"] = made
 
-    _ = kind.cls
     return make
 
 

@@ -122,9 +122,6 @@ def find_caller(cls: type, name: str, kinds: Sequence[str]) -> Call:
         return lambda value, args: getattr(value, attribute)(*args)
     if name in OBJECT_METHODS:
         return lambda value, args: OBJECT_METHODS[name](value, *args)
-    if name in streams.DEFAULT_METHODS and issubclass(cls, streams.Functional):
-        interface = cls.__mro__[cls.__mro__.index(streams.Functional) - 1]
-        return lambda value, args: _make_default(value, interface, name, args)
     if issubclass(cls, Fake):
         return lambda value, args: _member(value, name)(*args)
     for plain, java in PLAIN.items():
@@ -173,20 +170,12 @@ def _call_function(function: Function, name: str, args: Sequence[Any]) -> Any:
             return method.owner.convert("" if method.returns == "void" else method.returns, result)
         return function(*args)
     if name in streams.DEFAULT_METHODS:
-        return _make_default(function, interface, name, args)
+        return Unknown(f"{name}() of a lambda")
     named = getattr(interface, "__name__", "Double" if name == "applyAsDouble" else "")
     kind = next((kind for start, kind in TAKEN.items() if named.startswith(start)), "")
     result = function(*(values.convert(kind, one) if kind else one for one in args))
     given = next((kind for end, kind in streams.GIVEN.items() if name.endswith(end)), "")
     return values.convert(given, result) if given and result is not None else result
-
-
-def _make_default(one: Any, interface: Any, name: str, args: Sequence[Any]) -> Function:
-    """A method that a functional interface brings along, such as Consumer's ``andThen``."""
-    named = getattr(interface, "__name__", "")
-    made = Function(streams.add_default(one, named, name, args), STATE.at)
-    made.interface = interface
-    return made
 
 
 def get_field(value: Any, name: str) -> Any:

@@ -5,7 +5,7 @@ program runs; only a number that would lose its fraction is refused before.
 """
 
 import functools
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 from tree_sitter import Node
@@ -161,14 +161,6 @@ def join_codes(codes: Sequence[Code]) -> str:
     if not (kinds <= {*NUMBERS, "char"} or kinds == {"boolean"}):
         return ""
     kind = functools.reduce(lambda a, b: promoted("+", a, b), sorted(kinds))
-    small = kinds - {"int"}
-    whole = [one for one in codes if BOXES.get(one.kind, one.kind) == "int"]
-    if len(small) == 1 and small <= SMALL and all(one.constant is not MISSING for one in whole):
-        kind = small.pop()
     for one in codes:
-        one.run = _cast_to(kind, one.run)
+        one.run = lambda env, run=one.run: values.cast(kind, run(env))
     return kind
-
-
-def _cast_to(kind: str, run: Callable[[Any], Any]) -> Callable[[Any], Any]:
-    return lambda env: values.cast(kind, run(env))

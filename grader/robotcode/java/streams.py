@@ -1,6 +1,6 @@
 """Java's streams and functional interfaces, as far as robot code uses them."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 from grader.robotcode.java.collections import ArrayList, HashSet, Optional, counted
@@ -99,27 +99,10 @@ class Functional(JavaClass):
         return getattr(self, self._method)(*args)
 
 
-DEFAULT_METHODS: dict[str, Callable[..., Callable[..., Any]]] = {  # of functional interfaces
-    "andThen": lambda first, after: lambda *args: after(first(*args)),
-    "compose": lambda after, first: lambda *args: after(first(*args)),
-    "negate": lambda one: lambda *args: not one(*args),
-    "and": lambda one, other: lambda *args: one(*args) and other(*args),
-    "or": lambda one, other: lambda *args: one(*args) or other(*args),
-    **dict.fromkeys(
-        ("reversed", "thenComparing", "thenComparingInt", "thenComparingDouble"),
-        lambda *_: Unknown("a comparator"),
-    ),
-}
-
-
-def add_default(one: Any, interface: str, name: str, args: Iterable[Any]) -> Callable[..., Any]:
-    """What a default method of a functional interface makes of an object: another function."""
-    if name == "andThen" and interface.endswith("Consumer"):
-        (other,) = args
-        return lambda *given: (one(*given), other(*given))[1]
-    return DEFAULT_METHODS[name](one, *args)
-
-
+DEFAULT_METHODS = frozenset({  # of functional interfaces; what they make is unknown
+    "andThen", "compose", "negate", "and", "or", "reversed", "thenComparing",
+    "thenComparingDouble", "thenComparingInt",
+})  # fmt: skip
 _IN_FUNCTION = """
 accept: Consumer BiConsumer IntConsumer LongConsumer DoubleConsumer ObjDoubleConsumer ObjIntConsumer
 test: Predicate BiPredicate IntPredicate LongPredicate DoublePredicate

@@ -473,6 +473,4 @@ class JavaEnum(JavaClass, package=_LANG, name="Enum", others="hashCode"):
     ordinal = lambda self: self._ordinal
     compareTo = lambda self, other: self._ordinal - other._ordinal
     equals = lambda self, other: self is other
-    getDeclaringClass = lambda self: JAVA["java.lang.Class"].of(
-        type(self) if type(self).java.form == "enum" else type(self).__mro__[1]
-    )
+    getDeclaringClass = lambda self: JAVA["java.lang.Class"].of(type(self))
