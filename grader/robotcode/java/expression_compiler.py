@@ -41,7 +41,7 @@ from grader.robotcode.java.static_types import (
     unknown_name,
 )
 from grader.robotcode.java.syntax import At
-from grader.robotcode.java.values import BOXES, PRIMITIVES, Array, ClassCastException
+from grader.robotcode.java.values import BOXES, PRIMITIVES, Array
 from grader.robotcode.library.base import Fake, NoSuchMember, Unknown, WrongArgument
 
 NEARLY = 0.84  # how much of two names has to agree, from 0 to 1
@@ -495,7 +495,7 @@ class ExpressionCompiler(StaticTypes):
     def _cast_expression(self, node: Node) -> Code:
         kind = self.erased(kind_of(node.child_by_field_name("type")))
         code = self.compile(node.child_by_field_name("value"))
-        run, at, owner = code.run, self.at(node), self.owner
+        run, owner = code.run, self.owner
         if kind in PRIMITIVES:
             if code.kind == "String" or (
                 code.kind in PRIMITIVES and (code.kind == "boolean") != (kind == "boolean")
@@ -510,20 +510,9 @@ class ExpressionCompiler(StaticTypes):
             return self.refuse(
                 f"incompatible types: {code.kind} cannot be converted to String", node
             )
-        cls = self.find_type(node.child_by_field_name("type")) if kind else None
-
-        def cast(env: Env) -> Any:
-            value = run(env)
-            if cls is None or value is None or isinstance(value, Unknown | Function):
-                return owner.convert(kind, value)
-            if not is_instance(value, kind, cls):
-                STATE.at = at
-                raise ClassCastException(
-                    f"class {values.full_name(type(value))} cannot be cast to class {kind}"
-                )
-            return value
-
-        return Code(cast, kind)
+        if kind:
+            self.find_type(node.child_by_field_name("type"))
+        return Code(lambda env: owner.convert(kind, run(env)), kind)
 
     # -- assignment -------------------------------------------------------------------------
 
@@ -804,24 +793,35 @@ class ExpressionCompiler(StaticTypes):
     def _call_overloads(
         self, overloads: Any, args: Arguments, node: Node, this: Run = lambda _env: None
     ) -> Run:
-        at, arguments, kinds = self.at(node), args.run, args.kinds
+        call = lambda env, given: overloads.call(this(env), given, args.kinds)
+        return self._calling(overloads.name, call, args, node)
+
+    def _calling(
+        self, name: str, call: Callable[[Env, list[Any]], Any], args: Arguments, node: Node
+    ) -> Run:
+        """Compile a call of what is known before; what javac would refuse is written down."""
+        at, arguments = self.at(node), args.run
 
         def run(env: Env) -> Any:
             given = arguments(env)
             STATE.at = at
             try:
-                return overloads.call(this(env), given, kinds)
+                return call(env, given)
             except (NoSuchMember, TypeError) as problem:
-                return self.mismatch(problem, at, overloads.name)
+                return self.mismatch(problem, at, name)
 
         return run
 
     def _static_call(self, cls: Any, name: str, args: Arguments, node: Node) -> Code:
-        at, arguments = self.at(node), args.run
         if isinstance(cls, JavaClass) and cls.form == "enum" and name in ENUM_STATICS:
             kind = cls.name if self.resolve(cls.name) is cls else ""
             kind += "[]" * (name == "values")
-            return Code(lambda env: enum_static(cls, name, arguments(env)), kind)
+            return Code(
+                lambda env: runtime.enum_static(
+                    cls.list_constants(), cls.name, name, args.run(env)
+                ),
+                kind,
+            )
         found = runtime.find_attribute(cls.cls, name) if isinstance(cls, JavaClass) else None
         overloads = getattr(found, "overloads", None)
         if overloads is not None:
@@ -837,17 +837,9 @@ class ExpressionCompiler(StaticTypes):
                 return call(env)
 
             return Code(run_own, self.result_of(found))
-        library = cls.cls if isinstance(cls, JavaClass) else cls
-
-        def run(env: Env) -> Any:
-            given = arguments(env)
-            STATE.at = at
-            try:
-                return runtime.call_static(library, name, given)
-            except (NoSuchMember, TypeError) as problem:
-                return self.mismatch(problem, at, name)
-
-        return Code(run)
+        library = python_class(cls)
+        call_library = lambda _env, given: runtime.call_static(library, name, given)
+        return Code(self._calling(name, call_library, args, node))
 
     def _super_call(self, object_: Node | None, name: str, args: Arguments, node: Node) -> Code:
         owner = self.owner
@@ -870,7 +862,6 @@ class ExpressionCompiler(StaticTypes):
     def _object_creation_expression(self, node: Node) -> Code:
         kind = kind_of(node.child_by_field_name("type"))
         args = self.arguments(node.child_by_field_name("arguments"))
-        at, arguments, kinds = self.at(node), args.run, args.kinds
         if node.children[0].type != "new":  # of an inner class, of another object
             return self.unknown(node)
         if child(node, "class_body") is not None:
@@ -883,7 +874,7 @@ class ExpressionCompiler(StaticTypes):
                 what = "an enum" if cls.form == "enum" else "abstract"
                 return self.refuse(f"{cls.name} is {what}: new cannot make one of it", node)
             around = self._environment(cls)
-            create = lambda env, given: cls.make(given, kinds, around(env) if around else None)
+            create = lambda env, given: cls.make(given, args.kinds, around(env) if around else None)
             named_kind = kind if cls.name else ""
         elif cls is None:  # a type variable
             return self.refuse(f"new cannot make one of {kind}", node)
@@ -892,15 +883,7 @@ class ExpressionCompiler(StaticTypes):
         else:
             create, named_kind = lambda _env, given: cls(*given), kind
 
-        def make(env: Env) -> Any:
-            given = arguments(env)
-            STATE.at = at
-            try:
-                return create(env, given)
-            except (NoSuchMember, TypeError) as problem:
-                return self.mismatch(problem, at, f"new {kind}")
-
-        return Code(make, named_kind)
+        return Code(self._calling(f"new {kind}", create, args, node), named_kind)
 
     def _environment(self, cls: JavaClass) -> Callable[[Env], Env] | None:
         """What a new object gets to know of what is around its class."""
@@ -1101,19 +1084,6 @@ def is_instance(value: Any, kind: str, cls: Any) -> Any:
     if isinstance(cls, type) and isinstance(value, cls):
         return True
     return type_names.is_instance(value, kind)
-
-
-def enum_static(cls: JavaClass, name: str, args: Sequence[Any]) -> Any:
-    """``values()`` and ``valueOf(name)`` of the program's own enum."""
-    every = cls.list_constants()
-    if name == "values":
-        return Array(every, cls.name)
-    for one in every:
-        if one._name == args[0]:
-            return one
-    raise values.IllegalArgumentException(
-        f"No enum constant {cls.full_name.replace('$', '.')}.{args[0]}"
-    )
 
 
 __all__ = ["RESULT", "ExpressionCompiler"]

@@ -21,7 +21,7 @@ from grader.robotcode.java.scope import (
     named,
     text,
 )
-from grader.robotcode.java.statement_compiler import StatementCompiler, completes
+from grader.robotcode.java.statement_compiler import StatementCompiler, falls_through
 from grader.robotcode.java.steps import refuse
 from grader.robotcode.java.values import PRIMITIVES
 
@@ -241,7 +241,7 @@ def _compile_method(
     if constructor:
         return _compile_constructor(owner, method, body, compiler, slots)
     run = compiler.block(body)
-    if method.returns not in {"void", ""} and completes(body):
+    if method.returns not in {"void", ""} and falls_through(body):
         owner.unit.program.error(
             f"missing return statement: {method.name}() has to give a {method.returns} always",
             owner.unit.source.at(body),

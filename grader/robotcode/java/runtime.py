@@ -122,6 +122,9 @@ def find_caller(cls: type, name: str, kinds: Sequence[str]) -> Call:
         return lambda value, args: getattr(value, attribute)(*args)
     if name in OBJECT_METHODS:
         return lambda value, args: OBJECT_METHODS[name](value, *args)
+    if name == "andThen" and issubclass(cls, streams.Functional):
+        interface = cls.__mro__[cls.__mro__.index(streams.Functional) - 1]
+        return lambda value, args: _chain(value, interface, *args)
     if issubclass(cls, Fake):
         return lambda value, args: _member(value, name)(*args)
     for plain, java in PLAIN.items():
@@ -169,6 +172,8 @@ def _call_function(function: Function, name: str, args: Sequence[Any]) -> Any:
             result = function(*method.bind(args, spread=False))
             return method.owner.convert("" if method.returns == "void" else method.returns, result)
         return function(*args)
+    if name == "andThen":
+        return _chain(function, interface, *args)
     if name in streams.DEFAULT_METHODS:
         return Unknown(f"{name}() of a lambda")
     named = getattr(interface, "__name__", "Double" if name == "applyAsDouble" else "")
@@ -176,6 +181,19 @@ def _call_function(function: Function, name: str, args: Sequence[Any]) -> Any:
     result = function(*(values.convert(kind, one) if kind else one for one in args))
     given = next((kind for end, kind in streams.GIVEN.items() if name.endswith(end)), "")
     return values.convert(given, result) if given and result is not None else result
+
+
+def _chain(first: Callable[..., Any], interface: Any, after: Any) -> Function:
+    """Two consumers, which get the same; or two functions, of which one gets the other's result."""
+
+    def call(*args: Any) -> Any:
+        result = first(*args)
+        consumes = getattr(interface, "__name__", "").endswith("Consumer")
+        return after(*args) if consumes else after(result)
+
+    made = Function(call, STATE.at)
+    made.interface = interface
+    return made
 
 
 def get_field(value: Any, name: str) -> Any:
@@ -276,8 +294,7 @@ def call_static(cls: Any, name: str, args: Sequence[Any]) -> Any:
     if isinstance(cls, Unknown):
         return getattr(cls, python_name(name))(*args)
     if issubclass(cls, enum.Enum) and name in {"values", "valueOf"}:
-        every = values.Array(cls, cls.__name__) if name == "values" else None
-        return every if every is not None else _value_of(cls, args[0])
+        return enum_static(list(cls), cls.__name__, name, args)
     found = find_attribute(cls, name)
     if isinstance(found, types.FunctionType | functools.partialmethod) and not issubclass(
         cls, enum.Enum
@@ -288,10 +305,14 @@ def call_static(cls: Any, name: str, args: Sequence[Any]) -> Any:
     return _static_member(cls, name)(*args)
 
 
-def _value_of(cls: type[enum.Enum], name: str) -> enum.Enum:
-    if name not in cls.__members__:
-        raise values.IllegalArgumentException(f"No enum constant {cls.__name__}.{name}")
-    return cls[name]
+def enum_static(every: Sequence[Any], kind: str, name: str, args: Sequence[Any]) -> Any:
+    """``values()`` and ``valueOf(name)`` of an enum with some constants."""
+    if name == "values":
+        return values.Array(every, kind)
+    found = next((one for one in every if type_names.enum_name(one) == args[0]), None)
+    if found is None:
+        raise values.IllegalArgumentException(f"No enum constant {kind}.{args[0]}")
+    return found
 
 
 # What fakes may return, and the collections of Java that it is like.

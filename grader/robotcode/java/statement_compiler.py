@@ -11,7 +11,7 @@ from typing import Any
 from tree_sitter import Node
 
 from grader.robotcode.java import type_names, values
-from grader.robotcode.java.classes import DECLARATIONS, JavaClass
+from grader.robotcode.java.classes import JavaClass
 from grader.robotcode.java.expression_compiler import (
     LONGEST_TEXT,
     ExpressionCompiler,
@@ -29,13 +29,8 @@ from grader.robotcode.java.values import (
 )
 from grader.robotcode.library.base import Unknown
 
-LOOPS = {"while_statement", "do_statement", "for_statement", "enhanced_for_statement"}
 STATEMENTS = {  # expressions that can stand alone
     "assignment_expression", "update_expression", "method_invocation", "object_creation_expression",
-}  # fmt: skip
-JUMPS = {
-    "return_statement", "throw_statement", "break_statement", "continue_statement",
-    "yield_statement",
 }  # fmt: skip
 MOST_UNKNOWN = 3  # turns of a loop whose condition nobody knows
 
@@ -88,19 +83,7 @@ class StatementCompiler(ExpressionCompiler):
     def block(self, node: Node) -> Run:
         """Compile the statements between braces."""
         self.frame.push()
-        parts = list(named(node))
-        runs = []
-        for number, one in enumerate(parts):
-            runs.append(self.statement(one))
-            if (
-                number + 1 < len(parts)
-                and not completes(one)
-                and parts[number + 1].type not in DECLARATIONS
-            ):
-                self.refuse(
-                    "unreachable statement: nothing gets past the line above", parts[number + 1]
-                )
-                break
+        runs = [self.statement(one) for one in named(node)]
         self.frame.pop()
         return _sequence(runs)
 
@@ -237,12 +220,7 @@ class StatementCompiler(ExpressionCompiler):
     def _while_statement(self, node: Node) -> Run:
         condition = self._lead(node, self.condition(node.child_by_field_name("condition")))
         body = self.statement(node.child_by_field_name("body"))
-        self._refuse_never(node.child_by_field_name("condition"), node)
         return self._loop(condition, body, lambda _env: None)
-
-    def _refuse_never(self, condition: Node | None, body: Node) -> None:
-        if text(condition).strip("() ") == "false":
-            self.refuse("unreachable statement: the condition of this loop is never true", body)
 
     def _do_statement(self, node: Node) -> Run:
         body = self.statement(node.child_by_field_name("body"))
@@ -259,7 +237,6 @@ class StatementCompiler(ExpressionCompiler):
         ]
         asked = node.child_by_field_name("condition")
         condition = self._lead(node, self.condition(asked)) if asked is not None else None
-        self._refuse_never(asked, node)
         after = [self.compile(one).run for one in node.children_by_field_name("update")]
         body = self.statement(node.child_by_field_name("body"))
         self.frame.pop()
@@ -511,48 +488,14 @@ def _sequence(runs: Sequence[Run]) -> Run:
     return run
 
 
-def completes(node: Node) -> bool:
-    """Whether a statement can end normally, so that the next one is reached (JLS 14.22)."""
+def falls_through(node: Node) -> bool:
+    """Whether a statement surely can end without a return; what is hard to tell does not."""
     kind, parts = node.type, list(named(node))
-    if kind in JUMPS:
-        return False
     if kind in {"block", "constructor_body"}:
-        return all(map(completes, parts))
+        return all(map(falls_through, parts))
     if kind == "if_statement":
-        return len(parts) < 3 or any(map(completes, parts[1:]))  # noqa: PLR2004 - with its else
-    if kind in {"while_statement", "for_statement", "do_statement"}:
-        condition = text(node.child_by_field_name("condition")).strip("() ")
-        endless = condition == "true" or (not condition and kind == "for_statement")
-        return not endless or _breaks(node.child_by_field_name("body"))
-    if kind == "try_statement":
-        last = child(node, "finally_clause")
-        ways = [one for one in (node, *parts) if one.type in {kind, "catch_clause"}]
-        bodies = [one.child_by_field_name("body") for one in ways]
-        after = last is None or completes(next(named(last)))
-        return after and any(map(completes, bodies))
-    if kind in {"synchronized_statement", "expression_statement"}:
-        return completes(parts[-1])
-    return kind != "switch_expression" or _switch_completes(node)
+        return len(parts) < 3 or any(map(falls_through, parts[1:]))  # noqa: PLR2004 - with its else
+    return kind in {"expression_statement", "local_variable_declaration", "enhanced_for_statement"}
 
 
-def _switch_completes(node: Node) -> bool:
-    body = node.child_by_field_name("body")
-    parts = [list(named(part)) for part in named(body)]
-    defaults = [part for part in parts if text(part[0]).startswith("default")]
-    if not defaults or _breaks(body):
-        return True
-    arrows = child(body, "switch_rule") is not None
-    ends = [part[-1] for part in (parts if arrows else parts[-1:])]
-    return any(one.type == "switch_label" or completes(one) for one in ends)
-
-
-def _breaks(node: Node) -> bool:
-    """Whether a body has a break of its own."""
-    if node.type == "break_statement":
-        return True
-    if node.type in LOOPS | {"switch_expression", "lambda_expression", "class_body"}:
-        return False
-    return any(map(_breaks, node.named_children))
-
-
-__all__ = ["StatementCompiler", "completes"]
+__all__ = ["StatementCompiler", "falls_through"]

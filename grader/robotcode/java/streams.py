@@ -100,7 +100,7 @@ class Functional(JavaClass):
 
 
 DEFAULT_METHODS = frozenset({  # of functional interfaces; what they make is unknown
-    "andThen", "compose", "negate", "and", "or", "reversed", "thenComparing",
+    "compose", "negate", "and", "or", "reversed", "thenComparing",
     "thenComparingDouble", "thenComparingInt",
 })  # fmt: skip
 _IN_FUNCTION = """
