@@ -204,6 +204,7 @@ class JavaClass:
         self.methods: list[Method] = []
         self.constructors: list[Method] = []
         self.on_class: list[Run] = []  # static initializers, in order
+        self.known: dict[str, Run] = {}  # what sets a constant, before anything else runs
         self.on_instance: list[Run] = []
         self.constants: list[tuple[str, Node]] = []  # of an enum
         self.components: list[tuple[str, str]] = []  # of a record: name and kind
@@ -432,7 +433,8 @@ class JavaClass:
             self.parent.initialize()
         env: Env = [None] * 2
         try:
-            for run in self.on_class:
+            known = [run for name, run in self.known.items() if self.fields[name].static]
+            for run in (*known, *self.on_class):
                 run(env)
         except values.Throwable as problem:
             self.state = "failed"
@@ -462,6 +464,9 @@ class JavaClass:
                     made.__dict__[declared.key] = values.default_value(declared.kind)
             if env is not None:
                 made.__dict__[one.env_key] = env
+            for name, run in one.known.items():
+                if not one.fields[name].static:
+                    run([made, None])
 
     def construct(self, made: Any, args: Sequence[Any], kinds: Sequence[str] = ()) -> None:
         """Run the constructor that fits, on an instance."""

@@ -16,7 +16,6 @@ from grader.robotcode.java.literals import read_number, read_string
 from grader.robotcode.java.program import packages_of
 from grader.robotcode.java.runtime import STATE, Function
 from grader.robotcode.java.scope import (
-    MISSING,
     RESULT,
     THIS,
     Arguments,
@@ -104,9 +103,6 @@ class ExpressionCompiler(StaticTypes):
             return self.refuse(refusal, node).run
         run, owner = code.run, self.owner
         if kind in PRIMITIVES:
-            if code.constant is not MISSING:
-                value = values.convert(kind, code.constant)
-                return lambda _env: value
             if kind == code.kind:
                 return run
         elif kind in {"", "String", code.kind}:
@@ -228,15 +224,11 @@ class ExpressionCompiler(StaticTypes):
 
     def _local(self, keys: Sequence[str], local: Local) -> Code:
         slot = local.slot
-        if local.constant is not MISSING:
-            return _constant(local.constant, local.kind)
         reach = self._reach(keys)
         return Code(lambda env: reach(env)[slot] if keys else env[slot], local.kind)
 
     def _field_code(self, keys: Sequence[str], owner: JavaClass, one: Field, node: Node) -> Code:
         key, kind = one.key, self.translate_type(owner, one.kind)
-        if one.constant is not MISSING:
-            return Code(lambda _env, value=one.constant: value, kind, one.constant)
         if one.static:
 
             def run_static(_env: Env) -> Any:
@@ -429,14 +421,6 @@ class ExpressionCompiler(StaticTypes):
             return values.check_range(result) if kind == "int" else result
 
         kind = "boolean" if sign in COMPARISONS else promoted(sign, *kinds)
-        if (
-            left.constant is not MISSING
-            and right.constant is not MISSING
-            and not (sign in "/%" and not right.constant)
-        ):
-            value = exact(left.constant, right.constant)
-            if type(value) is not Unknown and values.check_range(value) is value:
-                return Code(lambda _env: value, kind, value)
         return Code(run, kind)
 
     def _unary_expression(self, node: Node) -> Code:
@@ -503,8 +487,6 @@ class ExpressionCompiler(StaticTypes):
                 return self.refuse(
                     f"incompatible types: {code.kind} cannot be converted to {kind}", node
                 )
-            if code.constant is not MISSING:
-                return _constant(values.cast(kind, code.constant), kind)
             return Code(lambda env: values.cast(kind, run(env)), kind)
         if kind == "String" and code.kind in PRIMITIVES:
             return self.refuse(
@@ -1068,7 +1050,7 @@ def _this_of(reach: Callable[[Env], Env]) -> Run:
 
 
 def _constant(value: Any, kind: str) -> Code:
-    return Code(lambda _env: value, kind, value)
+    return Code(lambda _env: value, kind)
 
 
 def is_instance(value: Any, kind: str, cls: Any) -> Any:

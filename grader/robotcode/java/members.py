@@ -1,5 +1,6 @@
 """The members of a Java class: what its text declares, compiled when it is first needed."""
 
+import re
 from collections.abc import Callable
 from typing import Any
 
@@ -9,7 +10,6 @@ from grader.robotcode.java import values
 from grader.robotcode.java.classes import JavaClass, Method, modifiers_of
 from grader.robotcode.java.runtime import STATE, enter
 from grader.robotcode.java.scope import (
-    MISSING,
     RESULT,
     Arguments,
     Code,
@@ -308,19 +308,10 @@ def _initialize_field(owner: JavaClass, name: str, rank: int) -> None:
     if one.value is None:
         return
     if one.value.type == "array_initializer":
-        code = compiler.array_of(one.value, one.kind)
-        run = code.run
+        run = compiler.array_of(one.value, one.kind).run
     else:
         code = compiler.compile(one.value)
         run = compiler.coerce(code, compiler.erased(one.kind), one.value)
-    simple = one.kind in PRIMITIVES or one.kind == "String"
-    if (
-        one.final
-        and simple
-        and code.constant is not MISSING
-        and not compiler.why_not(one.kind, code)
-    ):
-        one.constant = run([None, None])
     at, key = one.at, one.key
 
     def set_field(env: Env) -> None:
@@ -332,9 +323,12 @@ def _initialize_field(owner: JavaClass, name: str, rank: int) -> None:
         else:
             env[0].__dict__[key] = value
 
-    (owner.on_class if one.static else owner.on_instance).append(set_field)
-    if one.static and one.constant is not MISSING:
-        owner.statics[key] = one.constant
+    simple = one.final and (one.kind in PRIMITIVES or one.kind == "String")
+    names = set(re.findall(r"\w+", text(one.value))) & owner.fields.keys()
+    if simple and "(" not in text(one.value) and names <= owner.known.keys():
+        owner.known[name] = set_field
+    else:
+        (owner.on_class if one.static else owner.on_instance).append(set_field)
 
 
 def _initializer(owner: JavaClass, node: Node, *, static: bool) -> Callable[[Env], Any]:

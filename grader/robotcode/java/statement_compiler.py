@@ -19,7 +19,7 @@ from grader.robotcode.java.expression_compiler import (
 )
 from grader.robotcode.java.program import iterate
 from grader.robotcode.java.runtime import STATE
-from grader.robotcode.java.scope import MISSING, RESULT, Code, Env, Run, child, kind_of, named, text
+from grader.robotcode.java.scope import RESULT, Code, Env, Run, child, kind_of, named, text
 from grader.robotcode.java.steps import CannotRunError
 from grader.robotcode.java.values import (
     PRIMITIVES,
@@ -144,8 +144,6 @@ class StatementCompiler(ExpressionCompiler):
                 local = self.frame.declare(name, self.erased(kind), final=final)
                 code = self.compile(value)
             run = self.coerce(code, local.kind, value)
-            if final and code.constant is not MISSING and local.kind in {*PRIMITIVES, "String"}:
-                local.constant = values.cast(local.kind, code.constant)
         slot = local.slot
 
         def declare(env: Env) -> None:
@@ -387,13 +385,9 @@ class StatementCompiler(ExpressionCompiler):
         run = self._switch(node, slot)
 
         def value(env: Env) -> Any:
-            env[slot] = MISSING
-            signal = run(env)
-            if signal is not None and signal is not Jump.YIELD:
-                return None
-            if env[slot] is MISSING:
-                raise NullPointerException("no case of the switch fits")
-            return env[slot]
+            if run(env) is Jump.YIELD:
+                return env[slot]
+            raise NullPointerException("no case of the switch fits")
 
         return Code(value)
 

@@ -12,12 +12,12 @@ from tree_sitter import Node
 
 from grader.robotcode.java import type_names, values
 from grader.robotcode.java.classes import NUMBERS, WIDENS, JavaClass
-from grader.robotcode.java.scope import MISSING, Code, Frame, kind_of
+from grader.robotcode.java.scope import Code, Frame, kind_of
 from grader.robotcode.java.syntax import At
 from grader.robotcode.java.values import BOXES, PRIMITIVES
 from grader.robotcode.library.base import Fake
 
-SMALL = frozenset({"byte", "short", "char"})  # a constant of int fits into them if it is small
+SMALL = frozenset({"byte", "short", "char"})  # what an int becomes in them is unknown
 KINDS = {float: "double", int: "int", bool: "boolean", str: "String"}
 
 
@@ -91,7 +91,7 @@ class StaticTypes:
             return ""
         if "boolean" in {source, target}:
             return f"incompatible types: {code.kind} cannot be converted to {kind}"
-        if kind in WIDENS[source] or _fits(target, code.kind, code.constant):
+        if kind in WIDENS[source] or (target in SMALL and source in SMALL | {"int"}):
             return ""
         return f"incompatible types: possible lossy conversion from {code.kind} to {kind}"
 
@@ -131,11 +131,6 @@ def erased_in(owner: JavaClass, kind: str) -> str:
             return ""
         one = one.outer
     return kind
-
-
-def _fits(kind: str, given: str, constant: Any) -> bool:
-    """Whether a constant may be assigned to a narrower type, because its value fits."""
-    return constant is not MISSING and kind in SMALL and given in SMALL | {"int"}
 
 
 def promoted(sign: str, left: str, right: str) -> str:

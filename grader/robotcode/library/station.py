@@ -179,42 +179,22 @@ class Notifier(Fake):
     close = stop
 
 
-class _Input(Device):
-    """A sensor on a port of the robot controller, whose ``_value`` the bench sets."""
-
-    _value: Any = 0.0
-
-    def __init__(self, channel: Any, *settings: Any) -> None:
-        self._register("DIO" if self._value is False else "analog", channel)
-
-
 @fake("edu.wpi.first.wpilibj org.wpilib.hardware.discrete", "wpilib")
-class DigitalInput(_Input):
-    """A switch (allwpilib v2026, wpilibj/.../DigitalInput.java)."""
+class DigitalInput(Device):
+    """A switch (allwpilib v2026, wpilibj/.../DigitalInput.java), whose state the bench sets."""
 
     _value = False
+
+    def __init__(self, channel: Any) -> None:
+        self._register("DIO", channel)
 
     def get(self) -> bool:
         return self._value
 
 
-@fake("edu.wpi.first.wpilibj org.wpilib.hardware.discrete", "wpilib")
-class AnalogInput(_Input):
-    """A voltage that is measured (allwpilib v2026, wpilibj/.../AnalogInput.java)."""
-
-    def getVoltage(self) -> float:
-        return self._value
-
-
-@fake("edu.wpi.first.wpilibj org.wpilib.hardware.rotation", "wpilib")
-class AnalogPotentiometer(_Input):
-    """A potentiometer (allwpilib v2026, wpilibj/.../AnalogPotentiometer.java)."""
-
-    def get(self) -> float:
-        return self._value
-
-
 for _name in (
+    "AnalogInput",
+    "AnalogPotentiometer",
     "Solenoid",
     "DoubleSolenoid",
     "PowerDistribution",
