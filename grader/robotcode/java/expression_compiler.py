@@ -10,7 +10,7 @@ from typing import Any
 
 from tree_sitter import Node
 
-from grader.robotcode.java import lang, runtime, type_names, values
+from grader.robotcode.java import runtime, type_names, values
 from grader.robotcode.java.classes import JavaClass, python_class
 from grader.robotcode.java.literals import read_number, read_string
 from grader.robotcode.java.program import packages_of
@@ -135,12 +135,6 @@ class ExpressionCompiler(StaticTypes):
 
     def _null_literal(self, _node: Node) -> Code:
         return Code(lambda _env: None, "null")
-
-    def _class_literal(self, node: Node) -> Code:
-        kind = kind_of(next(named(node)))
-        found = self.find_type(next(named(node)))
-        value = lang.class_named(kind, found.cls if isinstance(found, JavaClass) else found)
-        return Code(lambda _env: value, "Class")
 
     def _parenthesized_expression(self, node: Node) -> Code:
         return self.compile(next(named(node)))

@@ -1,9 +1,7 @@
-"""java.lang without texts: Math, the boxes of numbers, System, Thread, Object and Class."""
+"""java.lang without texts: Math, the boxes of numbers, System, Thread and Object."""
 
-import enum
 import functools
 import math
-import re
 from collections.abc import Callable
 from sys import float_info
 from typing import Any
@@ -11,13 +9,12 @@ from typing import Any
 from grader.robotcode.java.steps import refuse
 from grader.robotcode.java.values import (
     ArithmeticException,
-    Array,
     JavaClass,
     cast,
     compare,
     equals,
-    full_name,
     make_statics,
+    make_unknown,
     propagate,
     require_number,
     to_string,
@@ -152,36 +149,6 @@ make_statics(
 )
 
 
-class Class(JavaClass, package=_LANG, partial=True):
-    """What ``getClass()`` and ``X.class`` give: a class and its names."""
-
-    def __init__(self, name: str, cls: Any = None) -> None:
-        self._name, self._cls = name, cls
-
-    of = staticmethod(lambda cls: class_named(full_name(cls), cls))
-    getName = getTypeName = getCanonicalName = lambda self: self._name
-    getSimpleName = lambda self: re.split(r"[.$]", self._name)[-1]
-    getEnumConstants = lambda self: Array(
-        self._cls if isinstance(self._cls, enum.EnumType) else self._cls.java.list_constants(),
-        "Enum",
-    )
-
-
-_CLASSES: dict[Any, Class] = {}
-
-
-def class_named(name: str, cls: Any = None) -> Class:
-    """Java's Class object of a class, or of a type like ``int``; each type has only one."""
-    full = full_name(cls) if isinstance(cls, type) else name
-    key = JAVA.get(full, cls if isinstance(cls, type) else name)
-    return _CLASSES.setdefault(key, Class(full, cls))
-
-
-def class_of(value: Any) -> Class:
-    """Java's ``value.getClass()``."""
-    return Class.of(type(value))
-
-
 BOXED_METHODS: dict[str, Callable[..., Any]] = {
     **{
         f"{kind}Value": functools.partial(cast, kind)
@@ -192,18 +159,17 @@ BOXED_METHODS: dict[str, Callable[..., Any]] = {
     "equals": equals,
     "compareTo": compare,
     "toString": to_string,
-    "hashCode": lambda _value: Unknown("hashCode()"),
-    "getClass": class_of,
+    "hashCode": make_unknown("hashCode()"),
+    "getClass": make_unknown("getClass()"),
 }
 BOXED_METHODS = {name: propagate(method) for name, method in BOXED_METHODS.items()}
 
 
-class Object(JavaClass, package=_LANG, others="notify notifyAll wait finalize toString"):
+class Object(JavaClass, package=_LANG, others="notify notifyAll wait finalize toString getClass"):
     """Base of everything, and what ``new Object()`` makes."""
 
     equals = lambda self, other: self is other
     hashCode = lambda self: id(self)
-    getClass = lambda self: class_of(self)
 
 
 _MARKERS = ("Comparable", "Cloneable", "AutoCloseable", "CharSequence", "Record", "Number", "Void")

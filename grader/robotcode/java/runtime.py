@@ -325,8 +325,8 @@ PLAIN: dict[type, type] = {
 OBJECT_METHODS: dict[str, Callable[..., Any]] = {
     "toString": values.to_string,
     "equals": values.equals,
-    "hashCode": lambda _one: Unknown("hashCode()"),
-    "getClass": lang.class_of,
+    "hashCode": values.make_unknown("hashCode()"),
+    "getClass": values.make_unknown("getClass()"),
 }
 ARRAY_METHODS: dict[str, Callable[..., Any]] = {
     **OBJECT_METHODS,
@@ -340,8 +340,8 @@ ENUM_METHODS: dict[str, Callable[..., Any]] = {
     "compareTo": lambda one, other: list(type(one)).index(one) - list(type(one)).index(other),
     "equals": lambda one, other: one is other,
     "hashCode": lambda one: list(type(one)).index(one),
-    "getClass": lang.class_of,
-    "getDeclaringClass": lang.class_of,
+    "getClass": values.make_unknown("getClass()"),
+    "getDeclaringClass": values.make_unknown("getDeclaringClass()"),
 }
 
 __all__ = ["STATE", "EndlessError"]

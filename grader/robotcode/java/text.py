@@ -16,11 +16,12 @@ from grader.robotcode.java.values import (
     compare,
     find_unknown,
     make_statics,
+    make_unknown,
     propagate,
     spread,
     to_string,
 )
-from grader.robotcode.library.base import JAVA, FakeType, Unknown
+from grader.robotcode.library.base import FakeType, Unknown
 
 _PLAIN = re.compile(r"%(-?\d{0,3})(\.\d{1,2})?([sdfn%])")
 _TAKES: dict[str, type] = {"s": str, "d": int, "f": float}
@@ -61,18 +62,14 @@ def _cut(text: str, begin: int, end: int | None = None) -> str:
     return text[begin:stop]
 
 
-def _unknown(name: str) -> Callable[..., Any]:
-    return lambda *_args: Unknown(f"{name}()")
-
-
 _UNKNOWN = (
     "replaceAll replaceFirst matches chars lines codePointAt intern subSequence contentEquals "
     "compareToIgnoreCase strip stripLeading stripTrailing regionMatches codePoints indent "
     "getBytes translateEscapes stripIndent transform describeConstable copyValueOf split repeat "
-    "lastIndexOf toCharArray join hashCode isBlank"
+    "lastIndexOf toCharArray join hashCode isBlank getClass"
 )
 STRING_METHODS: dict[str, Callable[..., Any]] = {
-    **{name: _unknown(name) for name in _UNKNOWN.split()},
+    **{name: make_unknown(f"{name}()") for name in _UNKNOWN.split()},
     "length": len,
     "isEmpty": lambda text: not text,
     "charAt": lambda text, index: _cut(text, index, index + 1),
@@ -93,7 +90,6 @@ STRING_METHODS: dict[str, Callable[..., Any]] = {
     "formatted": lambda text, *args: format(text, args),
     "valueOf": lambda _text, value: to_string(value),
     "toString": lambda text: text,
-    "getClass": lambda text: JAVA["java.lang.Class"].of(type(text)),
 }
 
 

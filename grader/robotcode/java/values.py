@@ -210,6 +210,11 @@ def _defines(cls: type, name: str) -> bool:
     return any(name in vars(base) for base in cls.__mro__)
 
 
+def make_unknown(text: str) -> Callable[..., Unknown]:
+    """A method whose result nobody knows."""
+    return lambda *_args: Unknown(text)
+
+
 def find_unknown(*values: object) -> Unknown | None:
     """The first of some values that nobody knows."""
     return next((one for one in values if type(one) is Unknown), None)
@@ -466,11 +471,10 @@ def compare(a: Any, b: Any) -> Any:
     return method(b)
 
 
-class JavaEnum(JavaClass, package=_LANG, name="Enum", others="hashCode"):
+class JavaEnum(JavaClass, package=_LANG, name="Enum", others="hashCode getDeclaringClass"):
     """Base of a learner's enums. Each constant has ``_name`` and ``_ordinal``."""
 
     name = toString = __str__ = lambda self: self._name
     ordinal = lambda self: self._ordinal
     compareTo = lambda self, other: self._ordinal - other._ordinal
     equals = lambda self, other: self is other
-    getDeclaringClass = lambda self: JAVA["java.lang.Class"].of(type(self))
