@@ -2,7 +2,6 @@
 
 They are Python's: a List is a ``list``, a Map and a Set are a ``dict``, under Java's names. What
 Java hands out as a view (``keySet``, ``subList``) is a copy, and nothing refuses to be changed.
-``remove`` of a list takes a whole number for an index, never for an element.
 """
 
 # mypy: disable-error-code="assignment, func-returns-value, arg-type"
@@ -131,9 +130,11 @@ class List(Collection, list[Any], package=_UTIL, others="listIterator"):
 
     def remove(self, item: object) -> Any:
         """Take out the element at an index, or an element."""
-        return (
-            list.pop(self, self._at(item)) if type(item) is int else Collection.remove(self, item)
-        )
+        if type(item) is not int:
+            return Collection.remove(self, item)
+        if any(type(one) is int for one in self):
+            refuse("remove() of a list of numbers")  # an index, or one of them
+        return list.pop(self, self._at(item))
 
     def indexOf(self, wanted: object) -> int:
         """The first place of an element, -1 if there is none."""

@@ -24,7 +24,6 @@ from grader.robotcode.library.base import JAVA, FakeType, Unknown
 from grader.robotcode.library.world import WORLD
 
 _LANG = "java.lang"
-WHOLE_KINDS = frozenset({"", "int", "short", "byte", "char"})  # what a list takes for an index
 MILLISECONDS, NANOSECONDS = 1e3, 1e9  # in a second
 START = 1_767_225_600_000  # [ms] from 1970 to 2026, when every program starts
 

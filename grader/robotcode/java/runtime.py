@@ -7,7 +7,7 @@ import types
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
-from grader.robotcode.java import collections, lang, streams, text, type_names, values
+from grader.robotcode.java import lang, streams, text, type_names, values
 from grader.robotcode.java.steps import DEEPEST, STATE, EndlessError
 from grader.robotcode.java.syntax import At
 from grader.robotcode.java.values import NullPointerException, StackOverflowError
@@ -114,9 +114,6 @@ def find_caller(cls: type, name: str, kinds: Sequence[str]) -> Call:
         return lambda value, args: overloads.call(value, args, kinds)
     if found is not None:
         attribute = python_name(name)
-        boxed = kinds and kinds[0] not in lang.WHOLE_KINDS
-        if name == "remove" and boxed and issubclass(cls, collections.List):
-            return lambda value, args: collections.Collection.remove(value, *args)
         if isinstance(found, types.FunctionType):
             return lambda value, args: found(value, *args)
         return lambda value, args: getattr(value, attribute)(*args)
@@ -127,9 +124,8 @@ def find_caller(cls: type, name: str, kinds: Sequence[str]) -> Call:
         return lambda value, args: _chain(value, interface, *args)
     if issubclass(cls, Fake):
         return lambda value, args: _member(value, name)(*args)
-    for plain, java in PLAIN.items():
-        if issubclass(cls, plain):
-            return lambda value, args: find_caller(java, name, kinds)(java(value), args)
+    if cls in {list, tuple, set, dict}:  # what a fake gives back
+        return lambda _value, _args: Unknown(f"{name}()")
     if any("__call__" in vars(base) for base in cls.__mro__) and name in streams.FUNCTIONAL:
         return lambda value, args: value(*args)
     raise make_no_member_error(cls, f"{name}()", dir(cls))
@@ -315,13 +311,6 @@ def enum_static(every: Sequence[Any], kind: str, name: str, args: Sequence[Any])
     return found
 
 
-# What fakes may return, and the collections of Java that it is like.
-PLAIN: dict[type, type] = {
-    list: collections.ArrayList,
-    tuple: collections.ArrayList,
-    set: collections.HashSet,
-    dict: collections.HashMap,
-}
 OBJECT_METHODS: dict[str, Callable[..., Any]] = {
     "toString": values.to_string,
     "equals": values.equals,
