@@ -196,7 +196,8 @@ class JavaSubject(Subject):
         if isinstance(error, EndlessError):
             return Outcome.ENDLESS, "the code here runs without end", line, "endless"
         if isinstance(error, CannotRunError):
-            said = f"the grader cannot run line {line}: {error}"
+            advice = "write it in another way, or show a mentor"
+            said = f"the grader cannot run line {line}, {error}: {advice}"
             return Outcome.CANNOT, said, line, "unknown"
         if isinstance(error, values.Throwable):
             return Outcome.CRASHED, str(error), line, type_names.type_name(type(error))

@@ -136,7 +136,7 @@ def _components(this: Any) -> list[Any]:
 
 
 def _hash_record(this: Any) -> int:
-    return hash(tuple(_components(this)))
+    return hash(tuple(one for one in _components(this) if isinstance(one, int | float | str)))
 
 
 def _equal_records(this: Any, other: Any) -> bool:

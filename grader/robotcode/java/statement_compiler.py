@@ -66,7 +66,7 @@ class StatementCompiler(ExpressionCompiler):
             return method(node)
 
         def stop(_env: Env) -> Any:
-            raise CannotRunError(text(node)[:LONGEST_TEXT])
+            raise CannotRunError(" ".join(text(node).split())[:LONGEST_TEXT])
 
         return self._lead(node, stop)
 

@@ -283,6 +283,15 @@ def _operator(operate: Callable[[Any, Any], Any]) -> Callable[[Any, Any], Any]:
     return run
 
 
+def _whole_operator(operate: Callable[[int, int], int]) -> Callable[[Any, Any], Any]:
+    def run(a: Any, b: Any) -> Any:
+        if type(a) is float or type(b) is float:
+            raise WrongArgument(f"{a} and {b} are not both whole numbers")
+        return operate(a, b)
+
+    return _operator(run)
+
+
 def _divide(a: Any, b: Any) -> Any:
     if type(a) is int and type(b) is int:
         if b == 0:
@@ -311,9 +320,9 @@ subtract = _operator(operator.sub)
 multiply = _operator(operator.mul)
 divide = _operator(_divide)
 remainder = _operator(_remainder)
-bit_and = _operator(operator.and_)
-bit_or = _operator(operator.or_)
-bit_xor = _operator(operator.xor)
+bit_and = _whole_operator(operator.and_)
+bit_or = _whole_operator(operator.or_)
+bit_xor = _whole_operator(operator.xor)
 less = _operator(operator.lt)
 less_equal = _operator(operator.le)
 greater = _operator(operator.gt)
