@@ -271,7 +271,7 @@ class ExpressionCompiler(StaticTypes):
         if none or isinstance(found, types.FunctionType | staticmethod | classmethod):
             return None
         kind = KINDS.get(type(found), type(found).__name__ if found is not None else "")
-        kind = BOXES.get(_label(cls), kind)
+        kind = BOXES.get(getattr(cls, "__name__", ""), kind)
         if found is None or isinstance(found, property | Unknown):
             return Code(lambda _env: runtime.get_static(cls, name), kind)
         value = runtime.get_static(cls, name)  # the fakes' static fields are constants
