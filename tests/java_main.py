@@ -8,7 +8,7 @@ from grader.robotcode.java.program import Program
 from grader.robotcode.java.runtime import STATE, EndlessError, find_attribute
 from grader.robotcode.java.steps import allow_deep_calls
 from grader.robotcode.java.syntax import Source
-from grader.robotcode.java.values import Array, Throwable, to_string, write_items
+from grader.robotcode.java.values import Array, Throwable, to_string
 from grader.robotcode.library.base import JAVA
 from grader.robotcode.library.world import WORLD
 
@@ -18,8 +18,7 @@ PRINTED: list[str] = []  # by the program that runs
 def print_value(stream, value=""):
     """System.out.print: the interpreter itself lets a program's output go."""
     if stream is JAVA["java.lang.System"].out:
-        letters = type(value) is Array and value.kind == "char"
-        PRINTED.append("".join(value) if letters else write_items([value], "", ""))
+        PRINTED.append(str(to_string(value)))
 
 
 def print_line(stream, value=""):
@@ -49,9 +48,8 @@ def run_main(source, *, steps=1_000_000):
     WORLD.reset("java")
     program = Program(Path("Main.java"), source=Source(Path("Main.java"), source))
     STATE.refill(steps)
-    if not program.problems:
-        program.compile_all()
-    for one in (*program.problems, *program.errors.values()):
+    program.compile_all()
+    for one in program.errors.values():
         return f"!! line {one.line}: {one.message}\n"
     PRINTED.clear()
     main, end = program.unit.classes["Main"], ""

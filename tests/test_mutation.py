@@ -14,6 +14,7 @@ from mutation.report import legal_variants, survey
 from grader.exercise import find_exercise
 from grader.robotcode.java.program import Program
 from grader.robotcode.java.steps import allow_deep_calls
+from sim.core.errors import UnreadableFile
 
 pytestmark = pytest.mark.slow
 
@@ -60,10 +61,12 @@ def test_the_grader_refuses_no_mutant_of_a_right_answer_that_javac_takes(tmp_pat
 
 def _find_errors(path):
     allow_deep_calls()
-    program = Program(path)
-    if not program.problems:
-        program.compile_all()
-    return [*program.problems, *program.errors]
+    try:
+        program = Program(path)
+    except UnreadableFile as problem:
+        return [problem]
+    program.compile_all()
+    return list(program.errors)
 
 
 def test_every_listed_variant_has_a_reason():

@@ -5,9 +5,9 @@ assumed once to be false and once to be true. A verdict that is the same both wa
 learner is asked.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from grader.answers.submission import read_text
 from grader.check import NotReachedError, NotRunError, WrongAnswer
@@ -15,10 +15,6 @@ from grader.robotcode.bench import find_bench
 from grader.robotcode.bench.simulation import Mount
 from grader.robotcode.library.world import WORLD
 from grader.robotcode.source import detect_language
-from sim.core.errors import UnreadableFile
-
-if TYPE_CHECKING:
-    from grader.robotcode.problems import ParseProblem
 
 Runs = tuple[Any, ...]
 Mounts = Mapping[str, Mapping[Any, Mount]]
@@ -68,25 +64,10 @@ def _run(path: Path, kind: str, mounts: dict[Any, Mount], *, run: bool) -> Runs:
         stored = {port: {"inverted": mount.inverted} for port, mount in mounts.items()}
         WORLD.singletons["stored"] = stored
         subject = JavaSubject(path, "SysIdRoutine" if kind == "routine" else "")
-        refuse_problems(subject.program.problems, path)
         found.append(find_bench(kind)(subject, mounts).run())
         if not WORLD.undecided:
             break
     return tuple(found)
-
-
-def refuse_problems(problems: Sequence["ParseProblem"], path: Path) -> None:
-    """Refuse a text that does not parse.
-
-    Raises:
-        UnreadableFile: with the first place.
-    """
-    if problems:
-        raise UnreadableFile(
-            problems[0].message,
-            where=f"{path}, line {problems[0].line}",
-            advice="Fix that line first: code with a mistake like this does not compile.",
-        )
 
 
 def judge_runs(runs: Runs, judge: Callable[[Any], str | None]) -> str | None:

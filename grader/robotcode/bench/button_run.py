@@ -103,7 +103,6 @@ class ButtonFacts(ProgramFacts):
     """What the buttons of a program do.
 
     Args:
-        constants: as in RoutineFacts.
         routines: how many SysIdRoutines there are.
         factories: methods that make tests.
         made: every test that was made, and the line where the container asked for it.
@@ -117,7 +116,6 @@ class ButtonFacts(ProgramFacts):
         asked_once: the line that asks for test mode only while the program starts; 0 if none does.
     """
 
-    constants: dict[str, float] = field(default_factory=dict)
     routines: int = 0
     factories: tuple[Factory, ...] = ()
     made: tuple[tuple[str, int], ...] = ()

@@ -244,7 +244,6 @@ class RoutineFacts(ProgramFacts):
         ramp, step, timeout: the Config.
         devices: all.
         tests: by name.
-        constants: the numbers that the program keeps under a name.
     """
 
     line: int = 0
@@ -260,7 +259,6 @@ class RoutineFacts(ProgramFacts):
     timeout: Setting = Setting()
     devices: tuple[DeviceFacts, ...] = ()
     tests: dict[str, TestRun] = field(default_factory=dict)
-    constants: dict[str, float] = field(default_factory=dict)
 
     @property
     def motors(self) -> dict[str, DeviceFacts]:

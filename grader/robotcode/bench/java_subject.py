@@ -20,7 +20,7 @@ from grader.robotcode.java.lang import Exited
 from grader.robotcode.java.program import Program
 from grader.robotcode.java.runtime import STATE, EndlessError
 from grader.robotcode.java.scope import text
-from grader.robotcode.java.steps import allow_deep_calls
+from grader.robotcode.java.steps import CannotRunError, allow_deep_calls
 from grader.robotcode.java.syntax import At
 from grader.robotcode.java.values import PRIMITIVES
 from grader.robotcode.library.base import NoSuchMember, Unknown, WrongArgument
@@ -195,8 +195,12 @@ class JavaSubject(Subject):
         line = int(STATE.at)
         if isinstance(error, EndlessError):
             return Outcome.ENDLESS, "the code here runs without end", line, "endless"
+        if isinstance(error, CannotRunError):
+            advice = "write it in another way, or show a mentor"
+            said = f"the grader cannot run line {line}, {error}: {advice}"
+            return Outcome.CANNOT, said, line, "unknown"
         if isinstance(error, values.Throwable):
-            return Outcome.CRASHED, values.to_string(error), line, type_names.type_name(type(error))
+            return Outcome.CRASHED, str(error), line, type_names.type_name(type(error))
         if isinstance(error, RecursionError):
             return Outcome.CRASHED, "java.lang.StackOverflowError", line, "StackOverflowError"
         if isinstance(error, Exited):
@@ -211,15 +215,7 @@ class JavaSubject(Subject):
         return {
             "errors": tuple(self.program.errors.values()),
             "unknown": unknown,
-            "constants": dict(self._constants()),
         }
-
-    def _constants(self) -> Any:
-        for java in self._all_classes():
-            for one in java.fields.values() if "cls" in java.__dict__ else ():
-                value = java.statics.get(one.key) if one.static else None
-                if isinstance(value, int | float) and not isinstance(value, bool):
-                    yield one.name, float(value)
 
     # -- buttons ----------------------------------------------------------------------------
 

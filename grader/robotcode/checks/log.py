@@ -2,7 +2,6 @@
 
 import itertools
 import math
-import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
@@ -42,10 +41,6 @@ SIGNED = "Half of the tests run backward. Log the number with its sign."
 EACH_TIME = "Record every signal each time the callback is called, without a condition."
 COPIED = "Did you copy a line and forget to change it?"
 OWN_VALUES = f"{COPIED} Log for {{}} the values of its own motor and its own encoder."
-SIZE = re.compile(r"gear|ratio|diameter|radius|circumference", re.IGNORECASE)
-GEARS = re.compile(r"gear|ratio|reduction", re.IGNORECASE)
-WHEEL = re.compile(r"diameter|radius", re.IGNORECASE)
-ONE_TURN = re.compile(r"per_?(turn|rot|rev)|circumference|conversion|factor", re.IGNORECASE)
 SLIPS = {  # what a velocity is of the slope of its position, and how that comes about
     60.0: "One is per minute, the other per second",
     2 * math.pi: "One is in radians, the other in rotations",
@@ -361,7 +356,6 @@ def check_units(facts: RoutineFacts, *, mechanism: str, scales: dict[str, float]
     if wanted and families and families != {wanted}:
         unit = "Meters" if wanted == "linear" else "Rotations or Radians"
         _raise_unit(seen, f"By its name, {mechanism} moves in {unit}. Log it in {unit}.")
-    _check_circumference(facts)
     devices = {one.name: one for one in facts.devices}
     for (name, signal), one in moving.items():
         _check_scale(name, signal, one, devices, scales)
@@ -371,30 +365,6 @@ def check_units(facts: RoutineFacts, *, mechanism: str, scales: dict[str, float]
     for signal in MOVING:
         _check_alike([(name, one) for (name, kind), one in moving.items() if kind == signal])
     _check_signs(there)
-
-
-def _check_circumference(facts: RoutineFacts) -> None:
-    """Raise ``WrongAnswer`` unless one turn is π diameters of the wheel, or 2π radii."""
-    gears = [value for name, value in facts.constants.items() if GEARS.search(name) and value]
-    wheels = {name: size for name, size in facts.constants.items() if WHEEL.search(name)}
-    for name, size in facts.constants.items():
-        if SIZE.search(name) and not size > 0.0:
-            hint = "No gear ratio and no wheel is zero or less. Write what is built in."
-            _raise_unit(f"{name} is {size:g}", hint)
-    for (name, way), (wheel, size) in itertools.product(facts.constants.items(), wheels.items()):
-        if not ONE_TURN.search(name) or name == wheel:
-            continue
-        turns = [abs(way) / size * by for by in (1.0, *gears, *(1.0 / one for one in gears))]
-        right = 2.0 * math.pi if "radi" in wheel.lower() else math.pi
-        slips = (1.0, 2.0, math.pi / 2.0, math.pi, 2.0 * math.pi, 4.0 * math.pi)
-        close = [slip for slip in (right, *slips) if any(_close(one, slip) for one in turns if one)]
-        if close and right not in close:
-            formula = f"{'2π' if right > math.pi else 'π'} times {wheel}"
-            _raise_unit(
-                f"{name} is {way:.4g}, and {wheel} {size:.4g}",
-                f"In one turn a wheel rolls its circumference, {formula}; divide it by the gear "
-                "ratio.",
-            )
 
 
 def _raise_unit(seen: str, hint: str) -> None:

@@ -207,6 +207,7 @@ class JavaClass:
         self.methods: list[Method] = []
         self.constructors: list[Method] = []
         self.on_class: list[Run] = []  # static initializers, in order
+        self.known: dict[str, Run] = {}  # what sets a constant, before anything else runs
         self.on_instance: list[Run] = []
         self.constants: list[tuple[str, Node]] = []  # of an enum
         self.components: list[tuple[str, str]] = []  # of a record: name and kind
@@ -292,8 +293,6 @@ class JavaClass:
         above = node.child_by_field_name("superclass")
         if above is not None:
             self.parent = self.resolve_node(next(named(above)))
-        if self.form == "enum_constant":
-            self.parent = self.outer
         for part in (child(node, "super_interfaces"), child(node, "extends_interfaces")):
             for one in named(next(named(part))) if part is not None else ():
                 self.interfaces.append(self.resolve_node(one))
@@ -332,8 +331,6 @@ class JavaClass:
 
     def list_constants(self) -> list[Any]:
         """All constants of an enum, in their order."""
-        if self.form == "enum_constant":
-            return self.parent.list_constants()
         self.initialize()
         return [self.statics[f".{name}"] for name, _ in self.constants]
 
@@ -374,7 +371,7 @@ class JavaClass:
 
     def compute_conversion_cost(self, kind: str, value: Any, static: str) -> float:
         """How far a value has to be converted for a parameter; infinite if it cannot be."""
-        given = static or type_names.kind_of(value)
+        given = static or values.KINDS.get(type(value)) or type_names.type_name(type(value))
         plain = BOXES.get(given, given)
         if isinstance(value, Unknown):
             return 1.0
@@ -384,9 +381,11 @@ class JavaClass:
                 return boxed
             return boxed + NUMBERS.index(kind) if kind in WIDENS.get(plain, ()) else math.inf
         if kind.endswith("[]"):
-            if static in {"", "null"} or static.endswith("[]"):
-                return _array_cost(kind, value)
-            return math.inf
+            if not isinstance(value, values.Array):
+                return 1.0 if value is None else math.inf
+            if value.kind == kind[:-2]:
+                return 0.0
+            return math.inf if {value.kind, kind[:-2]} & PRIMITIVES else 1.0
         if given == kind:
             return 0.0
         if kind in BOXES:
@@ -428,7 +427,7 @@ class JavaClass:
     def initialize(self) -> None:
         """Run the static initializers, once, as Java does at the first use."""
         if self.state == "failed":
-            raise values.NoClassDefFoundError(f"Could not initialize class {self.full_name}")
+            raise values.ExceptionInInitializerError(self.full_name)
         if self.state != "new":
             return
         _ = self.cls
@@ -437,9 +436,10 @@ class JavaClass:
             self.parent.initialize()
         env: Env = [None] * 2
         try:
-            for run in self.on_class:
+            known = [run for name, run in self.known.items() if self.fields[name].static]
+            for run in (*known, *self.on_class):
                 run(env)
-        except values.JavaException as problem:
+        except values.Throwable as problem:
             self.state = "failed"
             raise values.ExceptionInInitializerError(None, problem) from problem
 
@@ -467,6 +467,9 @@ class JavaClass:
                     made.__dict__[declared.key] = values.default_value(declared.kind)
             if env is not None:
                 made.__dict__[one.env_key] = env
+            for name, run in one.known.items():
+                if not one.fields[name].static:
+                    run([made, None])
 
     def construct(self, made: Any, args: Sequence[Any], kinds: Sequence[str] = ()) -> None:
         """Run the constructor that fits, on an instance."""
@@ -491,14 +494,6 @@ class JavaClass:
         env: Env = [made, None]
         for run in self.on_instance:
             run(env)
-
-
-def _array_cost(kind: str, value: Any) -> float:
-    if not isinstance(value, values.Array):
-        return 1.0 if value is None else math.inf
-    inner = kind[:-2]
-    same = inner == value.kind or {inner, value.kind}.isdisjoint(PRIMITIVES)
-    return (0.0 if inner == value.kind else 1.0) if same else math.inf
 
 
 def modifiers_of(node: Node) -> frozenset[str]:

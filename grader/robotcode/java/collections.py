@@ -1,8 +1,7 @@
-"""Java's collections, Optional and the atomic variables, as far as robot code uses them.
+"""Java's collections and Optional, as far as robot code uses them; what others hold is unknown.
 
 They are Python's: a List is a ``list``, a Map and a Set are a ``dict``, under Java's names. What
 Java hands out as a view (``keySet``, ``subList``) is a copy, and nothing refuses to be changed.
-``remove`` of a list takes a whole number for an index, never for an element.
 """
 
 # mypy: disable-error-code="assignment, func-returns-value, arg-type"
@@ -10,7 +9,7 @@ from collections.abc import Callable, Iterable, Iterator
 from functools import cmp_to_key
 from typing import Any
 
-from grader.robotcode.java.steps import STATE
+from grader.robotcode.java.steps import STATE, refuse
 from grader.robotcode.java.values import (
     PRIMITIVES,
     Array,
@@ -21,10 +20,7 @@ from grader.robotcode.java.values import (
     OutOfMemoryError,
     compare,
     convert,
-    default_value,
     equals,
-    hash_code,
-    hash_items,
     make_statics,
     spread,
     to_string,
@@ -44,9 +40,13 @@ def counted(items: Iterable[Any]) -> Iterator[Any]:
 
 
 def sort(items: Iterable[Any], comparator: Any = None) -> list[Any]:
-    """Items in the order of a comparator; in their own where that is null."""
+    """Items in the order of a comparator; in their own where that is null.
+
+    Raises:
+        CannotRunError: nobody knows the comparator.
+    """
     if type(comparator) is Unknown:
-        return list(items)
+        refuse("sort() with such a comparator")
     return sorted(counted(items), key=cmp_to_key(comparator or compare))
 
 
@@ -55,43 +55,16 @@ def make_stream(items: Any) -> Any:
     return JAVA["java.util.stream.Stream"].over(items)
 
 
-class JavaIterable(JavaClass, package="java.lang", name="Iterable"):
-    """What a for-each loop takes. A learner's class with iterator() is one as well."""
-
-    def __iter__(self) -> Iterator[Any]:
-        iterator = self.iterator()
-        while iterator.hasNext():
-            yield iterator.next()
+class JavaIterable(JavaClass, package="java.lang", name="Iterable", partial=True):
+    """What a for-each loop takes."""
 
     def forEach(self, action: Callable[..., Any]) -> None:
         """Call something with every element."""
-        for item in self:
+        for item in self:  # what derives from it has elements
             action(item)
 
 
-class JavaIterator(JavaIterable, package=_UTIL, name="Iterator", partial=True):
-    """Goes through a collection once."""
-
-    iterator = lambda self: self
-    forEachRemaining = JavaIterable.forEach
-
-
-class Cursor(JavaIterator, partial=True):
-    """An iterator over a copy of a collection."""
-
-    def __init__(self, items: Iterable[Any]) -> None:
-        self._left = list(items)
-
-    def next(self) -> Any:
-        """The next element."""
-        if not self._left:
-            raise NoSuchElementException
-        return self._left.pop(0)
-
-    hasNext = lambda self: bool(self._left)
-
-
-class Collection(JavaIterable, package=_UTIL, others="spliterator hashCode"):
+class Collection(JavaIterable, package=_UTIL, others="spliterator hashCode iterator"):
     """Any collection, by means of its length, its elements, ``add`` and ``_replace``."""
 
     def _grow(self, count: int) -> None:
@@ -111,7 +84,6 @@ class Collection(JavaIterable, package=_UTIL, others="spliterator hashCode"):
         gone: list[Any] = []
         return self._keep(lambda one: gone or not equals(item, one) or gone.append(one))
 
-    iterator = lambda self: Cursor(self)
     size = lambda self: len(self)
     isEmpty = lambda self: not len(self)
     contains = lambda self, item: any(equals(item, one) for one in counted(self))
@@ -123,10 +95,10 @@ class Collection(JavaIterable, package=_UTIL, others="spliterator hashCode"):
     clear = lambda self: self._replace([])
     stream = parallelStream = lambda self: make_stream(self)
     toArray = lambda self, like=None: Array(self, getattr(like, "kind", "Object"))
-    toString = lambda self: write_items("(this Collection)" if x is self else x for x in self)
+    toString = lambda self: write_items(self)
 
 
-class List(Collection, list[Any], package=_UTIL, others="listIterator spliterator"):
+class List(Collection, list[Any], package=_UTIL, others="listIterator"):
     """A list."""
 
     def __init__(self, source: Any = None) -> None:
@@ -158,9 +130,11 @@ class List(Collection, list[Any], package=_UTIL, others="listIterator spliterato
 
     def remove(self, item: object) -> Any:
         """Take out the element at an index, or an element."""
-        return (
-            list.pop(self, self._at(item)) if type(item) is int else Collection.remove(self, item)
-        )
+        if type(item) is not int:
+            return Collection.remove(self, item)
+        if any(type(one) is int for one in self):
+            refuse("remove() of a list of numbers")  # an index, or one of them
+        return list.pop(self, self._at(item))
 
     def indexOf(self, wanted: object) -> int:
         """The first place of an element, -1 if there is none."""
@@ -168,8 +142,7 @@ class List(Collection, list[Any], package=_UTIL, others="listIterator spliterato
         return next(found, -1)
 
     __iter__ = list.__iter__
-    __hash__ = lambda self: hash_items(map(hash_code, self), 1)
-    hashCode = __hash__
+    __hash__ = object.__hash__
     of = staticmethod(lambda *items: ArrayList(spread(items)))
     copyOf = staticmethod(lambda items: ArrayList(items))
     equals = lambda self, other: (
@@ -178,65 +151,29 @@ class List(Collection, list[Any], package=_UTIL, others="listIterator spliterato
     add = lambda self, *place_and_item: self.addAll(*place_and_item[:-1], place_and_item[-1:])
     get = lambda self, index: self[self._at(index)]
     set = lambda self, index, item: self._put(index, item)
-    lastIndexOf = lambda self, item: max(
-        (at for at, one in enumerate(self) if equals(item, one)), default=-1
-    )
     sort = lambda self, order=None: self._replace(sort(self, order))
     replaceAll = lambda self, change: self._replace(map(change, list(self)))
     subList = lambda self, start, end: ArrayList(self[start:end])
 
 
-class ArrayList(List, package=_UTIL, others="listIterator spliterator ensureCapacity trimToSize"):
+class ArrayList(List, package=_UTIL, others="ensureCapacity trimToSize clone lastIndexOf"):
     """A list in an array."""
 
-    clone = lambda self: type(self)(self)
 
+class Entry(JavaClass, partial=True):
+    """A key and its value."""
 
-class LinkedList(ArrayList, package=_UTIL, partial=True):
-    """A list with what queues and stacks of Java's can do."""
-
-    def _end(self, index: int, *, take: bool = False, must: bool = False) -> Any:
-        if must and not len(self):
-            raise NoSuchElementException
-        return (list.pop(self, index) if take else self[index]) if len(self) else None
-
-    def remove(self, *item: object) -> Any:
-        """Take out the first element, or that element, or the one at that index."""
-        return super().remove(*item) if item else self.removeFirst()
-
-    addFirst = push = offerFirst = lambda self, item: self.add(0, item)
-    addLast = offer = offerLast = lambda self, item: self.add(item)
-    getFirst = element = lambda self: self._end(0, must=True)
-    getLast = lambda self: self._end(-1, must=True)
-    removeFirst = pop = lambda self: self._end(0, take=True, must=True)
-    removeLast = lambda self: self._end(-1, take=True, must=True)
-    peek = peekFirst = lambda self: self._end(0)
-    peekLast = lambda self: self._end(-1)
-    poll = pollFirst = lambda self: self._end(0, take=True)
-    pollLast = lambda self: self._end(-1, take=True)
-
-
-class Entry(JavaClass):
-    """A key and its value; setValue changes the map that it is of."""
-
-    def __init__(self, key: Any, value: Any, owner: Any = None) -> None:
-        self._key, self._value, self._owner = key, value, owner
-
-    def setValue(self, value: object) -> Any:
-        """Store another value; return the one before."""
-        before, self._value = self._value, value
-        self._owner.put(self._key, value)
-        return before
+    def __init__(self, key: Any, value: Any) -> None:
+        self._key, self._value = key, value
 
     getKey = lambda self: self._key
     getValue = lambda self: self._value
-    toString = lambda self: write_items([self._key], "", "=") + write_items([self._value], "", "")
 
 
-class Map(JavaClass, dict[Any, Any], package=_UTIL, others="hashCode replace clone"):
+class Map(JavaClass, dict[Any, Any], package=_UTIL, others="hashCode clone toString equals"):
     """A map, in the order in which its keys came."""
 
-    Entry = SimpleEntry = Entry
+    Entry = Entry
 
     def __init__(self, source: Any = None, *_size: Any) -> None:
         if isinstance(source, dict):
@@ -260,15 +197,6 @@ class Map(JavaClass, dict[Any, Any], package=_UTIL, others="hashCode replace clo
         """The value of a key, or another."""
         return key if type(key) is Unknown else dict.get(self, key, other)
 
-    def compute(self, key: object, change: Callable[..., Any]) -> Any:
-        """Store what a function makes of key and value; take the key out if that is null."""
-        value = change(key, self.get(key))
-        if value is None:
-            self.remove(key)
-        else:
-            self.put(key, value)
-        return value
-
     __hash__ = object.__hash__
     of = staticmethod(lambda *parts: HashMap(dict(zip(parts[::2], parts[1::2], strict=True))))
     entry = staticmethod(Entry)
@@ -279,56 +207,25 @@ class Map(JavaClass, dict[Any, Any], package=_UTIL, others="hashCode replace clo
     size = lambda self: len(self)
     isEmpty = lambda self: not len(self)
     containsKey = lambda self, key: key in self
-    containsValue = lambda self, value: self.values().contains(value)
     remove = lambda self, key: dict.pop(self, key, None)
     putIfAbsent = lambda self, key, value: get_or(self.get(key), lambda: self.put(key, value))
     computeIfAbsent = lambda self, key, make: get_or(
-        self.get(key), lambda: self.compute(key, lambda key, _: make(key))
+        self.get(key), lambda: [made := make(key), self.put(key, made)][0]
     )
-    computeIfPresent = lambda self, key, change: (
-        None if self.get(key) is None else self.compute(key, change)
-    )
-    merge = lambda self, key, value, join: self.compute(
-        key, lambda _, before: value if before is None else join(before, value)
+    compute = computeIfPresent = merge = replace = replaceAll = lambda self, *_args: refuse(
+        "such a change of a map"
     )
     forEach = lambda self, action: [action(key, self[key]) for key in list(self)] and None
-    replaceAll = lambda self, change: self.putAll({key: change(key, self[key]) for key in self})
     keySet = lambda self: Set(list(self))
     values = lambda self: ArrayList([self[key] for key in self])
-    entrySet = lambda self: ArrayList([Entry(key, self[key], self) for key in self])
-    equals = lambda self, other: (
-        isinstance(other, Map)
-        and len(self) == len(other)
-        and all(key in other and equals(self[key], other[key]) for key in self)
-    )
-    toString = lambda self: write_items(self.entrySet(), "{", "}")
+    entrySet = lambda self: ArrayList([Entry(key, self[key]) for key in self])
 
 
-class HashMap(Map, package=_UTIL, others="hashCode replace clone"):
+class HashMap(Map, package=_UTIL):
     """A map."""
 
 
-class TreeMap(HashMap, package=_UTIL, partial=True):
-    """A map in the order of its keys."""
-
-    def _nearest(self, sign: int, key: object) -> Any:
-        """The key itself, or the nearest one before (-1) or after (1) it."""
-        keys = [one for one in list(self)[::sign] if sign * compare(one, key) >= 0]
-        return keys[0] if keys else None
-
-    __iter__ = lambda self: iter(sort(list(dict.keys(self))))
-    firstKey = lambda self: self.keySet().iterator().next()
-    lastKey = lambda self: Cursor(list(self)[::-1]).next()
-    firstEntry = lambda self: next(iter(self.entrySet()), None)
-    lastEntry = lambda self: next(reversed(self.entrySet()), None)
-    floorKey = lambda self, key: self._nearest(-1, key)
-    ceilingKey = lambda self, key: self._nearest(1, key)
-    floorEntry = lambda self, key: self._entry(self._nearest(-1, key))
-    ceilingEntry = lambda self, key: self._entry(self._nearest(1, key))
-    _entry = lambda self, key: None if key is None else Entry(key, self[key], self)
-
-
-class Set(Collection, dict[Any, None], package=_UTIL, others="spliterator hashCode clone"):
+class Set(Collection, dict[Any, None], package=_UTIL, others="clone"):
     """A set, in the order in which its elements came."""
 
     def __init__(self, source: Any = None, *_size: Any) -> None:
@@ -357,39 +254,21 @@ class Set(Collection, dict[Any, None], package=_UTIL, others="spliterator hashCo
     )
 
 
-class HashSet(Set, package=_UTIL, others="spliterator hashCode clone"):
+class HashSet(Set, package=_UTIL):
     """A set."""
 
 
-class TreeSet(HashSet, package=_UTIL, partial=True):
-    """A set in the order of its elements."""
-
-    __iter__ = lambda self: iter(sort(list(dict.keys(self))))
-    first = lambda self: self.iterator().next()
-    last = lambda self: Cursor(list(self)[::-1]).next()
-    of = staticmethod(lambda *items: TreeSet(list(items)))
-    noneOf = staticmethod(lambda _cls: TreeSet())
-    allOf = staticmethod(lambda cls: TreeSet(cls.getEnumConstants()))
-
-
-class Optional(JavaClass, package=_UTIL, others="hashCode"):
+class Optional(JavaClass, package=_UTIL, others="hashCode toString"):
     """One value or none, which is null here."""
 
-    _kind = "Object"
-
     def __init__(self, value: Any = None) -> None:
-        self._value = convert(self._kind, value)
+        self._value = value
 
     def orElseThrow(self, make: Any = None) -> Any:
         """The value; an exception where there is none."""
         if self._value is None:
             raise make() if make else NoSuchElementException("No value present")
         return self._value
-
-    def toString(self) -> str:
-        """As Java shows it."""
-        name = type(self).__name__
-        return f"{name}.empty" if self._value is None else write_items([self._value], f"{name}[")
 
     of = classmethod(lambda cls, value: cls(require(value)))
     ofNullable = classmethod(lambda cls, value: cls(value))
@@ -409,18 +288,6 @@ class Optional(JavaClass, package=_UTIL, others="hashCode"):
     equals = lambda self, other: isinstance(other, Optional) and equals(self._value, other._value)
 
 
-class OptionalDouble(Optional, package=_UTIL):
-    """A double or none."""
-
-    _kind = "Double"
-
-
-class OptionalInt(Optional, package=_UTIL):
-    """An int or none."""
-
-    _kind = "Integer"
-
-
 def get_or(value: Any, make: Callable[[], Any]) -> Any:
     """A value; where it is null, another."""
     return make() if value is None else value
@@ -431,27 +298,6 @@ def require(value: Any, message: Any = None) -> Any:
     if value is None:
         raise NullPointerException(message() if callable(message) else message)
     return value
-
-
-class Random(JavaClass, package=_UTIL, partial=True):
-    """Random numbers, which nobody knows."""
-
-
-for _name in ("AtomicReference", "AtomicInteger", "AtomicLong", "AtomicBoolean", "AtomicDouble"):
-    _text = {"__doc__": "A variable that several threads share, which nobody knows."}
-    FakeType(_name, (JavaClass,), _text, package="java.util.concurrent.atomic", partial=True)
-
-
-def _copy_range(array: Array, start: int, end: int) -> Array:
-    STATE.tick(end - start)
-    if end - start > MOST:
-        raise OutOfMemoryError("Java heap space")
-    rest = [default_value(array.kind)] * (end - max(start, len(array)))
-    return Array([*array[start:end], *rest], array.kind)
-
-
-def _deepen(item: Any) -> Any:
-    return ArrayList(map(_deepen, item)) if isinstance(item, Array) else item
 
 
 def _assign(items: Any, new: Iterable[Any]) -> None:
@@ -466,38 +312,28 @@ def _as_list(*items: Any) -> Any:
 make_statics(
     "java.util.Arrays",
     {
-        "fill": lambda array, value: _assign(array, [convert(array.kind, value)] * len(array)),
-        "setAll": lambda array, make: _assign(array, map(make, range(len(array)))),
-        "sort": lambda array, order=None: _assign(array, sort(array, order)),
         "toString": lambda array: "null" if array is None else write_items(array),
-        "deepToString": lambda array: to_string(_deepen(array)),
-        "equals": lambda a, b: a is b or equals(a and ArrayList(a), b and ArrayList(b)),
-        "copyOf": lambda array, length: _copy_range(array, 0, length),
-        "copyOfRange": _copy_range,
         "stream": make_stream,
     },
     partial=True,
     asList=staticmethod(_as_list),
+    fill=staticmethod(
+        lambda array, value: _assign(array, [convert(array.kind, value)] * len(array))
+    ),
+    setAll=staticmethod(lambda array, make: _assign(array, map(make, range(len(array))))),
+    sort=staticmethod(lambda array, order=None: _assign(array, sort(array, order))),
 )
 make_statics(
     "java.util.Collections",
     {
-        "sort": lambda items, order=None: items.sort(order),
         "reverse": lambda items: _assign(items, items[::-1]),
-        "max": lambda items, order=None: Cursor(sort(items, order)[::-1]).next(),
-        "min": lambda items, order=None: Cursor(sort(items, order)).next(),
         "addAll": lambda items, *added: items.addAll(spread(added)),
         "emptyList": lambda: ArrayList(),
-        "emptySet": lambda: HashSet(),
-        "emptyMap": lambda: HashMap(),
-        "singletonList": lambda item: ArrayList([item]),
-        "singleton": lambda item: HashSet([item]),
-        "reverseOrder": lambda order=compare: lambda a, b: order(b, a),
         "unmodifiableList": lambda items: items,
-        "unmodifiableSet": lambda items: items,
-        "unmodifiableMap": lambda items: items,
+        **dict.fromkeys(("shuffle", "swap", "rotate"), lambda *_args: refuse("such a shuffle")),
     },
     partial=True,
+    sort=staticmethod(lambda items, order=None: items.sort(order)),
 )
 make_statics(
     "java.util.Objects",
@@ -505,8 +341,6 @@ make_statics(
         "requireNonNull": require,
         "requireNonNullElse": lambda value, other: require(other) if value is None else value,
         "equals": equals,
-        "hash": lambda *items: hash_items(map(hash_code, spread(items)), 1),
-        "hashCode": hash_code,
         "toString": lambda value, other="null": other if value is None else to_string(value),
         "isNull": lambda value: value is None,
         "nonNull": lambda value: value is not None,
@@ -514,13 +348,29 @@ make_statics(
     partial=True,
 )
 _ALIASES = {
-    LinkedList: "Queue Deque ArrayDeque concurrent.ConcurrentLinkedQueue "
-    "concurrent.LinkedBlockingQueue",
     ArrayList: "Vector concurrent.CopyOnWriteArrayList",
-    HashMap: "LinkedHashMap Hashtable concurrent.ConcurrentHashMap concurrent.ConcurrentMap "
-    "AbstractMap",
-    TreeMap: "EnumMap SortedMap NavigableMap",
+    HashMap: "LinkedHashMap EnumMap Hashtable concurrent.ConcurrentHashMap "
+    "concurrent.ConcurrentMap AbstractMap",
     HashSet: "LinkedHashSet",
-    TreeSet: "EnumSet SortedSet NavigableSet",
+    Optional: "OptionalDouble OptionalInt OptionalLong",
 }
 JAVA.update({f"java.util.{name}": cls for cls in _ALIASES for name in _ALIASES[cls].split()})
+
+
+class _Opaque(JavaClass):
+    """What holds other values, and nobody knows which."""
+
+    forEach = lambda self, _action: refuse(f"forEach() of a {type(self).__name__}")
+
+
+_OPAQUE = {  # what they hold is unknown
+    _UTIL: "Iterator LinkedList Queue Deque ArrayDeque PriorityQueue Stack Random TreeMap TreeSet "
+    "EnumSet SortedMap NavigableMap SortedSet NavigableSet",
+    f"{_UTIL}.concurrent": "ConcurrentLinkedQueue LinkedBlockingQueue ArrayBlockingQueue",
+    f"{_UTIL}.concurrent.atomic": "AtomicReference AtomicInteger AtomicLong AtomicBoolean "
+    "AtomicDouble",
+}
+for _package, _names in _OPAQUE.items():
+    for _name in _names.split():
+        _text = {"__doc__": "What it holds is unknown."}
+        FakeType(_name, (_Opaque,), _text, package=_package, partial=True)

@@ -10,13 +10,12 @@ from typing import Any
 
 from tree_sitter import Node
 
-from grader.robotcode.java import lang, runtime, type_names, values
+from grader.robotcode.java import runtime, type_names, values
 from grader.robotcode.java.classes import JavaClass, python_class
-from grader.robotcode.java.literals import read_character, read_number, read_string
+from grader.robotcode.java.literals import read_number, read_string
 from grader.robotcode.java.program import packages_of
 from grader.robotcode.java.runtime import STATE, Function
 from grader.robotcode.java.scope import (
-    MISSING,
     RESULT,
     THIS,
     Arguments,
@@ -41,7 +40,7 @@ from grader.robotcode.java.static_types import (
     unknown_name,
 )
 from grader.robotcode.java.syntax import At
-from grader.robotcode.java.values import BOXES, PRIMITIVES, Array, ClassCastException
+from grader.robotcode.java.values import BOXES, PRIMITIVES, Array
 from grader.robotcode.library.base import Fake, NoSuchMember, Unknown, WrongArgument
 
 NEARLY = 0.84  # how much of two names has to agree, from 0 to 1
@@ -54,14 +53,9 @@ OPERATORS: dict[str, Callable[..., Any]] = {
     "*": values.multiply,
     "/": values.divide,
     "%": values.remainder,
-    "<<": values.shift_left,
-    ">>": values.shift_right,
-    ">>>": values.shift_unsigned,
     "&": values.bit_and,
     "|": values.bit_or,
     "^": values.bit_xor,
-}
-COMPARISONS: dict[str, Callable[..., Any]] = {
     "<": values.less,
     "<=": values.less_equal,
     ">": values.greater,
@@ -69,6 +63,7 @@ COMPARISONS: dict[str, Callable[..., Any]] = {
     "==": values.same,
     "!=": values.differ,
 }
+COMPARISONS = frozenset({"<", "<=", ">", ">=", "==", "!="})
 
 
 class ExpressionCompiler(StaticTypes):
@@ -89,15 +84,17 @@ class ExpressionCompiler(StaticTypes):
     def refuse(self, message: str, node: Node) -> Code:
         """Write an error down; the value is unknown, so that the rest can be looked at, too."""
         self.program.error(message, self.at(node))
-        unknown = Unknown(text(node)[:LONGEST_TEXT])
-        return Code(lambda _env: unknown)
+        return self.unknown(node)
 
     def compile(self, node: Node) -> Code:
         """Compile an expression."""
         method = getattr(self, f"_{node.type}", None)
-        if method is None or node.is_missing:
-            return self.refuse("this cannot stand here", node)
-        return method(node)
+        return self.unknown(node) if method is None else method(node)
+
+    def unknown(self, node: Node) -> Code:
+        """Compile what is not run here: its value is unknown."""
+        unknown = Unknown(text(node)[:LONGEST_TEXT])
+        return Code(lambda _env: unknown)
 
     def coerce(self, code: Code, kind: str, node: Node) -> Run:
         """Compile the conversion of an assignment, or write down that Java refuses it."""
@@ -106,9 +103,6 @@ class ExpressionCompiler(StaticTypes):
             return self.refuse(refusal, node).run
         run, owner = code.run, self.owner
         if kind in PRIMITIVES:
-            if code.constant is not MISSING:
-                value = values.cast(kind, code.constant)
-                return lambda _env: value
             if kind == code.kind:
                 return run
         elif kind in {"", "String", code.kind}:
@@ -123,15 +117,15 @@ class ExpressionCompiler(StaticTypes):
             return self.refuse(f"{text(node)[:LONGEST_TEXT]} is too large a number", node)
         return _constant(*found)
 
-    _decimal_integer_literal = _hex_integer_literal = _octal_integer_literal = _number
+    _decimal_integer_literal = _hex_integer_literal = _number
     _binary_integer_literal = _decimal_floating_point_literal = _number
-    _hex_floating_point_literal = _number
-
-    def _character_literal(self, node: Node) -> Code:
-        return _constant(read_character(text(node)), "char")
 
     def _string_literal(self, node: Node) -> Code:
-        return _constant(read_string(text(node)), "String")
+        found = read_string(text(node))
+        kind = "char" if node.type == "character_literal" else "String"
+        return self.unknown(node) if found is None else _constant(found, kind)
+
+    _character_literal = _string_literal
 
     def _true(self, _node: Node) -> Code:
         return _constant(True, "boolean")
@@ -141,12 +135,6 @@ class ExpressionCompiler(StaticTypes):
 
     def _null_literal(self, _node: Node) -> Code:
         return Code(lambda _env: None, "null")
-
-    def _class_literal(self, node: Node) -> Code:
-        kind = kind_of(next(named(node)))
-        found = self.find_type(next(named(node)))
-        value = lang.class_named(kind, found.cls if isinstance(found, JavaClass) else found)
-        return Code(lambda _env: value, "Class")
 
     def _parenthesized_expression(self, node: Node) -> Code:
         return self.compile(next(named(node)))
@@ -230,15 +218,11 @@ class ExpressionCompiler(StaticTypes):
 
     def _local(self, keys: Sequence[str], local: Local) -> Code:
         slot = local.slot
-        if local.constant is not MISSING:
-            return _constant(local.constant, local.kind)
         reach = self._reach(keys)
         return Code(lambda env: reach(env)[slot] if keys else env[slot], local.kind)
 
     def _field_code(self, keys: Sequence[str], owner: JavaClass, one: Field, node: Node) -> Code:
         key, kind = one.key, self.translate_type(owner, one.kind)
-        if one.constant is not MISSING:
-            return Code(lambda _env, value=one.constant: value, kind, one.constant)
         if one.static:
 
             def run_static(_env: Env) -> Any:
@@ -287,7 +271,7 @@ class ExpressionCompiler(StaticTypes):
         if none or isinstance(found, types.FunctionType | staticmethod | classmethod):
             return None
         kind = KINDS.get(type(found), type(found).__name__ if found is not None else "")
-        kind = cls.__name__ if name in {"TRUE", "FALSE"} else kind
+        kind = BOXES.get(getattr(cls, "__name__", ""), kind)
         if found is None or isinstance(found, property | Unknown):
             return Code(lambda _env: runtime.get_static(cls, name), kind)
         value = runtime.get_static(cls, name)  # the fakes' static fields are constants
@@ -419,21 +403,18 @@ class ExpressionCompiler(StaticTypes):
         if sign in {"&&", "||"}:
             both = sign == "&&"
             return Code(lambda env: (a(env) and b(env)) if both else (a(env) or b(env)), "boolean")
-        exact, at = OPERATORS.get(sign) or COMPARISONS[sign], self.at(node)
+        exact, at = OPERATORS.get(sign), self.at(node)
+        characters = "char" in kinds and "String" not in kinds and sign not in {"==", "!="}
+        if exact is None or characters:
+            return self.unknown(node)
 
         def run(env: Env) -> Any:
             one, other = a(env), b(env)
             STATE.at = at
-            return exact(one, other)
+            result = exact(one, other)
+            return values.check_range(result) if kind == "int" else result
 
         kind = "boolean" if sign in COMPARISONS else promoted(sign, *kinds)
-        if (
-            left.constant is not MISSING
-            and right.constant is not MISSING
-            and not (sign in "/%" and not right.constant)
-        ):
-            value = exact(left.constant, right.constant)
-            return Code(lambda _env: value, kind, value)
         return Code(run, kind)
 
     def _unary_expression(self, node: Node) -> Code:
@@ -452,16 +433,9 @@ class ExpressionCompiler(StaticTypes):
                 return value if isinstance(value, Unknown) else not value
 
             return Code(negate, "boolean")
-        change = {
-            "-": values.negate,
-            "+": lambda v: values.add(v, 0) if isinstance(v, str) else v,
-            "~": values.complement,
-        }[sign]
-        kind = promoted("+", one.kind, "int") if one.kind else ""
-        if one.constant is not MISSING:
-            value = change(one.constant)
-            return Code(lambda _env: value, kind, value)
-        return Code(lambda env: change(run(env)), kind)
+        if sign == "-":
+            return self.operate("*", one, _constant(-1, "int"), node)
+        return one if sign == "+" else self.unknown(node)
 
     def _ternary_expression(self, node: Node) -> Code:
         condition = self.condition(node.child_by_field_name("condition"))
@@ -499,7 +473,7 @@ class ExpressionCompiler(StaticTypes):
     def _cast_expression(self, node: Node) -> Code:
         kind = self.erased(kind_of(node.child_by_field_name("type")))
         code = self.compile(node.child_by_field_name("value"))
-        run, at, owner = code.run, self.at(node), self.owner
+        run, owner = code.run, self.owner
         if kind in PRIMITIVES:
             if code.kind == "String" or (
                 code.kind in PRIMITIVES and (code.kind == "boolean") != (kind == "boolean")
@@ -507,27 +481,14 @@ class ExpressionCompiler(StaticTypes):
                 return self.refuse(
                     f"incompatible types: {code.kind} cannot be converted to {kind}", node
                 )
-            if code.constant is not MISSING:
-                return _constant(values.cast(kind, code.constant), kind)
             return Code(lambda env: values.cast(kind, run(env)), kind)
         if kind == "String" and code.kind in PRIMITIVES:
             return self.refuse(
                 f"incompatible types: {code.kind} cannot be converted to String", node
             )
-        cls = self.find_type(node.child_by_field_name("type")) if kind else None
-
-        def cast(env: Env) -> Any:
-            value = run(env)
-            if cls is None or value is None or isinstance(value, Unknown | Function):
-                return owner.convert(kind, value)
-            if not is_instance(value, kind, cls):
-                STATE.at = at
-                raise ClassCastException(
-                    f"class {type_names.class_name(value)} cannot be cast to class {kind}"
-                )
-            return value
-
-        return Code(cast, kind)
+        if kind:
+            self.find_type(node.child_by_field_name("type"))
+        return Code(lambda env: owner.convert(kind, run(env)), kind)
 
     # -- assignment -------------------------------------------------------------------------
 
@@ -808,24 +769,35 @@ class ExpressionCompiler(StaticTypes):
     def _call_overloads(
         self, overloads: Any, args: Arguments, node: Node, this: Run = lambda _env: None
     ) -> Run:
-        at, arguments, kinds = self.at(node), args.run, args.kinds
+        call = lambda env, given: overloads.call(this(env), given, args.kinds)
+        return self._calling(overloads.name, call, args, node)
+
+    def _calling(
+        self, name: str, call: Callable[[Env, list[Any]], Any], args: Arguments, node: Node
+    ) -> Run:
+        """Compile a call of what is known before; what javac would refuse is written down."""
+        at, arguments = self.at(node), args.run
 
         def run(env: Env) -> Any:
             given = arguments(env)
             STATE.at = at
             try:
-                return overloads.call(this(env), given, kinds)
+                return call(env, given)
             except (NoSuchMember, TypeError) as problem:
-                return self.mismatch(problem, at, overloads.name)
+                return self.mismatch(problem, at, name)
 
         return run
 
     def _static_call(self, cls: Any, name: str, args: Arguments, node: Node) -> Code:
-        at, arguments = self.at(node), args.run
         if isinstance(cls, JavaClass) and cls.form == "enum" and name in ENUM_STATICS:
             kind = cls.name if self.resolve(cls.name) is cls else ""
             kind += "[]" * (name == "values")
-            return Code(lambda env: enum_static(cls, name, arguments(env)), kind)
+            return Code(
+                lambda env: runtime.enum_static(
+                    cls.list_constants(), cls.name, name, args.run(env)
+                ),
+                kind,
+            )
         found = runtime.find_attribute(cls.cls, name) if isinstance(cls, JavaClass) else None
         overloads = getattr(found, "overloads", None)
         if overloads is not None:
@@ -841,17 +813,9 @@ class ExpressionCompiler(StaticTypes):
                 return call(env)
 
             return Code(run_own, self.result_of(found))
-        library = cls.cls if isinstance(cls, JavaClass) else cls
-
-        def run(env: Env) -> Any:
-            given = arguments(env)
-            STATE.at = at
-            try:
-                return runtime.call_static(library, name, given)
-            except (NoSuchMember, TypeError) as problem:
-                return self.mismatch(problem, at, name)
-
-        return Code(run)
+        library = python_class(cls)
+        call_library = lambda _env, given: runtime.call_static(library, name, given)
+        return Code(self._calling(name, call_library, args, node))
 
     def _super_call(self, object_: Node | None, name: str, args: Arguments, node: Node) -> Code:
         owner = self.owner
@@ -874,16 +838,9 @@ class ExpressionCompiler(StaticTypes):
     def _object_creation_expression(self, node: Node) -> Code:
         kind = kind_of(node.child_by_field_name("type"))
         args = self.arguments(node.child_by_field_name("arguments"))
-        at, arguments, kinds = self.at(node), args.run, args.kinds
-        outer = None
-        if node.children[0].type != "new":
-            outer = self.compile(node.children[0])
-            holder = self.resolve(outer.kind)
-            cls = holder.find_nested(kind) if isinstance(holder, JavaClass) else None
-            if cls is None:
-                return self.refuse(f"cannot find symbol: there is no class {kind} here", node)
-            kind = f"{outer.kind}.{kind}"
-        elif child(node, "class_body") is not None:
+        if node.children[0].type != "new":  # of an inner class, of another object
+            return self.unknown(node)
+        if child(node, "class_body") is not None:
             cls = JavaClass("", node, self.owner.unit, outer=self.owner, frame=self.frame)
             _ = cls.cls
         else:
@@ -892,8 +849,8 @@ class ExpressionCompiler(StaticTypes):
             if cls.name and ("abstract" in cls.modifiers or cls.form in {"interface", "enum"}):
                 what = "an enum" if cls.form == "enum" else "abstract"
                 return self.refuse(f"{cls.name} is {what}: new cannot make one of it", node)
-            around = self._environment(cls, outer.run if outer is not None else None)
-            create = lambda env, given: cls.make(given, kinds, around(env) if around else None)
+            around = self._environment(cls)
+            create = lambda env, given: cls.make(given, args.kinds, around(env) if around else None)
             named_kind = kind if cls.name else ""
         elif cls is None:  # a type variable
             return self.refuse(f"new cannot make one of {kind}", node)
@@ -902,20 +859,10 @@ class ExpressionCompiler(StaticTypes):
         else:
             create, named_kind = lambda _env, given: cls(*given), kind
 
-        def make(env: Env) -> Any:
-            given = arguments(env)
-            STATE.at = at
-            try:
-                return create(env, given)
-            except (NoSuchMember, TypeError) as problem:
-                return self.mismatch(problem, at, f"new {kind}")
+        return Code(self._calling(f"new {kind}", create, args, node), named_kind)
 
-        return Code(make, named_kind)
-
-    def _environment(self, cls: JavaClass, outer: Run | None) -> Callable[[Env], Env] | None:
+    def _environment(self, cls: JavaClass) -> Callable[[Env], Env] | None:
         """What a new object gets to know of what is around its class."""
-        if outer is not None:
-            return lambda env: [outer(env), None]
         if cls.static:
             return None
         for frame, keys in self._levels():
@@ -972,8 +919,7 @@ class ExpressionCompiler(StaticTypes):
         first, last = node.children[0], node.children[-1]
         name, at = text(last), self.at(node)
         if first.type == "super":
-            above = self._super_call(None, name, Arguments(lambda env: env[RESULT], []), node).run
-            return Code(lambda env: Function(lambda *a: above([env[THIS], a]), at), "lambda")
+            return self.unknown(node)
         if first.type == "array_type":
             kind = kind_of(first)
             make = lambda count: type_names.make_array(kind, [count])
@@ -1003,7 +949,7 @@ class ExpressionCompiler(StaticTypes):
     def _constructor_reference(self, cls: Any, at: At) -> Code:
         if not isinstance(cls, JavaClass):
             return Code(lambda _env: Function(cls, at), "lambda")
-        around = self._environment(cls, None)
+        around = self._environment(cls)
         arities = {len(one.kinds) for one in cls.constructors}
         arity = arities.pop() if len(arities) == 1 else -1
 
@@ -1098,7 +1044,7 @@ def _this_of(reach: Callable[[Env], Env]) -> Run:
 
 
 def _constant(value: Any, kind: str) -> Code:
-    return Code(lambda _env: value, kind, value)
+    return Code(lambda _env: value, kind)
 
 
 def is_instance(value: Any, kind: str, cls: Any) -> Any:
@@ -1114,19 +1060,6 @@ def is_instance(value: Any, kind: str, cls: Any) -> Any:
     if isinstance(cls, type) and isinstance(value, cls):
         return True
     return type_names.is_instance(value, kind)
-
-
-def enum_static(cls: JavaClass, name: str, args: Sequence[Any]) -> Any:
-    """``values()`` and ``valueOf(name)`` of the program's own enum."""
-    every = cls.list_constants()
-    if name == "values":
-        return Array(every, cls.name)
-    for one in every:
-        if one._name == args[0]:
-            return one
-    raise values.IllegalArgumentException(
-        f"No enum constant {cls.full_name.replace('$', '.')}.{args[0]}"
-    )
 
 
 __all__ = ["RESULT", "ExpressionCompiler"]

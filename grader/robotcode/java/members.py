@@ -1,5 +1,6 @@
 """The members of a Java class: what its text declares, compiled when it is first needed."""
 
+import re
 from collections.abc import Callable
 from typing import Any
 
@@ -9,7 +10,6 @@ from grader.robotcode.java import values
 from grader.robotcode.java.classes import JavaClass, Method, modifiers_of
 from grader.robotcode.java.runtime import STATE, enter
 from grader.robotcode.java.scope import (
-    MISSING,
     RESULT,
     Arguments,
     Code,
@@ -21,7 +21,8 @@ from grader.robotcode.java.scope import (
     named,
     text,
 )
-from grader.robotcode.java.statement_compiler import StatementCompiler, completes
+from grader.robotcode.java.statement_compiler import StatementCompiler, falls_through
+from grader.robotcode.java.steps import refuse
 from grader.robotcode.java.values import PRIMITIVES
 
 
@@ -48,7 +49,6 @@ def declare_members(owner: JavaClass) -> None:
         _declare_canonical(owner)
         for name, kind in owner.components:
             _give(owner, name, [], kind, _reader(name))
-        _give(owner, "toString", [], "String", _describe_record)
         _give(owner, "hashCode", [], "int", _hash_record)
         _give(owner, "equals", ["Object"], "boolean", _equal_records)
 
@@ -135,17 +135,8 @@ def _components(this: Any) -> list[Any]:
     return [this.__dict__[f".{name}"] for name, _ in type(this).java.components]
 
 
-def _describe_record(this: Any) -> str:
-    names = [name for name, _ in type(this).java.components]
-    shown = (
-        f"{name}={values.to_string(one)}"
-        for name, one in zip(names, _components(this), strict=True)
-    )
-    return f"{type(this).java.name}[{', '.join(shown)}]"
-
-
 def _hash_record(this: Any) -> int:
-    return values.hash_items(map(values.hash_code, _components(this)))
+    return hash(tuple(one for one in _components(this) if isinstance(one, int | float | str)))
 
 
 def _equal_records(this: Any, other: Any) -> bool:
@@ -250,7 +241,7 @@ def _compile_method(
     if constructor:
         return _compile_constructor(owner, method, body, compiler, slots)
     run = compiler.block(body)
-    if method.returns not in {"void", ""} and completes(body):
+    if method.returns not in {"void", ""} and falls_through(body):
         owner.unit.program.error(
             f"missing return statement: {method.name}() has to give a {method.returns} always",
             owner.unit.source.at(body),
@@ -317,19 +308,10 @@ def _initialize_field(owner: JavaClass, name: str, rank: int) -> None:
     if one.value is None:
         return
     if one.value.type == "array_initializer":
-        code = compiler.array_of(one.value, one.kind)
-        run = code.run
+        run = compiler.array_of(one.value, one.kind).run
     else:
         code = compiler.compile(one.value)
         run = compiler.coerce(code, compiler.erased(one.kind), one.value)
-    simple = one.kind in PRIMITIVES or one.kind == "String"
-    if (
-        one.final
-        and simple
-        and code.constant is not MISSING
-        and not compiler.why_not(one.kind, code)
-    ):
-        one.constant = run([None, None])
     at, key = one.at, one.key
 
     def set_field(env: Env) -> None:
@@ -341,9 +323,12 @@ def _initialize_field(owner: JavaClass, name: str, rank: int) -> None:
         else:
             env[0].__dict__[key] = value
 
-    (owner.on_class if one.static else owner.on_instance).append(set_field)
-    if one.static and one.constant is not MISSING:
-        owner.statics[key] = one.constant
+    simple = one.final and (one.kind in PRIMITIVES or one.kind == "String")
+    names = set(re.findall(r"\w+", text(one.value))) & owner.fields.keys()
+    if simple and "(" not in text(one.value) and names <= owner.known.keys():
+        owner.known[name] = set_field
+    else:
+        (owner.on_class if one.static else owner.on_instance).append(set_field)
 
 
 def _initializer(owner: JavaClass, node: Node, *, static: bool) -> Callable[[Env], Any]:
@@ -359,26 +344,18 @@ def _enum_constant(owner: JavaClass, name: str, node: Node, number: int) -> Call
     compiler = StatementCompiler(owner, frame)
     arguments = node.child_by_field_name("arguments")
     args = compiler.arguments(arguments)
-    body = child(node, "class_body")
-    kind = owner
-    if body is not None:
-        kind = JavaClass(name, node, owner.unit, outer=owner)
-        kind.form, kind.static, kind.parent = "enum_constant", True, owner
+    own_body = child(node, "class_body") is not None
 
     def make(_env: Env) -> None:
-        cls = kind.cls
-        made = cls.__new__(cls)
+        if own_body:
+            refuse(f"{name}, a constant with a body of its own")
+        made = owner.cls.__new__(owner.cls)
         made._name, made._ordinal = name, number
-        kind.state = "ready"
-        kind.prepare(made, None)
+        owner.prepare(made, None)
         whole: Env = [None] * frame.size
-        given = args.run(whole)
-        owner.construct(made, given, args.kinds)
-        if kind is not owner:
-            kind.run_initializers(made)
+        owner.construct(made, args.run(whole), args.kinds)
         owner.statics[f".{name}"] = made
 
-    _ = kind.cls
     return make
 
 

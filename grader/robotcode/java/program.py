@@ -3,7 +3,7 @@
 import difflib
 import functools
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -38,16 +38,6 @@ def packages_of(name: str) -> list[str]:
         for full in JAVA:
             _BY_NAME.setdefault(full.rpartition(".")[2], []).append(full)
     return _BY_NAME.get(name, [])
-
-
-@functools.cache
-def java_name(cls: type) -> str:
-    """The full name of a library's class, also of one within another; empty if it has none."""
-    outer, *inner = cls.__qualname__.split(".")
-    for full in packages_of(outer):
-        if _descend(JAVA[full], inner) is cls:
-            return ".".join((full, *inner))
-    return ""
 
 
 @dataclass(frozen=True)
@@ -101,7 +91,7 @@ class Program:
         path: the file in hand.
 
     Raises:
-        UnreadableFile: it is no readable source text.
+        UnreadableFile: it is no readable source text, or does not parse.
     """
 
     def __init__(self, path: Path, *, source: Source | None = None) -> None:
@@ -109,7 +99,13 @@ class Program:
         self.path = path
         self._on_disk = source is None
         self.main = source or Source(path, read_source(path))
-        self.problems = list(self.main.problems)
+        problem = self.main.problem
+        if problem is not None:
+            raise UnreadableFile(
+                problem.message,
+                where=f"{path}, line {problem.line}",
+                advice="Fix that line first: code with a mistake like this does not compile.",
+            )
         self.errors: dict[tuple[str, int, str], ParseProblem] = {}  # what javac would say
         self.unknown: dict[str, At] = {}  # classes that nobody knows, and where
         self._units: dict[Path, Unit | None] = {}
@@ -156,7 +152,7 @@ class Program:
             self._units[path] = None
             try:
                 source = Source(path, read_source(path))
-                self._units[path] = None if source.problems else Unit(self, source)
+                self._units[path] = Unit(self, source) if source.problem is None else None
             except UnreadableFile:
                 pass
         return self._units[path]
@@ -380,4 +376,4 @@ def iterate(value: Any) -> Iterator[Any]:
     """
     if value is None:
         raise values.NullPointerException("null cannot be looped over")
-    return iter(value)
+    return iter(value if isinstance(value, Iterable) else Unknown("what is looped over"))

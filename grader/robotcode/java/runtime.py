@@ -7,7 +7,7 @@ import types
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
-from grader.robotcode.java import collections, lang, streams, text, type_names, values
+from grader.robotcode.java import lang, streams, text, type_names, values
 from grader.robotcode.java.steps import DEEPEST, STATE, EndlessError
 from grader.robotcode.java.syntax import At
 from grader.robotcode.java.values import NullPointerException, StackOverflowError
@@ -114,22 +114,18 @@ def find_caller(cls: type, name: str, kinds: Sequence[str]) -> Call:
         return lambda value, args: overloads.call(value, args, kinds)
     if found is not None:
         attribute = python_name(name)
-        boxed = kinds and kinds[0] not in lang.WHOLE_KINDS
-        if name == "remove" and boxed and issubclass(cls, collections.List):
-            return lambda value, args: collections.Collection.remove(value, *args)
         if isinstance(found, types.FunctionType):
             return lambda value, args: found(value, *args)
         return lambda value, args: getattr(value, attribute)(*args)
     if name in OBJECT_METHODS:
         return lambda value, args: OBJECT_METHODS[name](value, *args)
-    if name in streams.DEFAULT_METHODS and issubclass(cls, streams.Functional):
+    if name == "andThen" and issubclass(cls, streams.Functional):
         interface = cls.__mro__[cls.__mro__.index(streams.Functional) - 1]
-        return lambda value, args: _make_default(value, interface, name, args)
+        return lambda value, args: _chain(value, interface, *args)
     if issubclass(cls, Fake):
         return lambda value, args: _member(value, name)(*args)
-    for plain, java in PLAIN.items():
-        if issubclass(cls, plain):
-            return lambda value, args: find_caller(java, name, kinds)(java(value), args)
+    if cls in {list, tuple, set, dict}:  # what a fake gives back
+        return lambda _value, _args: Unknown(f"{name}()")
     if any("__call__" in vars(base) for base in cls.__mro__) and name in streams.FUNCTIONAL:
         return lambda value, args: value(*args)
     raise make_no_member_error(cls, f"{name}()", dir(cls))
@@ -143,7 +139,7 @@ def make_no_member_error(cls: type, name: str, known: Iterable[str]) -> NoSuchMe
 
 
 def _table(cls: type) -> dict[str, Callable[..., Any]] | None:
-    if issubclass(cls, values.Char | bool | int | float):
+    if issubclass(cls, bool | int | float):
         return lang.BOXED_METHODS
     if cls is str:
         return text.STRING_METHODS
@@ -172,8 +168,10 @@ def _call_function(function: Function, name: str, args: Sequence[Any]) -> Any:
             result = function(*method.bind(args, spread=False))
             return method.owner.convert("" if method.returns == "void" else method.returns, result)
         return function(*args)
+    if name == "andThen":
+        return _chain(function, interface, *args)
     if name in streams.DEFAULT_METHODS:
-        return _make_default(function, interface, name, args)
+        return Unknown(f"{name}() of a lambda")
     named = getattr(interface, "__name__", "Double" if name == "applyAsDouble" else "")
     kind = next((kind for start, kind in TAKEN.items() if named.startswith(start)), "")
     result = function(*(values.convert(kind, one) if kind else one for one in args))
@@ -181,10 +179,15 @@ def _call_function(function: Function, name: str, args: Sequence[Any]) -> Any:
     return values.convert(given, result) if given and result is not None else result
 
 
-def _make_default(one: Any, interface: Any, name: str, args: Sequence[Any]) -> Function:
-    """A method that a functional interface brings along, such as Consumer's ``andThen``."""
-    named = getattr(interface, "__name__", "")
-    made = Function(streams.add_default(one, named, name, args), STATE.at)
+def _chain(first: Callable[..., Any], interface: Any, after: Any) -> Function:
+    """Two consumers, which get the same; or two functions, of which one gets the other's result."""
+
+    def call(*args: Any) -> Any:
+        result = first(*args)
+        consumes = getattr(interface, "__name__", "").endswith("Consumer")
+        return after(*args) if consumes else after(result)
+
+    made = Function(call, STATE.at)
     made.interface = interface
     return made
 
@@ -287,8 +290,7 @@ def call_static(cls: Any, name: str, args: Sequence[Any]) -> Any:
     if isinstance(cls, Unknown):
         return getattr(cls, python_name(name))(*args)
     if issubclass(cls, enum.Enum) and name in {"values", "valueOf"}:
-        every = values.Array(cls, cls.__name__) if name == "values" else None
-        return every if every is not None else _value_of(cls, args[0])
+        return enum_static(list(cls), cls.__name__, name, args)
     found = find_attribute(cls, name)
     if isinstance(found, types.FunctionType | functools.partialmethod) and not issubclass(
         cls, enum.Enum
@@ -299,24 +301,21 @@ def call_static(cls: Any, name: str, args: Sequence[Any]) -> Any:
     return _static_member(cls, name)(*args)
 
 
-def _value_of(cls: type[enum.Enum], name: str) -> enum.Enum:
-    if name not in cls.__members__:
-        raise values.IllegalArgumentException(f"No enum constant {cls.__name__}.{name}")
-    return cls[name]
+def enum_static(every: Sequence[Any], kind: str, name: str, args: Sequence[Any]) -> Any:
+    """``values()`` and ``valueOf(name)`` of an enum with some constants."""
+    if name == "values":
+        return values.Array(every, kind)
+    found = next((one for one in every if type_names.enum_name(one) == args[0]), None)
+    if found is None:
+        raise values.IllegalArgumentException(f"No enum constant {kind}.{args[0]}")
+    return found
 
 
-# What fakes may return, and the collections of Java that it is like.
-PLAIN: dict[type, type] = {
-    list: collections.ArrayList,
-    tuple: collections.ArrayList,
-    set: collections.HashSet,
-    dict: collections.HashMap,
-}
 OBJECT_METHODS: dict[str, Callable[..., Any]] = {
     "toString": values.to_string,
     "equals": values.equals,
-    "hashCode": values.hash_code,
-    "getClass": lang.class_of,
+    "hashCode": values.make_unknown("hashCode()"),
+    "getClass": values.make_unknown("getClass()"),
 }
 ARRAY_METHODS: dict[str, Callable[..., Any]] = {
     **OBJECT_METHODS,
@@ -330,8 +329,8 @@ ENUM_METHODS: dict[str, Callable[..., Any]] = {
     "compareTo": lambda one, other: list(type(one)).index(one) - list(type(one)).index(other),
     "equals": lambda one, other: one is other,
     "hashCode": lambda one: list(type(one)).index(one),
-    "getClass": lang.class_of,
-    "getDeclaringClass": lang.class_of,
+    "getClass": values.make_unknown("getClass()"),
+    "getDeclaringClass": values.make_unknown("getDeclaringClass()"),
 }
 
 __all__ = ["STATE", "EndlessError"]

@@ -14,7 +14,6 @@ if TYPE_CHECKING:
 Env = list[Any]  # the local variables of one call: [0] is this, [1] what it returns
 Run = Callable[[Env], Any]
 THIS, RESULT = 0, 1
-MISSING = object()
 
 
 @dataclass(slots=True)
@@ -24,12 +23,10 @@ class Code:
     Args:
         run: what computes it.
         kind: its type by name, erased; empty if it cannot be told.
-        constant: its value where the compiler knows it, else MISSING.
     """
 
     run: Run
     kind: str = ""
-    constant: Any = MISSING
 
 
 @dataclass
@@ -59,7 +56,6 @@ class Local:
         kind: its type.
         final: whether it may not be assigned: it has a value from the start.
         depth: how many lambdas it is declared in.
-        constant: its value where the compiler knows it, else MISSING.
     """
 
     name: str
@@ -67,7 +63,6 @@ class Local:
     kind: str
     final: bool = False
     depth: int = 0
-    constant: Any = MISSING
 
 
 class Frame:
@@ -134,7 +129,6 @@ class Field:
     rank: int
     at: At
     value: Node | None = None
-    constant: Any = MISSING
 
 
 def text(node: Node | None) -> str:

@@ -1,22 +1,26 @@
 """Java statements, compiled to Python functions that say how they ended.
 
-A statement gives None where the next one follows, else a signal: RETURN (the value lies in the
-variables), or a Jump for break, continue and yield.
+A statement gives None where the next one follows, else a Jump: for return (the value lies in the
+variables), break, continue or yield.
 """
 
-import re
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from enum import Enum
 from typing import Any
 
 from tree_sitter import Node
 
 from grader.robotcode.java import type_names, values
-from grader.robotcode.java.classes import DECLARATIONS, JavaClass
-from grader.robotcode.java.expression_compiler import ExpressionCompiler, is_instance
+from grader.robotcode.java.classes import JavaClass
+from grader.robotcode.java.expression_compiler import (
+    LONGEST_TEXT,
+    ExpressionCompiler,
+    is_instance,
+)
 from grader.robotcode.java.program import iterate
 from grader.robotcode.java.runtime import STATE
-from grader.robotcode.java.scope import MISSING, RESULT, Code, Env, Run, child, kind_of, named, text
+from grader.robotcode.java.scope import RESULT, Code, Env, Run, child, kind_of, named, text
+from grader.robotcode.java.steps import CannotRunError
 from grader.robotcode.java.values import (
     PRIMITIVES,
     NullPointerException,
@@ -25,26 +29,19 @@ from grader.robotcode.java.values import (
 )
 from grader.robotcode.library.base import Unknown
 
-LOOPS = {"while_statement", "do_statement", "for_statement", "enhanced_for_statement"}
 STATEMENTS = {  # expressions that can stand alone
     "assignment_expression", "update_expression", "method_invocation", "object_creation_expression",
-}  # fmt: skip
-JUMPS = {
-    "return_statement", "throw_statement", "break_statement", "continue_statement",
-    "yield_statement",
 }  # fmt: skip
 MOST_UNKNOWN = 3  # turns of a loop whose condition nobody knows
 
 
-@dataclass(frozen=True)
-class Jump:
-    """How a statement ended: ``break``, ``continue``, ``return`` or ``yield``; and its label."""
+class Jump(Enum):
+    """How a statement ended."""
 
-    kind: str
-    label: str = ""
-
-
-RETURN, BREAK, CONTINUE, YIELD = (Jump(one) for one in ("return", "break", "continue", "yield"))
+    RETURN = "return"
+    BREAK = "break"
+    CONTINUE = "continue"
+    YIELD = "yield"
 
 
 class StatementCompiler(ExpressionCompiler):
@@ -58,18 +55,20 @@ class StatementCompiler(ExpressionCompiler):
     in_lambda = 0
     gives = False  # whether the lambda around returns a value somewhere
 
-    def statement(self, node: Node, label: str = "") -> Run:
-        """Compile a statement."""
-        if node.type in LOOPS:
-            return getattr(self, f"_{node.type}")(node, label)
+    def statement(self, node: Node) -> Run:
+        """Compile a statement; one that is not run here stops the program where it is reached."""
         if node.type == ";":
             return lambda _env: None
-        method = getattr(self, f"_{node.type}", None)
-        if method is None:
-            return self.refuse("this is no statement", node).run
         if node.type == "switch_expression":
             return self._switch(node, None)
-        return method(node)
+        method = getattr(self, f"_{node.type}", None)
+        if method is not None:
+            return method(node)
+
+        def stop(_env: Env) -> Any:
+            raise CannotRunError(" ".join(text(node).split())[:LONGEST_TEXT])
+
+        return self._lead(node, stop)
 
     def _lead(self, node: Node, run: Run) -> Run:
         """A run that says first where it is."""
@@ -84,19 +83,7 @@ class StatementCompiler(ExpressionCompiler):
     def block(self, node: Node) -> Run:
         """Compile the statements between braces."""
         self.frame.push()
-        parts = list(named(node))
-        runs = []
-        for number, one in enumerate(parts):
-            runs.append(self.statement(one))
-            if (
-                number + 1 < len(parts)
-                and not completes(one)
-                and parts[number + 1].type not in DECLARATIONS
-            ):
-                self.refuse(
-                    "unreachable statement: nothing gets past the line above", parts[number + 1]
-                )
-                break
+        runs = [self.statement(one) for one in named(node)]
         self.frame.pop()
         return _sequence(runs)
 
@@ -157,8 +144,6 @@ class StatementCompiler(ExpressionCompiler):
                 local = self.frame.declare(name, self.erased(kind), final=final)
                 code = self.compile(value)
             run = self.coerce(code, local.kind, value)
-            if final and code.constant is not MISSING and local.kind in {*PRIMITIVES, "String"}:
-                local.constant = values.cast(local.kind, code.constant)
         slot = local.slot
 
         def declare(env: Env) -> None:
@@ -204,22 +189,8 @@ class StatementCompiler(ExpressionCompiler):
         no = self.statement(other)
         return lambda env: yes(env) if condition(env) else no(env)
 
-    def _labeled_statement(self, node: Node) -> Run:
-        label, body = list(named(node))
-        name = text(label)
-        run = self.statement(body, name)
-
-        def labeled(env: Env) -> Any:
-            signal = run(env)
-            return None if signal == Jump("break", name) else signal
-
-        return labeled
-
-    def _loop(
-        self, condition: Run | None, body: Run, update: Run, label: str, *, first: bool = True
-    ) -> Run:
+    def _loop(self, condition: Run | None, body: Run, update: Run, *, first: bool = True) -> Run:
         """A loop: ``first`` asks its condition before the first turn."""
-        mine = {BREAK: "break", CONTINUE: "continue", Jump("continue", label): "continue"}
         state = STATE
 
         def loop(env: Env) -> Any:
@@ -236,32 +207,25 @@ class StatementCompiler(ExpressionCompiler):
                 asked = True
                 state.tick()
                 signal = body(env)
-                if signal is not None:
-                    kind = mine.get(signal)
-                    if kind == "break":
-                        return None
-                    if kind is None:
-                        return signal
+                if signal is Jump.BREAK:
+                    return None
+                if signal is not None and signal is not Jump.CONTINUE:
+                    return signal
                 update(env)
 
         return loop
 
-    def _while_statement(self, node: Node, label: str) -> Run:
+    def _while_statement(self, node: Node) -> Run:
         condition = self._lead(node, self.condition(node.child_by_field_name("condition")))
         body = self.statement(node.child_by_field_name("body"))
-        self._refuse_never(node.child_by_field_name("condition"), node)
-        return self._loop(condition, body, lambda _env: None, label)
+        return self._loop(condition, body, lambda _env: None)
 
-    def _refuse_never(self, condition: Node | None, body: Node) -> None:
-        if text(condition).strip("() ") == "false":
-            self.refuse("unreachable statement: the condition of this loop is never true", body)
-
-    def _do_statement(self, node: Node, label: str) -> Run:
+    def _do_statement(self, node: Node) -> Run:
         body = self.statement(node.child_by_field_name("body"))
         condition = self._lead(node, self.condition(node.child_by_field_name("condition")))
-        return self._loop(condition, body, lambda _env: None, label, first=False)
+        return self._loop(condition, body, lambda _env: None, first=False)
 
-    def _for_statement(self, node: Node, label: str) -> Run:
+    def _for_statement(self, node: Node) -> Run:
         self.frame.push()
         before = [
             self.statement(one)
@@ -271,11 +235,10 @@ class StatementCompiler(ExpressionCompiler):
         ]
         asked = node.child_by_field_name("condition")
         condition = self._lead(node, self.condition(asked)) if asked is not None else None
-        self._refuse_never(asked, node)
         after = [self.compile(one).run for one in node.children_by_field_name("update")]
         body = self.statement(node.child_by_field_name("body"))
         self.frame.pop()
-        loop = self._loop(condition, body, lambda env: [one(env) for one in after], label)
+        loop = self._loop(condition, body, lambda env: [one(env) for one in after])
 
         def run(env: Env) -> Any:
             for one in before:
@@ -284,7 +247,7 @@ class StatementCompiler(ExpressionCompiler):
 
         return run
 
-    def _enhanced_for_statement(self, node: Node, label: str) -> Run:
+    def _enhanced_for_statement(self, node: Node) -> Run:
         self.frame.push()
         many = self.compile(node.child_by_field_name("value"))
         kind = kind_of(node.child_by_field_name("type"))
@@ -303,7 +266,7 @@ class StatementCompiler(ExpressionCompiler):
             return False
 
         self.frame.pop()
-        loop = self._loop(more, body, lambda _env: None, label)
+        loop = self._loop(more, body, lambda _env: None)
 
         def run_loop(env: Env) -> Any:
             STATE.at = at
@@ -316,7 +279,7 @@ class StatementCompiler(ExpressionCompiler):
         value = next(named(node), None)
         at = self.at(node)
         if value is None:
-            return lambda _env: RETURN
+            return lambda _env: Jump.RETURN
         code = self.compile(value)
         self.gives = True
         run = self.coerce(code, self.returns, value) if not self.in_lambda else code.run
@@ -324,19 +287,15 @@ class StatementCompiler(ExpressionCompiler):
         def back(env: Env) -> Jump:
             STATE.at = at
             env[RESULT] = run(env)
-            return RETURN
+            return Jump.RETURN
 
         return back
 
-    def _break_statement(self, node: Node) -> Run:
-        label = child(node, "identifier")
-        jump = BREAK if label is None else Jump("break", text(label))
-        return lambda _env: jump
+    def _break_statement(self, _node: Node) -> Run:
+        return lambda _env: Jump.BREAK
 
-    def _continue_statement(self, node: Node) -> Run:
-        label = child(node, "identifier")
-        jump = CONTINUE if label is None else Jump("continue", text(label))
-        return lambda _env: jump
+    def _continue_statement(self, _node: Node) -> Run:
+        return lambda _env: Jump.CONTINUE
 
     def _yield_statement(self, node: Node) -> Run:
         return _give(self.yields[-1], self.compile(next(named(node))))
@@ -364,19 +323,6 @@ class StatementCompiler(ExpressionCompiler):
     def _try_statement(self, node: Node) -> Run:
         body = self.block(node.child_by_field_name("body"))
         return self._guarded(node, body)
-
-    def _try_with_resources_statement(self, node: Node) -> Run:
-        """A try whose resources are variables; nothing that a robot opens needs to be closed."""
-        self.frame.push()
-        opened = []
-        for one in named(node.child_by_field_name("resources")):
-            name, value = (one.child_by_field_name(part) for part in ("name", "value"))
-            if value is not None:
-                kind = kind_of(one.child_by_field_name("type"))
-                opened.append(self._declare(text(name), kind, value, final=True))
-        body = self.block(node.child_by_field_name("body"))
-        self.frame.pop()
-        return self._guarded(node, _sequence([*opened, body]))
 
     def _guarded(self, node: Node, body: Run) -> Run:
         catches = [self._catch(one) for one in node.children if one.type == "catch_clause"]
@@ -439,13 +385,9 @@ class StatementCompiler(ExpressionCompiler):
         run = self._switch(node, slot)
 
         def value(env: Env) -> Any:
-            env[slot] = MISSING
-            signal = run(env)
-            if signal is not None and signal is not YIELD:
-                return None
-            if env[slot] is MISSING:
-                raise NullPointerException("no case of the switch fits")
-            return env[slot]
+            if run(env) is Jump.YIELD:
+                return env[slot]
+            raise NullPointerException("no case of the switch fits")
 
         return Code(value)
 
@@ -487,7 +429,7 @@ class StatementCompiler(ExpressionCompiler):
             for _, _, body, arrow in cases[start:]:
                 signal = body(env)
                 if signal is not None:
-                    return None if signal is BREAK else signal
+                    return None if signal is Jump.BREAK else signal
                 if arrow:
                     return None
             return None
@@ -520,7 +462,7 @@ def _choose_case(cases: Sequence[tuple[list[Any], bool, Run, bool]], value: Unkn
 def _give(slot: int, code: Code) -> Run:
     def give(env: Env) -> Jump:
         env[slot] = code.run(env)
-        return YIELD
+        return Jump.YIELD
 
     return give
 
@@ -540,50 +482,14 @@ def _sequence(runs: Sequence[Run]) -> Run:
     return run
 
 
-def completes(node: Node) -> bool:
-    """Whether a statement can end normally, so that the next one is reached (JLS 14.22)."""
+def falls_through(node: Node) -> bool:
+    """Whether a statement surely can end without a return; what is hard to tell does not."""
     kind, parts = node.type, list(named(node))
-    if kind in JUMPS:
-        return False
     if kind in {"block", "constructor_body"}:
-        return all(map(completes, parts))
+        return all(map(falls_through, parts))
     if kind == "if_statement":
-        return len(parts) < 3 or any(map(completes, parts[1:]))  # noqa: PLR2004 - with its else
-    if kind in {"while_statement", "for_statement", "do_statement"}:
-        condition = text(node.child_by_field_name("condition")).strip("() ")
-        endless = condition == "true" or (not condition and kind == "for_statement")
-        return not endless or _breaks(node.child_by_field_name("body"))
-    if kind == "labeled_statement":
-        return completes(parts[1]) or f"break {text(parts[0])}" in text(node)
-    if kind in {"try_statement", "try_with_resources_statement"}:
-        last = child(node, "finally_clause")
-        ways = [one for one in (node, *parts) if one.type in {kind, "catch_clause"}]
-        bodies = [one.child_by_field_name("body") for one in ways]
-        after = last is None or completes(next(named(last)))
-        return after and any(map(completes, bodies))
-    if kind in {"synchronized_statement", "expression_statement"}:
-        return completes(parts[-1])
-    return kind != "switch_expression" or _switch_completes(node)
+        return len(parts) < 3 or any(map(falls_through, parts[1:]))  # noqa: PLR2004 - with its else
+    return kind in {"expression_statement", "local_variable_declaration", "enhanced_for_statement"}
 
 
-def _switch_completes(node: Node) -> bool:
-    body = node.child_by_field_name("body")
-    parts = [list(named(part)) for part in named(body)]
-    defaults = [part for part in parts if text(part[0]).startswith("default")]
-    if not defaults or _breaks(body):
-        return True
-    arrows = child(body, "switch_rule") is not None
-    ends = [part[-1] for part in (parts if arrows else parts[-1:])]
-    return any(one.type == "switch_label" or completes(one) for one in ends)
-
-
-def _breaks(node: Node) -> bool:
-    """Whether a body has a break of its own, or one with a label."""
-    if node.type == "break_statement":
-        return True
-    if node.type in LOOPS | {"switch_expression", "lambda_expression", "class_body"}:
-        return re.search(r"\bbreak\s+\w", text(node)) is not None
-    return any(map(_breaks, node.named_children))
-
-
-__all__ = ["StatementCompiler", "completes"]
+__all__ = ["StatementCompiler", "falls_through"]

@@ -5,19 +5,19 @@ program runs; only a number that would lose its fraction is refused before.
 """
 
 import functools
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 from tree_sitter import Node
 
 from grader.robotcode.java import type_names, values
 from grader.robotcode.java.classes import NUMBERS, WIDENS, JavaClass
-from grader.robotcode.java.scope import MISSING, Code, Frame, kind_of
+from grader.robotcode.java.scope import Code, Frame, kind_of
 from grader.robotcode.java.syntax import At
 from grader.robotcode.java.values import BOXES, PRIMITIVES
 from grader.robotcode.library.base import Fake
 
-SMALL = frozenset({"byte", "short", "char"})  # a constant of int fits into them if it is small
+SMALL = frozenset({"byte", "short", "char"})  # what an int becomes in them is unknown
 KINDS = {float: "double", int: "int", bool: "boolean", str: "String"}
 
 
@@ -91,7 +91,7 @@ class StaticTypes:
             return ""
         if "boolean" in {source, target}:
             return f"incompatible types: {code.kind} cannot be converted to {kind}"
-        if kind in WIDENS[source] or _fits(target, code.kind, code.constant):
+        if kind in WIDENS[source] or (target in SMALL and source in SMALL | {"int"}):
             return ""
         return f"incompatible types: possible lossy conversion from {code.kind} to {kind}"
 
@@ -133,21 +133,10 @@ def erased_in(owner: JavaClass, kind: str) -> str:
     return kind
 
 
-def _fits(kind: str, given: str, constant: Any) -> bool:
-    """Whether a constant may be assigned to a narrower type, because its value fits."""
-    if constant is MISSING or kind not in SMALL or given not in SMALL | {"int"}:
-        return False
-    number = ord(constant) if given == "char" else int(constant)
-    narrow = values.cast(kind, number)
-    return (ord(narrow) if kind == "char" else int(narrow)) == number
-
-
 def promoted(sign: str, left: str, right: str) -> str:
     """The type of an operation on two types; empty if it cannot be told."""
     if sign == "+" and "String" in (left, right):
         return "String"
-    if sign in {"<<", ">>", ">>>"}:
-        return ("long" if left == "long" else "int") if left in PRIMITIVES else ""
     if left == right == "boolean":
         return "boolean"
     pair = ["int" if one in SMALL else one for one in (left, right)]
@@ -167,14 +156,6 @@ def join_codes(codes: Sequence[Code]) -> str:
     if not (kinds <= {*NUMBERS, "char"} or kinds == {"boolean"}):
         return ""
     kind = functools.reduce(lambda a, b: promoted("+", a, b), sorted(kinds))
-    small = kinds - {"int"}
-    whole = [one for one in codes if BOXES.get(one.kind, one.kind) == "int"]
-    if len(small) == 1 and small <= SMALL and all(one.constant is not MISSING for one in whole):
-        kind = small.pop()
     for one in codes:
-        one.run = _cast_to(kind, one.run)
+        one.run = lambda env, run=one.run: values.cast(kind, run(env))
     return kind
-
-
-def _cast_to(kind: str, run: Callable[[Any], Any]) -> Callable[[Any], Any]:
-    return lambda env: values.cast(kind, run(env))

@@ -1,6 +1,7 @@
 """How far a running program is, and how much of its time it has used."""
 
 import sys
+from typing import Any
 
 from grader.robotcode.java.syntax import At
 
@@ -20,6 +21,19 @@ def allow_deep_calls() -> None:
 
 class EndlessError(BaseException):
     """The program does not come back; no code of a learner can catch this."""
+
+
+class CannotRunError(BaseException):
+    """The program comes to something of Java's that is not run here, whose effect is unknown."""
+
+
+def refuse(what: str) -> Any:
+    """Stop a program that needs something of Java's that is not run here.
+
+    Raises:
+        CannotRunError: always.
+    """
+    raise CannotRunError(what)
 
 
 class State:

@@ -13,7 +13,6 @@ from tree_sitter import Language, Node, Parser
 from grader.robotcode.java.brackets import find_unmatched, refuse_garbage
 from grader.robotcode.problems import ParseProblem
 
-MOST_PROBLEMS = 5  # one mistake makes many; the first ones tell
 # On garbage the parser's repairs take time and memory by the square of the length.
 FIRST = 1_024  # [bytes] parsed first, then twice as much, and so on
 LONGEST = 0.2  # [s of this thread alone: a busy machine must not count] what garbage may take,
@@ -74,13 +73,12 @@ class Source:
         return At(node.start_point[0] + 1, self.path.name)
 
     @cached_property
-    def problems(self) -> tuple[ParseProblem, ...]:
-        """What is not Java, the cause before its echoes."""
+    def problem(self) -> ParseProblem | None:
+        """The first thing that is not Java; None if all is."""
         refuse_garbage(self.text, where=self.path.name)
         if self.root is None:
-            lost = ParseProblem("most of this is not Java", 1)
-            return (find_unmatched(self.text) or lost,)
-        return _find_problems(self.root, self.text) if self.root.has_error else ()
+            return find_unmatched(self.text) or ParseProblem("most of this is not Java", 1)
+        return _find_problem(self.root, self.text) if self.root.has_error else None
 
 
 def _parse(source: bytes) -> Node | None:
@@ -90,28 +88,19 @@ def _parse(source: bytes) -> Node | None:
     return None if late else root
 
 
-def _find_problems(root: Node, text: str) -> tuple[ParseProblem, ...]:
-    bracket = find_unmatched(text)
-    found = _without_a_class(text) if bracket is None else [bracket]
-    waiting = [root]
-    while waiting and len(found) < MOST_PROBLEMS:
-        tree = waiting.pop()
-        if tree.is_missing and bracket is not None and tree.type in "()[]{}":
-            continue  # the parser's repair of the same mistake, farther from its cause
-        if tree.is_missing:
-            line = _find_code_line(text, tree.start_point[0])
-            found.append(ParseProblem(f"a '{tree.type}' is missing", line))
-        elif tree.is_error and bracket is not None and _is_around(tree, bracket):
-            continue  # what the parser made of it
-        elif tree.is_error:
-            row = tree.start_point[0]
-            comma = _DECIMAL_COMMA.search(text.split("\n")[row])
-            said = _POINT.format(comma[0]) if comma else _misread((tree.text or b"").decode())
-            before = _find_no_semicolon(text, *tree.start_point)
-            found.append(before or ParseProblem(said, row + 1))
-        elif tree.has_error:
-            waiting.extend(reversed(tree.children))
-    return tuple(dict.fromkeys(found))
+def _find_problem(root: Node, text: str) -> ParseProblem:
+    found = find_unmatched(text) or _find_no_class(text)
+    if found is not None:
+        return found
+    tree = root
+    while not (tree.is_missing or tree.is_error):
+        tree = next(one for one in tree.children if one.has_error or one.is_missing)
+    row = tree.start_point[0]
+    if tree.is_missing:
+        return ParseProblem(f"a '{tree.type}' is missing", _find_code_line(text, row))
+    comma = _DECIMAL_COMMA.search(text.split("\n")[row])
+    said = _POINT.format(comma[0]) if comma else _misread((tree.text or b"").decode())
+    return _find_no_semicolon(text, *tree.start_point) or ParseProblem(said, row + 1)
 
 
 def _find_code_line(text: str, row: int) -> int:
@@ -135,18 +124,15 @@ def _find_no_semicolon(text: str, row: int, column: int) -> ParseProblem | None:
     return ParseProblem("a ';' is missing at the end of this line", number)
 
 
-def _is_around(tree: Node, cause: ParseProblem) -> bool:
-    return tree.start_point[0] < cause.line <= tree.end_point[0] + 1
-
-
-def _without_a_class(text: str) -> list[ParseProblem]:
+def _find_no_class(text: str) -> ParseProblem | None:
     """What to say of a text that never was Java: a letter, a page, another language."""
     if _CLASS.search(text):
-        return []
+        return None
     first = next((at for at, line in enumerate(text.split("\n"), 1) if line.strip()), 1)
-    if _PYTHON.search(text):
-        return [ParseProblem("this is Python, and a .java file must contain Java", first)]
-    return [ParseProblem(_misread(text.split("\n")[first - 1]), first)]
+    said = "this is Python, and a .java file must contain Java"
+    if not _PYTHON.search(text):
+        said = _misread(text.split("\n")[first - 1])
+    return ParseProblem(said, first)
 
 
 def _misread(text: str) -> str:

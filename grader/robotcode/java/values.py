@@ -1,7 +1,8 @@
-"""Java's values in Python: numbers of a width, characters, arrays, exceptions and operators.
+"""Java's values in Python: numbers, texts, arrays, exceptions and operators.
 
-int is ``int``, double ``float``, boolean ``bool``, String ``str`` and null None; the others have
-classes of their own here. A boxed number is the number: two Integers are ``==`` if they are equal.
+A whole number is ``int``, one with a fraction ``float``, boolean ``bool``, String and char ``str``,
+null None; a boxed number is the number. No robot program counts on a number that wraps around at
+its width, so none does here: what Java would compute then is unknown.
 """
 
 import enum
@@ -9,10 +10,7 @@ import functools
 import math
 import operator
 from collections.abc import Callable, Iterable
-from ctypes import c_float
-from decimal import Decimal
-from types import NoneType
-from typing import Any, Self
+from typing import Any
 
 from grader.robotcode.java.steps import STATE
 from grader.robotcode.library.base import (
@@ -26,66 +24,9 @@ from grader.robotcode.library.base import (
 )
 
 _LANG = "java.lang"
-MIN_INT, MAX_INT = -(2**31), 2**31 - 1
 CHARACTERS = 5_000  # of a text, that cost as much time as a step
 LONGEST_TEXT = 1_000_000  # [characters] of one text
-PLAIN_FROM, PLAIN_BELOW = 1e-3, 1e7  # a double between them is written without an exponent
-
-
-def wrap(value: int, bits: int = 32) -> int:
-    """A whole number as that many bits hold it, in two's complement."""
-    half = 1 << (bits - 1)
-    return ((value + half) & ((1 << bits) - 1)) - half
-
-
-class _SizedInteger(int):
-    """A whole number that wraps around at its width."""
-
-    bits = 0
-
-    def __new__(cls, value: int = 0) -> Self:
-        return super().__new__(cls, wrap(value, cls.bits))
-
-
-class Long(_SizedInteger):
-    """Java's long."""
-
-    bits = 64
-
-
-class Short(_SizedInteger):
-    """Java's short."""
-
-    bits = 16
-
-
-class Byte(_SizedInteger):
-    """Java's byte."""
-
-    bits = 8
-
-
-class Float(float):
-    """Java's float: a double rounded to 24 binary digits."""
-
-    def __new__(cls, value: float = 0.0) -> Self:
-        """The nearest float."""
-        return super().__new__(cls, c_float(value).value)
-
-
-class Char(str):
-    """Java's char: one UTF-16 unit. It never equals a text."""
-
-    __slots__ = ()
-
-    def __eq__(self, other: object) -> bool:
-        return type(other) is Char and str.__eq__(self, other)
-
-    def __ne__(self, other: object) -> bool:
-        return not self == other
-
-    def __hash__(self) -> int:
-        return hash((Char, ord(self)))
+LARGEST = 1 << 63  # no whole number of Java's reaches it
 
 
 class Array(list[Any]):
@@ -100,37 +41,20 @@ class Array(list[Any]):
         super().__init__(items)
         self.kind = kind
 
-    @property
-    def length(self) -> int:
-        """Number of elements."""
-        return len(self)
 
-    def clone(self) -> "Array":
-        """A copy with the same elements."""
-        return Array(self, self.kind)
-
-
-_DEFAULTS = {"int": 0, "long": Long(), "short": Short(), "byte": Byte(), "char": Char("\0")}
-_DEFAULTS |= {"double": 0.0, "float": Float(), "boolean": False}
+_WHOLE, _REAL = ("int", "long", "short", "byte"), ("double", "float")
+_DEFAULTS: dict[str, Any] = dict.fromkeys(_WHOLE, 0) | dict.fromkeys(_REAL, 0.0)
+_DEFAULTS |= {"boolean": False, "char": "\0"}
 PRIMITIVES = frozenset(_DEFAULTS)
 _BOXES = {"int": "Integer", "char": "Character"}  # the others are the same with a capital
 # Type of Python of every primitive kind and of its box.
 TYPES = {kind: type(value) for kind, value in _DEFAULTS.items()}
-KINDS: dict[type, str] = {cls: kind for kind, cls in TYPES.items()}
+KINDS: dict[type, str] = {int: "int", float: "double", bool: "boolean"}
 BOXES = {_BOXES.get(kind, kind.title()): kind for kind in _DEFAULTS}  # Integer: int
 TYPES |= {box: TYPES[kind] for box, kind in BOXES.items()}
-BOX_NAMES = {TYPES[name]: f"java.lang.{name}" for name in BOXES}
-BOX_NAMES[str] = "java.lang.String"
-_ARRAY_CODES = {"int": "I", "long": "J", "boolean": "Z"}  # the others begin with their letter
-_RANKS = {int: 0, Short: 0, Byte: 0, Char: 0, Long: 1, Float: 2, float: 3}
-_PLAIN = frozenset((int, float))
-_REAL_RANK = 2  # from here on a number has a fraction
-FINISH: tuple[Callable[[Any], Any], ...] = (wrap, Long, Float, float)  # by rank
-_MAKERS: dict[str, Callable[[Any], Any]] = {
-    **TYPES,
-    "int": wrap,
-    "char": lambda code: Char(chr(code & 0xFFFF)),
-}
+BOX_NAMES = {int: "Integer", float: "Double", bool: "Boolean", str: "String"}
+_NUMBERS = frozenset((int, float))
+_NARROW = frozenset({"byte", "short", "char"})  # a cast to them may change a number
 
 
 def default_value(kind: str) -> Any:
@@ -153,7 +77,9 @@ def spread(args: Iterable[Any], *, primitive: bool = False) -> list[Any]:
 
 def full_name(cls: type) -> str:
     """Name of a class with its package, as Java writes it in an exception."""
-    known = BOX_NAMES.get(cls) or getattr(vars(cls).get("java"), "full_name", "")
+    if cls in BOX_NAMES:
+        return f"{_LANG}.{BOX_NAMES[cls]}"
+    known = getattr(vars(cls).get("java"), "full_name", "")
     known = known or next((name for name, one in JAVA.items() if one is cls), "")
     package = vars(cls).get("java_package", "")
     return known or f"{package}.{vars(cls).get('java_name', cls.__name__)}".lstrip(".")
@@ -175,8 +101,13 @@ class JavaClass(Fake):
             fake(place, complete=not partial, others=others, name=name)(cls)
 
 
-class Throwable(JavaClass, Exception, package=_LANG, others="setStackTrace"):
-    """java.lang.Throwable: message, cause and what was suppressed; no stack trace."""
+class Throwable(
+    JavaClass,
+    Exception,
+    package=_LANG,
+    others="setStackTrace initCause addSuppressed getSuppressed getStackTrace fillInStackTrace",
+):
+    """java.lang.Throwable: message and cause; no stack trace."""
 
     def __init__(self, message: object = None, cause: object = None, *_options: bool) -> None:
         if isinstance(message, BaseException) and cause is None:
@@ -184,16 +115,10 @@ class Throwable(JavaClass, Exception, package=_LANG, others="setStackTrace"):
         super().__init__(message)
         self._message = message if message is None else to_string(message)
         self._cause = cause
-        self._suppressed: list[Any] = []
 
     getMessage = lambda self: self._message
     getLocalizedMessage = lambda self: self.getMessage()
     getCause = lambda self: self._cause
-    initCause = lambda self, cause: (self, self.__dict__.update(_cause=cause))[0]
-    addSuppressed = lambda self, error: self._suppressed.append(error)
-    getSuppressed = lambda self: Array(self._suppressed, "Throwable")
-    getStackTrace = lambda self: Array((), "StackTraceElement")
-    fillInStackTrace = lambda self: self
     printStackTrace = lambda self, *_to: None
 
     def toString(self) -> str:
@@ -220,10 +145,6 @@ class IllegalArgumentException(RuntimeException, package=_LANG):
     """An argument with a value that is not allowed."""
 
 
-class IllegalStateException(RuntimeException, package=_LANG):
-    """A call at the wrong time."""
-
-
 class NullPointerException(RuntimeException, package=_LANG):
     """null where an object is needed."""
 
@@ -234,10 +155,6 @@ class ArithmeticException(RuntimeException, package=_LANG):
 
 class ClassCastException(RuntimeException, package=_LANG):
     """A cast to a class that the object does not have."""
-
-
-class ArrayStoreException(RuntimeException, package=_LANG):
-    """An element of the wrong class for an array."""
 
 
 class IndexOutOfBoundsException(RuntimeException, package=_LANG):
@@ -252,36 +169,8 @@ class StringIndexOutOfBoundsException(IndexOutOfBoundsException, package=_LANG):
     """Java's exception for a text's index out of bounds."""
 
 
-class NegativeArraySizeException(RuntimeException, package=_LANG):
-    """An array with less than no elements."""
-
-
-class NumberFormatException(IllegalArgumentException, package=_LANG):
-    """A text that is no number."""
-
-
-class UnsupportedOperationException(RuntimeException, package=_LANG):
-    """A change of what cannot be changed."""
-
-
-class ConcurrentModificationException(RuntimeException, package="java.util"):
-    """A collection changed while it is gone through."""
-
-
 class NoSuchElementException(RuntimeException, package="java.util"):
     """There is no such element."""
-
-
-class InterruptedException(JavaException, package=_LANG):
-    """A thread was woken."""
-
-
-class TimeoutException(JavaException, package="java.util.concurrent"):
-    """Something took too long."""
-
-
-class IOException(JavaException, package="java.io"):
-    """Reading or writing failed."""
 
 
 class StackOverflowError(JavaError, package=_LANG):
@@ -292,16 +181,23 @@ class OutOfMemoryError(JavaError, package=_LANG):
     """More data than the memory holds."""
 
 
-class AssertionError(JavaError, package=_LANG):
-    """An assertion that does not hold."""
-
-
 class ExceptionInInitializerError(JavaError, package=_LANG):
     """A static initializer failed."""
 
 
-class NoClassDefFoundError(JavaError, package=_LANG):
-    """A class whose static initializer has failed before."""
+_OTHERS = {  # those that only a learner's program throws
+    RuntimeException: "IllegalStateException UnsupportedOperationException "
+    "NegativeArraySizeException ArrayStoreException",
+    IllegalArgumentException: "NumberFormatException",
+    JavaException: "InterruptedException",
+    JavaError: "AssertionError NoClassDefFoundError",
+}
+for _base, _names in _OTHERS.items():
+    for _name in _names.split():
+        FakeType(_name, (_base,), {"__doc__": _base.__doc__}, package=_LANG)
+for _place in ("java.util.concurrent.TimeoutException", "java.io.IOException"):
+    _package, _, _name = _place.rpartition(".")
+    FakeType(_name, (JavaException,), {"__doc__": JavaException.__doc__}, package=_package)
 
 
 def find_method(value: Any, name: str) -> Any:
@@ -312,6 +208,11 @@ def find_method(value: Any, name: str) -> Any:
 @functools.lru_cache(maxsize=4096)
 def _defines(cls: type, name: str) -> bool:
     return any(name in vars(base) for base in cls.__mro__)
+
+
+def make_unknown(text: str) -> Callable[..., Unknown]:
+    """A method whose result nobody knows."""
+    return lambda *_args: Unknown(text)
 
 
 def find_unknown(*values: object) -> Unknown | None:
@@ -348,121 +249,93 @@ def make_statics(
     return FakeType(simple, (JavaClass,), members, package=package, others=others, partial=partial)
 
 
-def promote(a: Any, b: Any) -> tuple[int, Any, Any]:
-    """Two numbers in the type that Java computes them in, and its rank: int, long, float, double.
+def require_number(value: Any) -> Any:
+    """A number, or a value that nobody knows, such as a character's number.
 
     Raises:
-        NullPointerException: one is null.
-        WrongArgument: one is no number.
+        NullPointerException: it is null.
+        WrongArgument: it is no number.
     """
-    for one in (a, b):
-        if one is None:
-            raise NullPointerException("a number is needed here, and this is null")
-        if type(one) not in _RANKS:
-            raise WrongArgument(f"{describe(one)} is not a number")
-    rank = max(_RANKS[type(a)], _RANKS[type(b)])
-    a, b = (ord(one) if type(one) is Char else one for one in (a, b))
-    return (rank, a, b) if rank < _REAL_RANK else (rank, FINISH[rank](a), FINISH[rank](b))
+    if value is None:
+        raise NullPointerException("a number is needed here, and this is null")
+    if isinstance(value, str) and len(value) == 1:
+        return Unknown("the number of a character")
+    if type(value) not in _NUMBERS:
+        raise WrongArgument(f"{describe(value)} is not a number")
+    return value
 
 
-def _calculate(whole: Callable[..., Any], real: Callable[..., Any], a: Any, b: Any) -> Any:
-    unknown = find_unknown(a, b)
-    if unknown is not None:
-        return unknown
-    if type(a) is bool and type(b) is bool:
-        return whole(a, b)
-    rank, a, b = promote(a, b)
-    result = (whole if rank < _REAL_RANK else real)(a, b)
-    return result if type(result) is bool else FINISH[rank](result)
+def _operator(operate: Callable[[Any, Any], Any]) -> Callable[[Any, Any], Any]:
+    """An operator of Java's for two numbers or two booleans."""
+
+    def run(a: Any, b: Any) -> Any:
+        if type(a) not in _NUMBERS or type(b) not in _NUMBERS:
+            unknown = find_unknown(a, b)
+            if unknown is not None:
+                return unknown
+            if type(a) is bool and type(b) is bool:
+                return operate(a, b)
+            a, b = require_number(a), require_number(b)
+        result = operate(a, b)
+        wide = type(result) is int and not -LARGEST <= result < LARGEST
+        return Unknown("a number beyond 64 bits") if wide else result
+
+    return run
 
 
-def _add_any(whole: Callable[..., Any], real: Callable[..., Any], a: Any, b: Any) -> Any:
-    if find_unknown(a, b) is None and (is_text(a) or is_text(b)):
-        return bound_text(to_string(a) + to_string(b))
-    return _calculate(whole, real, a, b)
+def _whole_operator(operate: Callable[[int, int], int]) -> Callable[[Any, Any], Any]:
+    def run(a: Any, b: Any) -> Any:
+        if type(a) is float or type(b) is float:
+            raise WrongArgument(f"{a} and {b} are not both whole numbers")
+        return operate(a, b)
+
+    return _operator(run)
 
 
-def _operator(
-    whole: Callable[..., Any], real: Callable[..., Any], otherwise: Callable[..., Any] = _calculate
-) -> Callable[[Any, Any], Any]:
-    """An operator of Java's from those for two whole numbers and for two with fractions."""
-
-    def operate(a: Any, b: Any) -> Any:
-        kind = type(a)
-        if kind is type(b):
-            if kind is float:
-                return real(a, b)
-            if kind is int:
-                result = whole(a, b)
-                return result if MIN_INT <= result <= MAX_INT else wrap(result)
-        elif kind in _PLAIN and type(b) in _PLAIN:
-            return real(float(a), float(b))
-        return otherwise(whole, real, a, b)
-
-    return operate
-
-
-def _divide_whole(a: int, b: int) -> int:
-    if b == 0:
-        raise ArithmeticException("/ by zero")
-    quotient = abs(a) // abs(b)
-    return quotient if (a < 0) == (b < 0) else -quotient
-
-
-def _divide_real(a: float, b: float) -> float:
+def _divide(a: Any, b: Any) -> Any:
+    if type(a) is int and type(b) is int:
+        if b == 0:
+            raise ArithmeticException("/ by zero")
+        quotient = abs(a) // abs(b)
+        return quotient if (a < 0) == (b < 0) else -quotient
     if b != 0:
         return a / b
     return math.nan if a == 0 or math.isnan(a) else math.copysign(math.inf, a) * math.copysign(1, b)
 
 
-def _remainder_whole(a: int, b: int) -> int:
-    return a - b * _divide_whole(a, b)
-
-
-def _remainder_real(a: float, b: float) -> float:
+def _remainder(a: Any, b: Any) -> Any:
+    if type(a) is int and type(b) is int:
+        return a - b * _divide(a, b)
     return math.nan if b == 0 or math.isinf(a) else math.fmod(a, b)
 
 
-def _refuse_fraction(a: float, b: float) -> float:
-    raise WrongArgument(f"{to_string(a)} and {to_string(b)} are not both whole numbers")
+def check_range(value: Any) -> Any:
+    """A sum of ints; unknown where it would wrap around in Java."""
+    wraps = type(value) is int and not -(1 << 31) <= value < 1 << 31
+    return Unknown("a number beyond 32 bits") if wraps else value
 
 
-add = _operator(operator.add, operator.add, _add_any)
-subtract = _operator(operator.sub, operator.sub)
-multiply = _operator(operator.mul, operator.mul)
-divide = _operator(_divide_whole, _divide_real)
-remainder = _operator(_remainder_whole, _remainder_real)
-bit_and = _operator(operator.and_, _refuse_fraction)
-bit_or = _operator(operator.or_, _refuse_fraction)
-bit_xor = _operator(operator.xor, _refuse_fraction)
-less = _operator(operator.lt, operator.lt)
-less_equal = _operator(operator.le, operator.le)
-greater = _operator(operator.gt, operator.gt)
-greater_equal = _operator(operator.ge, operator.ge)
+_add_numbers = _operator(operator.add)
+subtract = _operator(operator.sub)
+multiply = _operator(operator.mul)
+divide = _operator(_divide)
+remainder = _operator(_remainder)
+bit_and = _whole_operator(operator.and_)
+bit_or = _whole_operator(operator.or_)
+bit_xor = _whole_operator(operator.xor)
+less = _operator(operator.lt)
+less_equal = _operator(operator.le)
+greater = _operator(operator.gt)
+greater_equal = _operator(operator.ge)
 
 
-def negate(a: Any) -> Any:
-    """Java's ``-a``."""
-    return -a if type(a) is float else multiply(a, -1)
-
-
-def complement(a: Any) -> Any:
-    """Java's ``~a``."""
-    return bit_xor(a, -1)
-
-
-def _shift(operate: Callable[[int, int, int], int]) -> Callable[[Any, Any], Any]:
-    def run(a: Any, distance: Any) -> Any:
-        rank, whole, _ = promote(a, 0)
-        bits = 64 if rank else 32
-        return FINISH[rank](operate(whole, promote(distance, 0)[1] & (bits - 1), bits))
-
-    return propagate(run)
-
-
-shift_left = _shift(lambda a, distance, _: a << distance)
-shift_right = _shift(lambda a, distance, _: a >> distance)
-shift_unsigned = _shift(lambda a, distance, bits: (a & ((1 << bits) - 1)) >> distance)
+def add(a: Any, b: Any) -> Any:
+    """Java's ``a + b``, also of texts."""
+    if (isinstance(a, str) or isinstance(b, str)) and find_unknown(a, b) is None:
+        one, other = to_string(a), to_string(b)
+        unknown = find_unknown(one, other)
+        return bound_text(one + other) if unknown is None else unknown
+    return _add_numbers(a, b)
 
 
 def same(a: Any, b: Any) -> Any:
@@ -473,9 +346,10 @@ def same(a: Any, b: Any) -> Any:
     unknown = find_unknown(a, b)
     if unknown is not None:
         return unknown
-    if type(a) in _RANKS and type(b) in _RANKS:
-        _, a, b = promote(a, b)
+    if type(a) in _NUMBERS and type(b) in _NUMBERS:
         return a == b
+    if type(a) in _NUMBERS or type(b) in _NUMBERS:  # boxed, or a character's number
+        return Unknown("such a comparison") if isinstance(a, str) or isinstance(b, str) else False
     return a is b or (type(a) is type(b) and type(a) in (str, bool) and a == b)
 
 
@@ -489,11 +363,17 @@ def cast(kind: str, value: Any) -> Any:
     """Java's ``(kind) value`` for a primitive kind; for another kind the value as it is."""
     if kind not in _DEFAULTS or type(value) in (bool, Unknown):
         return value
-    number = promote(value, 0)[1]
-    if isinstance(number, float) and not kind.startswith(("double", "float")):
-        edge = 1 << (63 if kind == "long" else 31)
-        number = 0 if math.isnan(number) else int(max(-edge, min(edge - 1, number)))
-    return _MAKERS[kind](number)
+    if kind == "char" and isinstance(value, str):
+        return value
+    number = require_number(value)
+    if kind in _NARROW or type(number) is Unknown:
+        return Unknown(f"({kind})")
+    if type(number) is int and kind in _WHOLE:
+        return check_range(number) if kind == "int" else number
+    if kind in _REAL:
+        return float(number)
+    edge = LARGEST if kind == "long" else 1 << 31
+    return 0 if math.isnan(number) else int(max(-edge, min(edge - 1, number)))
 
 
 def convert(kind: str, value: Any) -> Any:
@@ -508,14 +388,13 @@ def convert(kind: str, value: Any) -> Any:
         return value
     if value is None and kind[0].isupper():
         return None
-    if type(value) is bool or wanted is bool or promote(value, 0)[0] > _RANKS[wanted]:
-        raise WrongArgument(f"{describe(value)} is no {kind}: it needs a cast")
-    return cast(KINDS[wanted], value)
-
-
-def is_text(value: object) -> bool:
-    """Whether a value is a String."""
-    return isinstance(value, str) and type(value) is not Char
+    if wanted is float and type(value) is int:
+        return float(value)
+    if wanted is str and type(value) is int:
+        return Unknown("the character of a number")
+    if wanted is not bool and type(value) is not bool and type(value) not in _NUMBERS:
+        return require_number(value)
+    raise WrongArgument(f"{describe(value)} is no {kind}: it needs a cast")
 
 
 def bound_text(text: str) -> str:
@@ -526,72 +405,34 @@ def bound_text(text: str) -> str:
     return text
 
 
-def decimal_text(value: float) -> str:
-    """The shortest decimal number that reads back as that double or float."""
-    if type(value) is not Float or not math.isfinite(value):
-        return repr(float(value))
-    texts = (f"{value:.{digits}g}" for digits in range(1, 10))
-    return repr(float(next(text for text in texts if Float(float(text)) == value)))
-
-
-def _write_real(value: float) -> str:
-    if not math.isfinite(value):
-        return "NaN" if math.isnan(value) else f"{'-' * (value < 0)}Infinity"
-    text = decimal_text(value)
-    if value == 0 or PLAIN_FROM <= abs(float(text)) < PLAIN_BELOW:
-        return text
-    shortest = f"{Decimal(text).normalize():E}"
-    two_digits = shortest if "." in shortest else f"{value:.1E}"
-    mantissa, _, exponent = two_digits.partition("E")
-    return f"{mantissa}E{int(exponent)}"
-
-
-_WRITERS: dict[type, Callable[[Any], Any]] = {
-    **dict.fromkeys((int, Long, Short, Byte, Char), str),
-    **dict.fromkeys((float, Float), _write_real),
-    bool: lambda value: "true" if value else "false",
-    NoneType: lambda _: "null",
-    Unknown: lambda value: value,
-}
+_WORDS = {None: "null", True: "true", False: "false"}
 
 
 def to_string(value: Any) -> Any:
     """Java's String.valueOf. Of what nobody knows, the text is unknown, too."""
-    kind = type(value)
-    if kind is str:
+    if isinstance(value, str | Unknown):
         return value
-    if kind in _WRITERS:
-        return _WRITERS[kind](value)
+    if value is None or type(value) is bool:
+        return _WORDS[value]
+    if type(value) in _NUMBERS:
+        text = str(value)
+        return text if text.strip("-.0123456789") == "" else Unknown("the text of such a number")
     STATE.tick()
     method = find_method(value, "toString")
     if method is not None:
         return method()
     if isinstance(value, enum.Enum):
         return value.name
-    if kind in (list, tuple):
+    if type(value) in (list, tuple):
         return write_items(value)
-    if kind is Array:
-        element = value.kind
-        named = f"L{element};" if element[0].isupper() else element[0].upper()
-        return f"[{_ARRAY_CODES.get(element, named)}@{hash_code(value):x}"
-    return f"{full_name(kind)}@{hash_code(value) & 0xFFFFFFFF:x}"
+    return Unknown(f"the text of a {type(value).__name__}")
 
 
-def join_texts(separator: str, texts: Iterable[str]) -> str:
-    """Texts with a separator between, unless they are too long for the memory."""
-    parts, length = [], 0
-    for one in texts:
-        length += len(one) + len(separator)
-        if length > LONGEST_TEXT:
-            raise OutOfMemoryError("Java heap space")
-        parts.append(one)
-    return separator.join(parts)
-
-
-def write_items(items: Iterable[Any], start: str = "[", end: str = "]") -> str:
-    """Items as Java writes a collection: ``[a, b]``. What is unknown in it is a question mark."""
-    texts = ("?" if type(one) is Unknown else to_string(one) for one in items)
-    return start + join_texts(", ", texts) + end
+def write_items(items: Iterable[Any], start: str = "[", end: str = "]") -> Any:
+    """Items as Java writes a collection: ``[a, b]``. It is unknown where one of them is."""
+    texts = [to_string(one) for one in items]
+    unknown = find_unknown(*texts)
+    return bound_text(start + ", ".join(texts) + end) if unknown is None else unknown
 
 
 def equals(a: Any, b: Any) -> Any:
@@ -599,8 +440,6 @@ def equals(a: Any, b: Any) -> Any:
     unknown = find_unknown(a, b)
     if a is b or unknown is not None:
         return True if unknown is None else unknown
-    if isinstance(a, float) and type(a) is type(b):
-        return (a == b and math.copysign(1, a) == math.copysign(1, b)) or (a != a and b != b)  # noqa: PLR0124
     if type(a) in BOX_NAMES:
         return type(a) is type(b) and a == b
     STATE.tick()
@@ -611,20 +450,11 @@ def equals(a: Any, b: Any) -> Any:
     return plain and all(map(equals, a, b))
 
 
-def hash_items(hashes: Iterable[int], start: int = 0) -> int:
-    """Java's hash of a sequence, from those of its elements."""
-    return wrap(functools.reduce(lambda sofar, one: (31 * sofar + one) & 0xFFFFFFFF, hashes, start))
-
-
 def hash_code(value: Any) -> int:
-    """Java's hashCode, of a text and a whole number; for anything else some number of its own."""
-    if isinstance(value, str):
-        return hash_items(map(ord, value))
-    if value is None or type(value) in BOX_NAMES:
-        return wrap(hash(value))
-    STATE.tick()
+    """A hash for Python's dictionaries, by the program's own hashCode where it has one."""
     method = find_method(value, "hashCode")
-    return id(value) & MAX_INT if method is None else method()
+    found = id(value) if method is None else method()
+    return found if type(found) is int else 0
 
 
 def compare(a: Any, b: Any) -> Any:
@@ -650,14 +480,10 @@ def compare(a: Any, b: Any) -> Any:
     return method(b)
 
 
-class JavaEnum(JavaClass, package=_LANG, name="Enum"):
+class JavaEnum(JavaClass, package=_LANG, name="Enum", others="hashCode getDeclaringClass"):
     """Base of a learner's enums. Each constant has ``_name`` and ``_ordinal``."""
 
     name = toString = __str__ = lambda self: self._name
     ordinal = lambda self: self._ordinal
     compareTo = lambda self, other: self._ordinal - other._ordinal
     equals = lambda self, other: self is other
-    hashCode = lambda self: hash_code(self._name)
-    getDeclaringClass = lambda self: JAVA["java.lang.Class"].of(
-        type(self) if type(self).java.form == "enum" else type(self).__mro__[1]
-    )

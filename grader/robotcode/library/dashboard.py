@@ -140,10 +140,6 @@ class SmartDashboard(Fake):
         name, value = ("", key) if data is None else (key, data)
         publish(cls._find(name or type(value).__name__), value)
 
-    @classmethod
-    def containsKey(cls, key: str) -> bool:
-        return cls._find(key) in WORLD.network
-
 
 @fake("edu.wpi.first.wpilibj org.wpilib.preferences", "wpilib")
 @add_kinds("set", "init")

@@ -44,17 +44,7 @@ class Alliance(Enum):
     Blue = kBlue = BLUE = 1
 
 
-class MatchType(Enum):
-    """What is being played."""
-
-    None_ = kNone = NONE = 0
-    Practice = kPractice = PRACTICE = 1
-    Qualification = kQualification = QUALIFICATION = 2
-    Elimination = kElimination = ELIMINATION = 3
-
-
 JAVA["org.wpilib.driverstation.Alliance"] = Alliance
-JAVA["org.wpilib.driverstation.MatchType"] = MatchType
 
 
 def is_in_test_mode() -> bool:
@@ -95,43 +85,14 @@ class DriverStation(RobotState):
     """The driver station (allwpilib v2026, wpilibj/.../DriverStation.java)."""
 
     Alliance = Alliance
-    MatchType = MatchType
 
     getAlliance = _ask(object, lambda: make_optional(Alliance.__members__.get(WORLD.alliance)))
-    getLocation = _ask(object, lambda: make_optional(1 if WORLD.alliance else None))
     getMatchTime = _ask(float, lambda: NO_MATCH_TIME)
-    getMatchType = _ask(MatchType, lambda: MatchType(2 if WORLD.fms else 0))
-    getMatchNumber = _ask(int, lambda: int(WORLD.fms))
-    getReplayNumber = _ask(int, lambda: 0)
-    getEventName = _ask(str, lambda: "EVENT" if WORLD.fms else "")
-    getGameSpecificMessage = _ask(str, lambda: "")
     getBatteryVoltage = _ask(float, lambda: WORLD.battery)
 
     @staticmethod
     def isJoystickConnected(stick: int) -> bool:
         return stick in WORLD.joysticks
-
-    getJoystickIsXbox = isJoystickConnected
-
-    @staticmethod
-    def getStickButton(stick: int, button: int) -> bool:
-        return button in read_joystick(stick).buttons
-
-    @staticmethod
-    def getStickButtonPressed(stick: int, button: int) -> bool:
-        return check_edge(stick, button, pressed=True)
-
-    @staticmethod
-    def getStickButtonReleased(stick: int, button: int) -> bool:
-        return check_edge(stick, button, pressed=False)
-
-    @staticmethod
-    def getStickAxis(stick: int, axis: int) -> float:
-        return read_joystick(stick).axes.get(axis, 0.0)
-
-    @staticmethod
-    def getStickPOV(stick: int, pov: int = 0) -> int:
-        return read_joystick(stick).pov if pov == 0 else -1
 
 
 @fake(WPILIB, "wpilib")
@@ -143,8 +104,6 @@ class RobotController(Fake):
         Measure, lambda: CONSTANTS["Volts"].of(WORLD.battery)
     )
     getFPGATime = getTime = getMonotonicTime = _ask(int, lambda: round(WORLD.time * MICROSECONDS))
-    getUserButton = isBrownedOut = _ask(bool, lambda: False)
-    isSysActive = _ask(bool, lambda: WORLD.enabled)
 
 
 @fake(FRAMEWORK, "wpilib")
@@ -220,42 +179,22 @@ class Notifier(Fake):
     close = stop
 
 
-class _Input(Device):
-    """A sensor on a port of the robot controller, whose ``_value`` the bench sets."""
-
-    _value: Any = 0.0
-
-    def __init__(self, channel: Any, *settings: Any) -> None:
-        self._register("DIO" if self._value is False else "analog", channel)
-
-
 @fake("edu.wpi.first.wpilibj org.wpilib.hardware.discrete", "wpilib")
-class DigitalInput(_Input):
-    """A switch (allwpilib v2026, wpilibj/.../DigitalInput.java)."""
+class DigitalInput(Device):
+    """A switch (allwpilib v2026, wpilibj/.../DigitalInput.java), whose state the bench sets."""
 
     _value = False
+
+    def __init__(self, channel: Any) -> None:
+        self._register("DIO", channel)
 
     def get(self) -> bool:
         return self._value
 
 
-@fake("edu.wpi.first.wpilibj org.wpilib.hardware.discrete", "wpilib")
-class AnalogInput(_Input):
-    """A voltage that is measured (allwpilib v2026, wpilibj/.../AnalogInput.java)."""
-
-    def getVoltage(self) -> float:
-        return self._value
-
-
-@fake("edu.wpi.first.wpilibj org.wpilib.hardware.rotation", "wpilib")
-class AnalogPotentiometer(_Input):
-    """A potentiometer (allwpilib v2026, wpilibj/.../AnalogPotentiometer.java)."""
-
-    def get(self) -> float:
-        return self._value
-
-
 for _name in (
+    "AnalogInput",
+    "AnalogPotentiometer",
     "Solenoid",
     "DoubleSolenoid",
     "PowerDistribution",

@@ -50,17 +50,8 @@ class Timer(Fake):
         self.reset()
         self._running = True
 
-    def isRunning(self) -> bool:
-        return self._running
-
     def hasElapsed(self, period: Any) -> bool:  # a number or a Time
         return self.get() >= in_seconds(period)
-
-    def advanceIfElapsed(self, period: Any) -> bool:  # a number or a Time
-        elapsed = self.hasElapsed(period)
-        if elapsed:
-            self._started += in_seconds(period)
-        return elapsed
 
     @staticmethod
     def delay(seconds: float) -> None:
@@ -70,25 +61,11 @@ class Timer(Fake):
     def getFPGATimestamp() -> float:
         return WORLD.time
 
-    @staticmethod
-    def getTimestamp() -> float:
-        return WORLD.time
-
-    @staticmethod
-    def getMonotonicTimestamp() -> float:
-        return WORLD.time
+    getTimestamp = getMonotonicTimestamp = getFPGATimestamp
 
     @staticmethod
     def getMatchTime() -> float:
         return NO_MATCH_TIME
-
-
-@fake(WPILIB, "wpilib")
-class Watchdog(Fake):
-    """Warns of loops that take too long, which on the bench none does."""
-
-    def isExpired(self) -> bool:
-        return False
 
 
 PYTHON.setdefault("wpilib", {}).update(wait=wait, getTime=Timer.getTimestamp)

@@ -4,19 +4,11 @@ import math
 from typing import Any
 
 from grader.robotcode.library.base import PYTHON, TABLES, Fake, Unknown, checked, fake
-from grader.robotcode.library.units import CONSTANTS, Measure, base_value
 from grader.robotcode.library.world import PERIOD, WORLD
-
-NO_INERTIA = 1e-9  # [V/(m/s^2)] below this kA a motor counts as following at once
 
 
 def _packages(folder: str) -> str:
     return f"edu.wpi.first.math.{folder} org.wpilib.math.{folder}"
-
-
-def _sign(value: float) -> float:
-    """Java's signum: 0 for 0."""
-    return math.copysign(1.0, value) if value else 0.0
 
 
 def _unknown(*values: Any) -> Any:
@@ -41,95 +33,49 @@ def _add_setting(cls: type, name: str, attribute: str, kind: type = float) -> No
 class Feedforward(Fake):
     """What all feedforwards share: ``ks``, ``kg``, ``kv``, ``ka`` are its gains at the moment.
 
-    ``_given``: the gains as they were passed. ``_follows``: whether the last number of
-    ``calculate`` is the next velocity, as from 2027 on and in RobotPy; else an acceleration.
+    What it computes is unknown: no test of SysId depends on it.
     """
 
-    _follows = False
-
-    def _register(self, period: Any, **gains: Any) -> None:
+    def _register(self, **gains: Any) -> None:
         self.kg = 0.0
         self.__dict__.update(gains)
-        self._given, self._period, self._line = gains, period, WORLD.where()
+        self._line = WORLD.where()
         WORLD.singletons.setdefault("feedforwards", []).append(self)
 
-    def _volts(self, velocity: Any, other: Any, angle: Any = 0.0, *, follows: bool = False) -> Any:
-        """The voltage for a velocity, and for an acceleration or the velocity a loop later."""
-        now, later, turned = base_value(velocity), base_value(other), base_value(angle)
-        volts = _unknown(now, later, turned, self.ks, self.kg, self.kv, self.ka)
-        if volts is None:
-            steady = self.ks * _sign(now) + self.kg * math.cos(turned)
-            if later is None or not (follows or self._follows):
-                volts = steady + self.kv * now + self.ka * (later or 0.0)
-            elif self.ka < NO_INERTIA:
-                volts = steady + self.ks * (_sign(later) - _sign(now)) + self.kv * later
-            else:  # exact for a motor whose voltage holds for a whole loop
-                kept = math.exp(-self.kv / self.ka * self._period)
-                gained = (1 - kept) / self.kv if self.kv else self._period / self.ka
-                volts = steady + (later - kept * now) / gained
-        return CONSTANTS["Volts"].of(volts) if isinstance(velocity, Measure) else volts
 
-
-@fake()
-class _Linear(Feedforward):
-    """A feedforward whose gravity does not depend on the position."""
-
-    def calculate(self, velocity: Any, other: Any = None) -> Any:
-        return self._volts(velocity, other)
-
-    def calculateWithVelocities(self, currentVelocity: float, nextVelocity: float) -> float:
-        return self._volts(currentVelocity, nextVelocity, follows=True)
-
-
-class SimpleMotorFeedforward(_Linear):
+class SimpleMotorFeedforward(Feedforward):
     """Of a flywheel or a drivetrain: allwpilib v2026.2.2, .../SimpleMotorFeedforward.java."""
 
     def __init__(self, kS: float, kV: float, kA: float = 0.0, dt: float = PERIOD) -> None:
-        self._register(dt, ks=kS, kv=kV, ka=kA)
+        self._register(ks=kS, kv=kV, ka=kA)
 
 
-class ElevatorFeedforward(_Linear):
+class ElevatorFeedforward(Feedforward):
     """Of an elevator: allwpilib v2026.2.2, wpimath/.../ElevatorFeedforward.java."""
 
     def __init__(
         self, kS: float, kG: float, kV: float, kA: float = 0.0, dt: float = PERIOD
     ) -> None:
-        self._register(dt, ks=kS, kg=kG, kv=kV, ka=kA)
+        self._register(ks=kS, kg=kG, kv=kV, ka=kA)
 
 
 class ArmFeedforward(ElevatorFeedforward):
-    """Of an arm, whose angle is 0 where it is level: .../ArmFeedforward.java.
-
-    WPILib lets gravity change while the arm turns during a loop; here it does not.
-    """
-
-    def calculate(  # type: ignore[override]  # as WPILib has it
-        self, angle: Any, velocity: Any, other: Any = None
-    ) -> Any:
-        return self._volts(velocity, other, angle)
-
-    def calculateWithVelocities(  # type: ignore[override]  # the same
-        self, currentAngle: float, currentVelocity: float, nextVelocity: float
-    ) -> float:
-        return self._volts(currentVelocity, nextVelocity, currentAngle, follows=True)
+    """Of an arm, whose angle is 0 where it is level: .../ArmFeedforward.java."""
 
 
 for _gain in ("Ks", "Kv", "Ka"):
-    _add_setting(_Linear, _gain, _gain.lower())
+    _add_setting(Feedforward, _gain, _gain.lower())
 _add_setting(ElevatorFeedforward, "Kg", "kg")
-_others = TABLES["others"]["feedforwards"]
-for _cls, _python in (
-    (SimpleMotorFeedforward, "SimpleMotorFeedforwardMeters SimpleMotorFeedforwardRadians"),
-    (ElevatorFeedforward, "ElevatorFeedforward"),
-    (ArmFeedforward, "ArmFeedforward"),
-):
-    fake("edu.wpi.first.math.controller", complete=True, others=TABLES["others"]["feedforwards"])(
-        _cls
-    )
-    _new = type(_cls.__name__, (_cls,), {"_follows": True, "__doc__": _cls.__doc__})
-    fake("org.wpilib.math.controller", complete=True)(_new)
-    for _name in _python.split():
-        fake("", "wpimath.controller", complete=True, name=_name)(_new)
+for _cls in (SimpleMotorFeedforward, ElevatorFeedforward, ArmFeedforward):
+    fake(
+        _packages("controller"),
+        "wpimath.controller",
+        complete=True,
+        others=TABLES["others"]["feedforwards"],
+    )(_cls)
+for _unit in ("Meters", "Radians"):  # RobotPy has it under two names
+    PYTHON["wpimath.controller"][f"SimpleMotorFeedforward{_unit}"] = SimpleMotorFeedforward
+del PYTHON["wpimath.controller"]["SimpleMotorFeedforward"]
 
 
 @fake(_packages("trajectory"), "wpimath.trajectory")
@@ -146,31 +92,17 @@ class TrapezoidProfile(Fake):
 PYTHON["wpimath.trajectory"]["TrapezoidProfileRadians"] = TrapezoidProfile
 
 
-@fake()
 class Controller(Fake):
     """What PIDController and ProfiledPIDController share: ``_p``, ``_i``, ``_d`` are its gains.
 
-    ``_given``: the gains as they were passed.
+    What it computes is unknown: no test of SysId depends on it.
     """
 
-    def _register(self, gains: tuple[Any, ...], period: float) -> None:
-        self._given, self._period, self._line = gains, period, WORLD.where()
-        self._p, self._i, self._d = gains
+    def __init__(self, Kp: float, Ki: float, Kd: float, *_more: Any) -> None:
+        self._line = WORLD.where()
         self._i_zone = math.inf
-        self.reset()
+        self.setPID(Kp, Ki, Kd)
         WORLD.singletons.setdefault("pids", []).append(self)
-
-    def reset(self) -> None:
-        self._error = self._rate = self._sum = 0.0
-
-    def _act(self, measurement: Any, setpoint: Any) -> Any:
-        unknown = _unknown(measurement, setpoint, self._p, self._i, self._d)
-        if unknown is not None:
-            return unknown
-        error = setpoint - measurement
-        self._error, self._rate = error, (error - self._error) / self._period
-        self._sum += error * self._period
-        return self._p * error + self._i * self._sum + self._d * self._rate
 
     def setPID(self, Kp: float, Ki: float, Kd: float) -> None:
         self._p, self._i, self._d = Kp, Ki, Kd
@@ -180,31 +112,14 @@ class Controller(Fake):
 class PIDController(Controller):
     """A PID controller: allwpilib v2026.2.2, wpimath/.../PIDController.java."""
 
-    def __init__(self, Kp: float, Ki: float, Kd: float, period: float = PERIOD) -> None:
-        self._register((Kp, Ki, Kd), period)
-        self._setpoint = 0.0
-
-    def calculate(self, measurement: float, setpoint: float = None) -> float:  # noqa: RUF013
-        self._setpoint = self._setpoint if setpoint is None else setpoint
-        return self._act(measurement, self._setpoint)
-
 
 @fake(_packages("controller"), "wpimath.controller")
 class ProfiledPIDController(Controller):
-    """A PID controller along a profile, whose output is unknown: .../ProfiledPIDController.java."""
-
-    def __init__(
-        self, Kp: float, Ki: float, Kd: float, constraints: Any, period: float = PERIOD
-    ) -> None:
-        self._register((Kp, Ki, Kd), period)
-
-    def reset(self, *_measured: Any) -> None:
-        super().reset()
+    """A PID controller along a profile: .../ProfiledPIDController.java."""
 
 
 for _name, _attribute in (("P", "_p"), ("I", "_i"), ("D", "_d"), ("IZone", "_i_zone")):
     _add_setting(Controller, _name, _attribute)
-_add_setting(PIDController, "Setpoint", "_setpoint")
 PYTHON["wpimath.controller"]["ProfiledPIDControllerRadians"] = ProfiledPIDController
 
 

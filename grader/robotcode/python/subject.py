@@ -25,7 +25,6 @@ from grader.robotcode.bench.subject import Subject, list_choices, list_made, mak
 from grader.robotcode.library.base import NEARLY, Fake, Unknown
 from grader.robotcode.library.world import WORLD
 from grader.robotcode.python.imports import (
-    MARK,
     FakeFinder,
     OwnFinder,
     rename,
@@ -269,17 +268,7 @@ class PythonSubject(Subject):
         return {
             "errors": (),
             "unknown": {restore(str(name)): int(line) for name, line in unknown.items()},
-            "constants": dict(self._constants()),
         }
-
-    def _constants(self) -> Iterator[tuple[str, float]]:
-        for module in self.modules:
-            own = [one for one in vars(module).values() if isinstance(one, type)]
-            for place in (*(one for one in own if one.__module__ == module.__name__), module):
-                for name, value in vars(place).items():
-                    number = isinstance(value, int | float) and not isinstance(value, bool)
-                    if number and not name.startswith("__"):
-                        yield name.replace(MARK, "_"), float(value)
 
     # -- buttons ----------------------------------------------------------------------------
 
