@@ -38,7 +38,6 @@
 # %%
 from dataclasses import replace
 
-import ipywidgets as widgets
 import numpy as np
 from IPython.display import display
 
@@ -52,15 +51,12 @@ from sim.physics.model import Part
 from sim.physics.motors import find_motor
 from sim.plot import (
     Line,
-    Picture,
     Table,
     plot_curves,
-    plot_gain_errors,
     plot_time_series,
-    plot_voltage_velocity,
-    show_interactive,
 )
 from sim.plot.animation import (
+    Choice,
     Gain,
     Knob,
     Motion,
@@ -70,6 +66,7 @@ from sim.plot.animation import (
     TestPlan,
     animate_mechanism,
 )
+from sim.plot.animation.charts import Chart, Curve, animate_charts, chart_gain_errors
 from sim.teaching.gain_errors import compute_gain_errors, simulate_rows
 
 drivetrain, shooter = MECHANISMS["drivetrain"], MECHANISMS["shooter"]
@@ -185,49 +182,42 @@ def read_off(mechanism: Mechanism, ramp: float) -> tuple[sim.Log, Line]:
     return slow, Line(float(intercept), float(slope))
 
 
-RAMPS = [0.1, 0.25, 0.5, 0.75, 1.0]
+RAMPS = [round(0.1 * number, 1) for number in range(1, 11)]
 SHOWN = {"drivetrain": drivetrain, "flywheel": shooter}
 drifts = {
-    name: [read_off(mechanism, ramp)[1].intercept for ramp in RAMPS]
-    for name, mechanism in SHOWN.items()
+    name: {ramp: read_off(mechanism, ramp) for ramp in RAMPS} for name, mechanism in SHOWN.items()
 }
 
 
-def drift_picture(name: str, ramp: float) -> list[Picture]:
+def drift_charts(name: str, ramp: float) -> list[Chart]:
     """The ramp with its line, and the kS of that line for each ramp."""
-    gains = SHOWN[name].gains
-    slow, line = read_off(SHOWN[name], ramp)
-    rule = [gains["kS"] + gains["kA"] / gains["kV"] * one for one in RAMPS]
+    gains, (slow, line) = SHOWN[name].gains, drifts[name][ramp]
+    run = slow.list_runs_of_test("quasistatic-forward")[0]
+    speed = run.velocity / (1.0 if name == "drivetrain" else 2.0 * np.pi)
+    few = slice(None, None, max(1, len(run) // 100))
+    ends = np.array([0.0, speed.max()])
+    found = [line.intercept for _, line in drifts[name].values()]
+    tau = gains["kA"] / gains["kV"]
+    rule = [gains["kS"] + tau * one for one in RAMPS]
+    unit = "m/s" if name == "drivetrain" else "rot/s"
     return [
-        plot_voltage_velocity(slow, lines={"straight line": line}),
-        plot_curves(
-            RAMPS,
-            {"kS read off": drifts[name], "true kS + τ·ramp": rule},
-            xlabel="ramp [V/s]",
-            ylabel="kS [V]",
-            levels={"the true kS": gains["kS"]},
-            marked=(ramp, line.intercept),
-            mark="the line in the picture above",
-        ),
-    ]
+        Chart(f"velocity [{unit}]", "voltage [V]", (
+            Curve("samples", speed[few], run.voltage[few], "dots", 0),
+            Curve("straight line", ends, line.intercept + line.slope * ends, "line", 1),
+        ), title=f"τ = {1000 * tau:.0f} ms"),
+        Chart("ramp [V/s]", f"kS of the {name} [V]", (
+            Curve("true kS", [0.0, 1.0], [gains["kS"], gains["kS"]], "dashed"),
+            Curve("true kS + τ·ramp", RAMPS, rule, "line", 2),
+            Curve("kS of each line", RAMPS, found, "dots", 0),
+            Curve("this ramp", [ramp], [line.intercept], "dots", 1, [f"{line.intercept:.3f} V"]),
+        )),
+    ]  # fmt: skip
 
 
-show_interactive(
-    drift_picture,
-    name=widgets.Dropdown(options=list(SHOWN), description="mechanism"),
-    ramp=widgets.SelectionSlider(options=RAMPS, value=0.5, description="ramp [V/s]"),
-)
-
-# %%
-rows = []
-for name, mechanism in SHOWN.items():
-    gains = mechanism.gains
-    rows.append(
-        (name, 1000 * gains["kA"] / gains["kV"], gains["kS"], drifts[name][-1], drifts[name][0])
-    )
-Table(
-    ("mechanism", "τ [ms]", "true kS [V]", "read off at 1 V/s [V]", "read off at 0.1 V/s [V]"),
-    tuple(rows),
+animate_charts(
+    drift_charts,
+    choices=(Choice("mechanism", tuple(SHOWN)),),
+    knobs=(Knob("ramp", "ramp [V/s]", low=0.1, high=1.0, step=0.1, value=0.5),),
 )
 
 # %% [markdown]
@@ -283,7 +273,7 @@ Table(
 # bar of a gain shows its *standard error* (the typical error from noise alone). A bar as long as
 # the gain itself means: this gain is **unknown**.
 #
-# **Predict** before you switch tests off:
+# **Predict** before you make tests shorter:
 
 # %%
 display(ask_question("lesson3.drop"), ask_question("lesson3.ramps"))
@@ -292,20 +282,23 @@ display(ask_question("lesson3.drop"), ask_question("lesson3.ramps"))
 all_rows = simulate_rows(drivetrain, routine)
 
 
-def show_gain_errors(**tests: bool) -> Picture:
-    """Bars of the gains' errors in a fit of the ticked tests."""
-    used = {test: all_rows[test] for test, ticked in tests.items() if ticked}
-    return plot_gain_errors(compute_gain_errors(drivetrain, used))
+def show_gain_errors(*kept: float) -> Chart:
+    """Bars of the gains' errors in a fit of a part of each test."""
+    used = {
+        test: rows.select(slice(round(percent / 100 * len(rows))))
+        for (test, rows), percent in zip(all_rows.items(), kept, strict=True)
+    }
+    return chart_gain_errors(compute_gain_errors(drivetrain, used))
 
 
-show_interactive(
+animate_charts(
     show_gain_errors,
-    **{test: widgets.Checkbox(value=True, description=test) for test in all_rows},
+    knobs=[Knob(test, f"{test} [%]", 0.0, 100.0, 25.0, 100.0) for test in all_rows],
 )
 
 # %% [markdown]
-# Switch tests off and on again. Which single test can you leave out? With the ramps alone, kS and
-# kA are uncertain, because a ramp shows mainly the sum kS + τ·ramp (section 3).
+# Set a test to 0 %, and back to 100 %. Which single test can you leave out? With the ramps alone,
+# kS and kA are uncertain, because a ramp shows mainly the sum kS + τ·ramp (section 3).
 
 # %% [markdown]
 # ### Explain

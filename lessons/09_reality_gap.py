@@ -56,7 +56,6 @@
 from pathlib import Path
 from textwrap import fill
 
-import ipywidgets as widgets
 import numpy as np
 from IPython.display import display
 
@@ -66,15 +65,11 @@ from sim.bench.mechanisms import MECHANISMS
 from sim.fit import fit
 from sim.physics.effects import EFFECTS
 from sim.physics.model import Model, Part
-from sim.plot import (
-    Picture,
-    Table,
-    plot_curves,
-    plot_voltage_residual,
-    show_interactive,
-)
+from sim.plot import Table, make_residual_views, plot_curves
 from sim.plot.animation import Choice, Motion, Panel, Scene, animate_mechanism
+from sim.plot.animation.charts import Chart, Curve, animate_charts
 from sim.plot.animation.of_logs import animate_model
+from sim.plot.decimate import decimate_cloud
 from sim.plot.effect_search import EffectSearch
 from sim.plot.story import make_findings_table, plot_remaining_gap
 from sim.reconcile import reconcile
@@ -208,20 +203,35 @@ display(*(ask_question(f"lesson9.{robot}") for robot in "abcd"))
 
 
 # %%
-def under_the_microscope(which: str) -> Picture:
+UNITS = ("speed [m/s]", "time [s]", "position [m]", "voltage [V]", "−1 reverse, 1 forward")
+
+
+def under_the_microscope(which: str) -> list[Chart]:
     """The voltage residual of one of the four robots, in five plots."""
-    return plot_voltage_residual(suspects[which], true_model)
+    views = make_residual_views(suspects[which], true_model).views
+    high = 1.5 * float(np.quantile(np.abs(views["speed"].volts), 0.98))
+    charts = []
+    for label, (name, view) in zip(UNITS, views.items(), strict=True):
+        kept = decimate_cloud(np.nan_to_num(view.at), view.volts, most=120)
+        middle = 0.5 * (view.edges[:-1] + view.edges[1:])
+        curves = (
+            Curve("samples", view.at[kept], view.volts[kept], "dots", 4),
+            Curve("mean of nearby samples", middle, view.mean, "line", 1),
+        )
+        title = f"{name}: {100 * view.explains:.0f} %"
+        charts.append(Chart(label, "residual [V]", curves, title=title, y=(-high, high)))
+    return charts
 
 
-show_interactive(
-    under_the_microscope, which=widgets.Dropdown(options=list(suspects), description="robot")
+animate_charts(
+    under_the_microscope,
+    choices=(Choice("robot", tuple(suspects)),),
 )
 
 # %% [markdown]
 # The line shows the mean of nearby samples. The percentage above each plot says how much of the
 # (squared) voltage residual beyond noise follows this line. Compare the percentages of each robot.
-# They can be more than 100 % together, because one effect can show in two plots. The title says how
-# much no plot explains. The last plot is the run with the largest error.
+# They can be more than 100 % together, because one effect can show in two plots.
 
 # %% [markdown]
 # ### Explain

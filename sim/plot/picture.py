@@ -70,18 +70,6 @@ class Picture:
             self.figure.savefig(buffer, format="svg", metadata={"Date": None, "Title": self.alt})
         return buffer.getvalue()
 
-    def place_as(self, drawn: "Picture") -> None:
-        """Put the axes where those of another picture were drawn; that takes less time, too.
-
-        Args:
-            drawn: a picture whose SVG or HTML was made; one with other axes changes nothing.
-        """
-        mine, theirs = self.figure.axes, drawn.figure.axes
-        if len(mine) == len(theirs):
-            self.figure.set_layout_engine("none")
-            for axes, like in zip(mine, theirs, strict=True):
-                axes.set_position(like.get_position())
-
     @property
     def html(self) -> str:
         """Picture, description and table as self-contained HTML."""
@@ -162,19 +150,6 @@ def make_panels(
         axes.spines[["top", "right"]].set_visible(False)
         axes.tick_params(colors=INK, labelsize=9)
     return figure, [list(row) for row in grid]
-
-
-def make_rows(
-    names: Sequence[str], *, label: str, line: float | None = None
-) -> tuple[Figure, Axes]:
-    """A figure with a row for each name, over one scale with a dashed line at a value."""
-    figure, ((axes,),) = make_panels(1, 1, height=0.9 + 0.36 * len(names))
-    if line is not None:
-        axes.axvline(line, color=REFERENCE, linestyle="--", linewidth=1.2)
-    axes.set_xlabel(label, color=INK)
-    axes.set_yticks(range(len(names)), names)
-    axes.set_ylim(len(names) - 0.4, -0.8)
-    return figure, axes
 
 
 def write_number(axes: Axes, text: str, at: tuple[float, float], *, right: bool = False) -> None:
