@@ -426,7 +426,7 @@ def askew_chart(offset: float) -> Chart:
     band = np.concatenate([middle - width, (middle + width)[::-1]])
     angles, lowest, highest = zip(*table, strict=True)
     curves = (
-        Curve("it stays", np.concatenate([readings, readings[::-1]]), band, "area", 4),
+        Curve("window", np.concatenate([readings, readings[::-1]]), band, "area", 4),
         Curve("kG·cos(reading + offset)", readings, middle, "dashed", 0),
         Curve("no longer falls", angles, lowest, "dots", 1),
         Curve("begins to rise", angles, highest, "dots", 2),
