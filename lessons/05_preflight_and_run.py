@@ -663,15 +663,61 @@ tabulate_gains({"the log": gains.gains})
 #
 # <details><summary>The same file in WPILib's SysId, in five steps</summary>
 #
-# In VS Code press `Ctrl+Shift+P`, and choose *WPILib: Start Tool*, *SysId*.
+# In VS Code press `Ctrl+Shift+P`, and choose *WPILib: Start Tool*, *SysId*. The drawings show where
+# you click (`►`); the numbers are those of one log.
 #
 # 1. *Log Loader*: *Open data log file…*
+#
+# ```
+# ┌ Log Loader ────────────────────────────────┐
+# │ ► [Open data log file...]                  │
+# │   Filter: [                              ] │
+# └────────────────────────────────────────────┘
+# ```
+#
 # 2. Type `sysid-test-state` into *Filter*. Drag that entry to *Test State*.
-# 3. Drag *Position*, *Velocity* and *Voltage* of one motor to their slots.
+#
+# ```
+# ┌ Log Loader ────────────────────────────────┐    ┌ Data Selector ─────────────────────────┐
+# │   Filter: [sysid-test-state              ] │    │ Test State: <none (DROP HERE)> (string)│
+# │ ► sysid-test-state-drive           string  │ ──►│                                        │
+# └────────────────────────────────────────────┘    └────────────────────────────────────────┘
+# ```
+#
+# 3. Empty *Filter*. Drag *Velocity*, *Position* and *Voltage* of one motor to their slots.
 # 4. Check the *Analysis Type*: it starts on *Elevator*. Choose the *Units* of your log. Click
-#    *Load*.
-# 5. Look at the plots first (lesson 6), then at the gains.
-#    ([WPILib docs: Loading Data](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/loading-data.html))
+#    *Load*, then *Ok*.
+#
+# ```
+# ┌ Data Selector ─────────────────────────────┐    ┌ Data Selector ─────────────────────────┐
+# │   Test State: sysid-test-state-drive       │    │   Test State: quasistatic-forward      │
+# │ ► Analysis Type  [Simple              ▼]   │    │     Run 1 samples: 412 Volt 412 Pos    │
+# │ ► Velocity: <none (DROP HERE)> (number)    │    │   Test State: quasistatic-reverse      │
+# │ ► Position: <none (DROP HERE)> (number)    │ ──►│     Run 1 samples: 407 Volt 407 Pos    │
+# │ ► Voltage: <none (DROP HERE)> (number)     │    │   ...                                  │
+# │ ► Units  [Meters ▼]                        │    │ ► [Ok]                                 │
+# │   Velocity scaling  [1.000]                │    └────────────────────────────────────────┘
+# │ ► [Load]                                   │
+# └────────────────────────────────────────────┘
+# ```
+#
+# 5. Look at the plots first (lesson 6), forward and backward, then at the gains.
+#
+# ```
+# ┌ Diagnostic Plots ──────────────────────────┐    ┌ Analyzer ──────────────────────────────┐
+# │ ► Direction [Forward ▼]                    │    │ Feedforward Analysis                   │
+# │   (velocity, acceleration, time steps)     │    │  Ks [0.151]    ► Window Size        [1]│
+# │   Acceleration R²  [0.74]                  │    │  Kv [2.518]    ► Velocity Threshold    │
+# │   Sim velocity R²  [0.99]                  │    │  Ka [0.192]    ► Test Duration         │
+# │   Sim velocity RMSE [0.02]                 │    │ Feedback Analysis                      │
+# └────────────────────────────────────────────┘    └────────────────────────────────────────┘
+# ```
+#
+# ([WPILib docs: Loading
+# Data](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/loading-data.html),
+# SysId's source, at one commit each:
+# [DataSelector.cpp](https://github.com/wpilibsuite/allwpilib/blob/047efb4d0e9298b39fff2035ac9ae66f296e39f6/sysid/src/main/native/cpp/view/DataSelector.cpp),
+# [Analyzer.cpp](https://github.com/wpilibsuite/allwpilib/blob/29a7e4069305ec1e271c14d1e1364fef9c3162a9/sysid/src/main/native/cpp/view/Analyzer.cpp))
 #
 # The window shows three numbers that say how good the fit is: *acceleration R²*, *simulated
 # velocity R²* and *simulated velocity RMSE*. ([WPILib docs: Viewing Diagnostics, at one

@@ -7,7 +7,7 @@ import os
 import re
 import subprocess
 import sys
-from dataclasses import astuple, dataclass
+from dataclasses import astuple, dataclass, replace
 from html import unescape
 from html.parser import HTMLParser
 from pathlib import Path
@@ -439,6 +439,16 @@ def test_gains_in_amperes_are_those_in_volts_over_the_resistance_and_no_kv():
         steady = np.abs(run.current[-20:]).mean()  # at full speed, and no kV·v in it
         assert steady == pytest.approx(gains["kS"] / resistance, rel=0.01)
         assert round(steady, 1) == 3.7
+
+
+def test_rows_every_20_ms_show_the_kv_of_a_light_steering_and_not_its_ka():
+    wheel = sim.MECHANISMS["shooter"]
+    light = replace(wheel, load=wheel.load / 30)
+    routine = sim.Routine(ramp=1.0, step=3.0)
+    found = fit(simulate(light, routine, rng=np.random.default_rng(1)), method="sysid").gains
+
+    assert found["kV"] == pytest.approx(light.gains["kV"], rel=0.01)
+    assert found["kA"] > 2.0 * light.gains["kA"]
 
 
 def test_the_default_of_motion_magic_expo_is_a_kraken_without_gears():

@@ -15,7 +15,6 @@ PICTURES = {
     ),
     "window without marks": lambda: plot_hold_window(VOLTS, SPEEDS, window=(1.76, 2.26), marks={}),
     "angles": lambda: plot_hold_angles(HOLDS, kg=1.51, ks=0.25),
-    "angles of an encoder askew": lambda: plot_hold_angles(HOLDS, kg=1.51, ks=0.25, offset=35.0),
 }  # fmt: skip
 
 
