@@ -1,10 +1,9 @@
 """Curves, and points with a line."""
 
 from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.ticker import FuncFormatter
 
 from sim.core.errors import BadRequest
 from sim.core.log import Array
@@ -18,6 +17,9 @@ from sim.plot.picture import (
     make_panels,
 )
 from sim.plot.table import Cell, Table, to_text
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 TABLE_ROWS = 8  # rows of a curve's table: more are hard to read
 
@@ -66,6 +68,8 @@ def plot_curves(
     axes.set_xlabel(xlabel, color=INK)
     axes.set_ylabel(ylabel, color=INK)
     if log_scale:
+        from matplotlib.ticker import FuncFormatter  # noqa: PLC0415 - slow
+
         axes.set_yscale("log")
         axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axes.legend(fontsize=8)
@@ -142,5 +146,5 @@ def _squared(label: str) -> str:
     return f" {unit}²" if unit.isalpha() else f" ({unit})²"
 
 
-def _corner(axes: Axes, text: str) -> None:
+def _corner(axes: "Axes", text: str) -> None:
     axes.text(0.98, 0.04, text, transform=axes.transAxes, ha="right", fontsize=9, color=INK)
