@@ -52,7 +52,6 @@ from sim.physics.motors import find_motor
 from sim.plot import (
     Line,
     Table,
-    plot_curves,
     plot_time_series,
 )
 from sim.plot.animation import (
@@ -100,35 +99,15 @@ routine = sim.Routine(ramp=1.0, step=2.0, timeout=8.0)
 log = simulate(drivetrain, routine, rng=np.random.default_rng(3))
 plot_time_series(log, dynamic_seconds=1.0)
 
-# %% [markdown]
-# The picture shows only the first second of each step. The next picture shows how the speed rises
-# after the step:
-
 # %%
-since = np.round(np.arange(0.0, 0.5, 0.005), 3)
-_, speed = move_gains_only(truth, time=since, voltage=np.full(since.size, 2.0))
-top = (2.0 - truth["kS"]) / truth["kV"]
-tau = truth["kA"] / truth["kV"]
-at_tau = float(np.interp(tau, since, speed))
-
-print(
-    f"The star shows the time kA/kV = {1000 * tau:.0f} ms. Then the robot has "
-    f"{100 * at_tau / top:.0f} % of its final speed."
-)
-plot_curves(
-    since,
-    {
-        "speed after the step": speed,
-        "with constant acceleration": np.minimum(top, top * since / tau),
-    },
-    xlabel="time since the step [s]",
-    ylabel="speed [m/s]",
-    levels={"final speed": top},
-    marked=(round(tau, 3), at_tau),
-    mark="after τ",
-)
+tau, top = truth["kA"] / truth["kV"], (2.0 - truth["kS"]) / truth["kV"]
+_, speed = move_gains_only(truth, time=np.array([0.0, tau]), voltage=np.full(2, 2.0))
+print(f"kA/kV is {1000 * tau:.0f} ms. This long after the step the robot has", end=" ")
+print(f"{100 * speed[-1] / top:.0f} % of its final speed.")
 
 # %% [markdown]
+# The picture shows only the first second of each step.
+#
 # When the robot gets faster, kV·v takes more volts, and fewer volts are left for acceleration. So
 # the curve is steep at first and then gets flatter: the speed approaches its final value
 # *exponentially*. The **time constant τ = kA/kV** of lesson 1 says how quickly the speed rises.
@@ -136,9 +115,9 @@ plot_curves(
 # reached its final value.
 #
 # **Myth check.** "In a clean dynamic test the acceleration is constant while the speed rises."
-# *False:* constant acceleration would give the dashed line with squares. WPILib describes a good
-# test as "an approximately exponential approach of the steady-speed". If *your* data look like the
-# line with squares, look for the cause: a current limit or slipping wheels can keep the
+# *False:* constant acceleration would give a straight line up to the final speed. WPILib describes
+# a good test as "an approximately exponential approach of the steady-speed". If *your* data look
+# like a straight line, look for the cause: a current limit or slipping wheels can keep the
 # acceleration constant (section 7).
 #
 # <details><summary>For mentors: the rise of a dynamic test, with source</summary>
@@ -150,8 +129,8 @@ plot_curves(
 # > of the steady-speed". ([WPILib docs: Viewing
 # > Diagnostics](https://github.com/wpilibsuite/frc-docs/blob/c94b51df80ed991bdb634ed20dbf758e31dc0d3c/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst))
 # >
-# > **Try it:** the line with squares in the picture shows constant acceleration. If *your* data
-# > look like this line, look for the cause: a current limit or slipping wheels can keep the
+# > **Try it:** hold a ruler against the rise in the picture: it is no straight line. If *your* data
+# > look like a straight line, look for the cause: a current limit or slipping wheels can keep the
 # > acceleration constant.
 # </details>
 
