@@ -302,11 +302,7 @@ class Animation {
         draw(svg, "polygon", { points: [...there, ...back].join(" "), fill: this.data.colors[color], opacity: 0.55 });
         next.forEach((value, k) => { edge[k] = value; });
       }
-      const item = create(now, "li");
-      const swatch = draw(item, "svg", { width: 14, height: 14, "aria-hidden": true });
-      draw(swatch, "rect", { width: 14, height: 14, fill: this.data.colors[color], opacity: 0.55 });
-      create(item, "span", { textContent: name });
-      takes[color].shown = create(item, "b");
+      takes[color].shown = drawKey(now, name, this.data.colors[color]);
     }
     create(now, "li", { textContent: "line: applied" });
     this.takes = takes;

@@ -79,7 +79,7 @@ export function drawAxes(svg, { width, height, x, y, rows = [], xlabel }) {
 }
 
 /** List a curve in a legend: the element for its current number. */
-export function drawKey(parent, name, color, dash) {
+export function drawKey(parent, name, color, dash = "") {
   const item = create(parent, "li");
   const swatch = draw(item, "svg", { width: 26, height: 8, "aria-hidden": true });
   draw(swatch, "line", { x2: 26, y1: 4, y2: 4, stroke: color, "stroke-width": 3, "stroke-dasharray": dash });
@@ -132,7 +132,7 @@ export class Charts {
       const look = { stroke, "stroke-linecap": dots ? (color % 2 ? "square" : "round") : "butt", ...STYLES[style] };
       draw(svg, "path", { fill: stroke, ...look, d: path.join("") });
       notes.forEach((note, k) => write(note, toX(x[k]), toY(y[k]) + (chart.rows.length ? 4 : -6)));
-      if (name) drawKey(key, name, stroke, look["stroke-dasharray"] ?? "");
+      if (name) drawKey(key, name, stroke, look["stroke-dasharray"]);
     }
   }
 }
