@@ -434,26 +434,21 @@ Table(
 
 
 # %%
-def battery_chart(rest: float, resistance: float, step: float) -> Chart:
+def battery_chart(rest: float, resistance: float) -> Chart:
     """The battery voltage just after a step of each voltage; half of ``rest`` is its limit."""
     steps = np.arange(0.0, 7.01, 0.25)
-    power = ROBOT.motor_count * steps**2 / ROBOT.motor.resistance
+    currents = np.minimum(steps / ROBOT.motor.resistance, ROBOT.stator)
+    power = ROBOT.motor_count * ROBOT.motor.resistance * currents**2
     bus = (rest + np.sqrt(np.maximum(rest**2 - 4e-3 * resistance * power, 0.0))) / 2
-    now = float(np.interp(step, steps, bus))
-    curves = (
-        Curve("brownout of a roboRIO 2", [0.0, 7.0], [6.75, 6.75], "dashed"),
-        Curve("battery", steps, bus, "line", 0),
-        Curve("your step", [step], [now], "dots", 1, [f"{now:.1f} V"]),
-    )
-    return Chart("step [V]", "battery voltage [V]", curves)
+    brownout = Curve("brownout of a roboRIO 2", [0.0, 7.0], [6.75, 6.75], "dashed")
+    return Chart("step [V]", "battery voltage [V]", (Curve("battery", steps, bus), brownout))
 
 
 animate_charts(
     battery_chart,
     knobs=(
         Knob("rest", "at rest [V]", low=11.0, high=13.0, step=0.1, value=12.6),
-        Knob("resistance", "resistance [mΩ]", low=10.0, high=40.0, step=5.0, value=20.0),
-        Knob("step", "step [V]", low=1.0, high=7.0, step=0.5, value=3.5),
+        Knob("resistance", "resistance [mΩ]", low=10.0, high=40.0, step=2.5, value=20.0),
     ),
 )
 
