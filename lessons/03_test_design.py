@@ -107,8 +107,8 @@ print(f"{100 * speed[-1] / top:.0f} % of its final speed.")
 
 # %% [markdown]
 # The picture shows only the first second of each step. Look at the dynamic tests, on the right: the
-# voltage jumps at once, but the speed does not. It rises steeply at first, then less and less, until
-# it is constant. In the quasistatic tests, on the left, voltage and speed rise together along
+# voltage jumps at once, but the speed does not. It rises steeply at first, then less and less,
+# until it is constant. In the quasistatic tests, on the left, voltage and speed rise together along
 # straight lines.
 #
 # When the robot gets faster, kV·v takes more volts, and fewer volts are left for acceleration. So
