@@ -214,7 +214,7 @@ def under_the_microscope(which: str) -> list[Chart]:
     high = 1.5 * float(np.quantile(np.abs(views["speed"].volts), 0.98))
     charts = []
     for label, (name, view) in zip(UNITS, views.items(), strict=True):
-        kept = decimate_cloud(np.nan_to_num(view.at), view.volts, most=120)
+        kept = decimate_cloud(np.nan_to_num(view.at), view.volts, most=60)
         middle = 0.5 * (view.edges[:-1] + view.edges[1:])
         curves = (
             Curve("samples", view.at[kept], view.volts[kept], "dots", 4),
