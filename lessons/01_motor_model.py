@@ -38,7 +38,6 @@
 import math
 from dataclasses import replace
 
-import ipywidgets as widgets
 import numpy as np
 from IPython.display import display
 
@@ -51,14 +50,12 @@ from sim.bench.simulate import move_gains_only, simulate
 from sim.fit import fit
 from sim.physics.motors import MOTORS, compute_theoretical_kv
 from sim.plot import (
-    Picture,
     Table,
-    plot_choices,
     plot_gauge,
-    show_interactive,
     tabulate_gains,
 )
 from sim.plot.animation import Choice, Gain, Knob, Motion, Panel, Scene, animate_mechanism
+from sim.plot.animation.charts import Chart, animate_charts, compare_values
 from sim.teaching.logs import apply_mistake
 
 drivetrain = MECHANISMS["drivetrain"]
@@ -287,21 +284,23 @@ ask_question("lesson1.gears")
 
 
 # %%
-def other_parts(mass: float, ratio: float, motors: int, wheel: float) -> Picture:
+def other_parts(ratio: str, motors: str, wheel: str, mass: float) -> Chart:
     """How kS, kV and kA change with other parts; ``wheel`` is a diameter in inches."""
-    radius = wheel * 0.0254 / 2
-    per_newton = (radius / (motors * ratio)) / (r / (n * G))  # the force of friction stays
-    turns = (ratio / radius) / (G / r)  # of the motor for a meter
+    radius, gears = float(wheel) * 0.0254 / 2, float(ratio)
+    per_newton = (radius / (int(motors) * gears)) / (r / (n * G))  # the force of friction stays
+    turns = (gears / radius) / (G / r)  # of the motor for a meter
     change = {"kS": per_newton, "kV": turns, "kA": per_newton * mass / m}
-    return plot_choices(change, truth=1.0, name="now ÷ before", line="the same", within=1.0)
+    return compare_values(change, truth=1.0, xlabel="now ÷ before (dashed: the same)")
 
 
-show_interactive(
+animate_charts(
     other_parts,
-    mass=widgets.FloatSlider(min=20, max=80, step=1, value=60, description="mass [kg]"),
-    ratio=widgets.Dropdown(options=[6.75, 8.14, 5.36], description="gears : 1"),
-    motors=widgets.Dropdown(options=[4, 2, 6], description="motors"),
-    wheel=widgets.Dropdown(options=[4.0, 3.0, 6.0], description="wheel [in]"),
+    choices=(
+        Choice("gears : 1", ("6.75", "8.14", "5.36")),
+        Choice("motors", ("4", "2", "6")),
+        Choice("wheel [in]", ("4", "3", "6")),
+    ),
+    knobs=(Knob("mass", "mass [kg]", low=20.0, high=80.0, step=5.0, value=60.0),),
 )
 
 # %% [markdown]

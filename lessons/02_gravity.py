@@ -43,7 +43,6 @@
 # %%
 from dataclasses import replace
 
-import ipywidgets as widgets
 import numpy as np
 from IPython.display import display
 
@@ -54,15 +53,13 @@ from sim.bench.simulate import simulate
 from sim.fit import fit
 from sim.physics.engine import State, simulate_run
 from sim.plot import (
-    Picture,
     Table,
-    plot_gain_errors,
     plot_hold_angles,
     plot_hold_window,
     plot_time_series,
-    show_interactive,
 )
 from sim.plot.animation import Choice, Gain, Knob, Motion, Panel, Scene, animate_mechanism
+from sim.plot.animation.charts import Chart, Curve, animate_charts, chart_gain_errors
 from sim.teaching.gain_errors import compute_gain_errors, simulate_rows
 
 elevator, arm = MECHANISMS["elevator"], MECHANISMS["arm"]
@@ -421,14 +418,25 @@ print(f"offset = {found_offset:.1f}°. Add the offset to every reading of the en
 
 
 # %%
-def askew_picture(offset: float) -> Picture:
+def askew_chart(offset: float) -> Chart:
     """The readings of the encoder that is askew, and the cosine with an offset of your choice."""
-    return plot_hold_angles(table, kg=found_kg, ks=float(half_width.mean()), offset=offset)
+    readings = np.linspace(-120.0, 120.0, 49)
+    middle = found_kg * np.cos(np.radians(readings + offset))
+    width = float(half_width.mean())
+    band = np.concatenate([middle - width, (middle + width)[::-1]])
+    angles, lowest, highest = zip(*table, strict=True)
+    curves = (
+        Curve("window", np.concatenate([readings, readings[::-1]]), band, "area", 4),
+        Curve("kG·cos(reading + offset)", readings, middle, "dashed", 0),
+        Curve("no longer falls", angles, lowest, "dots", 1),
+        Curve("begins to rise", angles, highest, "dots", 2),
+    )
+    return Chart("what the encoder reads [deg]", "voltage [V]", curves)
 
 
-show_interactive(
-    askew_picture,
-    offset=widgets.IntSlider(min=-60, max=60, step=5, value=0, description="offset [deg]"),
+animate_charts(
+    askew_chart,
+    knobs=(Knob("offset", "offset [deg]", low=-60.0, high=60.0, step=2.0, value=0.0),),
 )
 
 # %% [markdown]
@@ -578,15 +586,15 @@ forward = {test: part for test, part in all_rows.items() if test.endswith("forwa
 down = all_rows["quasistatic-reverse"]
 
 
-def show_gain_errors(down_rows: int) -> Picture:
+def show_gain_errors(down_rows: float) -> Chart:
     """Bars of the gains' errors in a fit of the way up and some rows of the way down."""
-    used = {**forward, "quasistatic-reverse": down.select(slice(down_rows))}
-    return plot_gain_errors(compute_gain_errors(elevator, used))
+    used = {**forward, "quasistatic-reverse": down.select(slice(int(down_rows)))}
+    return chart_gain_errors(compute_gain_errors(elevator, used))
 
 
-show_interactive(
+animate_charts(
     show_gain_errors,
-    down_rows=widgets.IntSlider(min=0, max=len(down), value=0, description="rows down"),
+    knobs=(Knob("rows", "rows down", low=0.0, high=len(down), step=1.0, value=0.0),),
 )
 
 # %% [markdown]

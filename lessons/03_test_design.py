@@ -38,7 +38,6 @@
 # %%
 from dataclasses import replace
 
-import ipywidgets as widgets
 import numpy as np
 from IPython.display import display
 
@@ -52,15 +51,11 @@ from sim.physics.model import Part
 from sim.physics.motors import find_motor
 from sim.plot import (
     Line,
-    Picture,
     Table,
-    plot_curves,
-    plot_gain_errors,
     plot_time_series,
-    plot_voltage_velocity,
-    show_interactive,
 )
 from sim.plot.animation import (
+    Choice,
     Gain,
     Knob,
     Motion,
@@ -70,6 +65,7 @@ from sim.plot.animation import (
     TestPlan,
     animate_mechanism,
 )
+from sim.plot.animation.charts import Chart, Curve, animate_charts, chart_gain_errors
 from sim.teaching.gain_errors import compute_gain_errors, simulate_rows
 
 drivetrain, shooter = MECHANISMS["drivetrain"], MECHANISMS["shooter"]
@@ -103,35 +99,18 @@ routine = sim.Routine(ramp=1.0, step=2.0, timeout=8.0)
 log = simulate(drivetrain, routine, rng=np.random.default_rng(3))
 plot_time_series(log, dynamic_seconds=1.0)
 
-# %% [markdown]
-# The picture shows only the first second of each step. The next picture shows how the speed rises
-# after the step:
-
 # %%
-since = np.round(np.arange(0.0, 0.5, 0.005), 3)
-_, speed = move_gains_only(truth, time=since, voltage=np.full(since.size, 2.0))
-top = (2.0 - truth["kS"]) / truth["kV"]
-tau = truth["kA"] / truth["kV"]
-at_tau = float(np.interp(tau, since, speed))
-
-print(
-    f"The star shows the time kA/kV = {1000 * tau:.0f} ms. Then the robot has "
-    f"{100 * at_tau / top:.0f} % of its final speed."
-)
-plot_curves(
-    since,
-    {
-        "speed after the step": speed,
-        "with constant acceleration": np.minimum(top, top * since / tau),
-    },
-    xlabel="time since the step [s]",
-    ylabel="speed [m/s]",
-    levels={"final speed": top},
-    marked=(round(tau, 3), at_tau),
-    mark="after τ",
-)
+tau, top = truth["kA"] / truth["kV"], (2.0 - truth["kS"]) / truth["kV"]
+_, speed = move_gains_only(truth, time=np.array([0.0, tau]), voltage=np.full(2, 2.0))
+print(f"kA/kV is {1000 * tau:.0f} ms. This long after the step the robot has", end=" ")
+print(f"{100 * speed[-1] / top:.0f} % of its final speed.")
 
 # %% [markdown]
+# The picture shows only the first second of each step. Look at the dynamic tests, on the right: the
+# voltage jumps at once, but the speed does not. It rises steeply at first, then less and less,
+# until it is constant. In the quasistatic tests, on the left, voltage and speed rise together along
+# straight lines.
+#
 # When the robot gets faster, kV·v takes more volts, and fewer volts are left for acceleration. So
 # the curve is steep at first and then gets flatter: the speed approaches its final value
 # *exponentially*. The **time constant τ = kA/kV** of lesson 1 says how quickly the speed rises.
@@ -139,9 +118,9 @@ plot_curves(
 # reached its final value.
 #
 # **Myth check.** "In a clean dynamic test the acceleration is constant while the speed rises."
-# *False:* constant acceleration would give the dashed line with squares. WPILib describes a good
-# test as "an approximately exponential approach of the steady-speed". If *your* data look like the
-# line with squares, look for the cause: a current limit or slipping wheels can keep the
+# *False:* constant acceleration would give a straight line up to the final speed. WPILib describes
+# a good test as "an approximately exponential approach of the steady-speed". If *your* data look
+# like a straight line, look for the cause: a current limit or slipping wheels can keep the
 # acceleration constant (section 7).
 #
 # <details><summary>For mentors: the rise of a dynamic test, with source</summary>
@@ -153,8 +132,8 @@ plot_curves(
 # > of the steady-speed". ([WPILib docs: Viewing
 # > Diagnostics](https://github.com/wpilibsuite/frc-docs/blob/c94b51df80ed991bdb634ed20dbf758e31dc0d3c/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst))
 # >
-# > **Try it:** the line with squares in the picture shows constant acceleration. If *your* data
-# > look like this line, look for the cause: a current limit or slipping wheels can keep the
+# > **Try it:** hold a ruler against the rise in the picture: it is no straight line. If *your* data
+# > look like a straight line, look for the cause: a current limit or slipping wheels can keep the
 # > acceleration constant.
 # </details>
 
@@ -185,49 +164,42 @@ def read_off(mechanism: Mechanism, ramp: float) -> tuple[sim.Log, Line]:
     return slow, Line(float(intercept), float(slope))
 
 
-RAMPS = [0.1, 0.25, 0.5, 0.75, 1.0]
+RAMPS = [round(0.1 * number, 1) for number in range(1, 11)]
 SHOWN = {"drivetrain": drivetrain, "flywheel": shooter}
 drifts = {
-    name: [read_off(mechanism, ramp)[1].intercept for ramp in RAMPS]
-    for name, mechanism in SHOWN.items()
+    name: {ramp: read_off(mechanism, ramp) for ramp in RAMPS} for name, mechanism in SHOWN.items()
 }
 
 
-def drift_picture(name: str, ramp: float) -> list[Picture]:
+def drift_charts(name: str, ramp: float) -> list[Chart]:
     """The ramp with its line, and the kS of that line for each ramp."""
-    gains = SHOWN[name].gains
-    slow, line = read_off(SHOWN[name], ramp)
-    rule = [gains["kS"] + gains["kA"] / gains["kV"] * one for one in RAMPS]
+    gains, (slow, line) = SHOWN[name].gains, drifts[name][ramp]
+    run = slow.list_runs_of_test("quasistatic-forward")[0]
+    speed = run.velocity / (1.0 if name == "drivetrain" else 2.0 * np.pi)
+    few = slice(None, None, max(1, len(run) // 100))
+    ends = np.array([0.0, speed.max()])
+    found = [line.intercept for _, line in drifts[name].values()]
+    tau = gains["kA"] / gains["kV"]
+    rule = [gains["kS"] + tau * one for one in RAMPS]
+    unit = "m/s" if name == "drivetrain" else "rot/s"
     return [
-        plot_voltage_velocity(slow, lines={"straight line": line}),
-        plot_curves(
-            RAMPS,
-            {"kS read off": drifts[name], "true kS + τ·ramp": rule},
-            xlabel="ramp [V/s]",
-            ylabel="kS [V]",
-            levels={"the true kS": gains["kS"]},
-            marked=(ramp, line.intercept),
-            mark="the line in the picture above",
-        ),
-    ]
+        Chart(f"velocity [{unit}]", "voltage [V]", (
+            Curve("samples", speed[few], run.voltage[few], "dots", 0),
+            Curve("straight line", ends, line.intercept + line.slope * ends, "line", 1),
+        ), title=f"τ = {1000 * tau:.0f} ms"),
+        Chart("ramp [V/s]", f"kS of the {name} [V]", (
+            Curve("true kS", [0.0, 1.0], [gains["kS"], gains["kS"]], "dashed"),
+            Curve("true kS + τ·ramp", RAMPS, rule, "line", 2),
+            Curve("kS of each line", RAMPS, found, "dots", 0),
+            Curve("this ramp", [ramp], [line.intercept], "dots", 1, [f"{line.intercept:.3f} V"]),
+        )),
+    ]  # fmt: skip
 
 
-show_interactive(
-    drift_picture,
-    name=widgets.Dropdown(options=list(SHOWN), description="mechanism"),
-    ramp=widgets.SelectionSlider(options=RAMPS, value=0.5, description="ramp [V/s]"),
-)
-
-# %%
-rows = []
-for name, mechanism in SHOWN.items():
-    gains = mechanism.gains
-    rows.append(
-        (name, 1000 * gains["kA"] / gains["kV"], gains["kS"], drifts[name][-1], drifts[name][0])
-    )
-Table(
-    ("mechanism", "τ [ms]", "true kS [V]", "read off at 1 V/s [V]", "read off at 0.1 V/s [V]"),
-    tuple(rows),
+animate_charts(
+    drift_charts,
+    choices=(Choice("mechanism", tuple(SHOWN)),),
+    knobs=(Knob("ramp", "ramp [V/s]", low=0.1, high=1.0, step=0.1, value=0.5),),
 )
 
 # %% [markdown]
@@ -283,7 +255,7 @@ Table(
 # bar of a gain shows its *standard error* (the typical error from noise alone). A bar as long as
 # the gain itself means: this gain is **unknown**.
 #
-# **Predict** before you switch tests off:
+# **Predict** before you make tests shorter:
 
 # %%
 display(ask_question("lesson3.drop"), ask_question("lesson3.ramps"))
@@ -292,20 +264,23 @@ display(ask_question("lesson3.drop"), ask_question("lesson3.ramps"))
 all_rows = simulate_rows(drivetrain, routine)
 
 
-def show_gain_errors(**tests: bool) -> Picture:
-    """Bars of the gains' errors in a fit of the ticked tests."""
-    used = {test: all_rows[test] for test, ticked in tests.items() if ticked}
-    return plot_gain_errors(compute_gain_errors(drivetrain, used))
+def show_gain_errors(*kept: float) -> Chart:
+    """Bars of the gains' errors in a fit of a part of each test."""
+    used = {
+        test: rows.select(slice(round(percent / 100 * len(rows))))
+        for (test, rows), percent in zip(all_rows.items(), kept, strict=True)
+    }
+    return chart_gain_errors(compute_gain_errors(drivetrain, used))
 
 
-show_interactive(
+animate_charts(
     show_gain_errors,
-    **{test: widgets.Checkbox(value=True, description=test) for test in all_rows},
+    knobs=[Knob(test, f"{test} [%]", 0.0, 100.0, 25.0, 100.0) for test in all_rows],
 )
 
 # %% [markdown]
-# Switch tests off and on again. Which single test can you leave out? With the ramps alone, kS and
-# kA are uncertain, because a ramp shows mainly the sum kS + τ·ramp (section 3).
+# Set a test to 0 %, and back to 100 %. Which single test can you leave out? With the ramps alone,
+# kS and kA are uncertain, because a ramp shows mainly the sum kS + τ·ramp (section 3).
 
 # %% [markdown]
 # ### Explain

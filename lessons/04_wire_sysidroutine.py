@@ -54,6 +54,17 @@ from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import simulate
 from sim.fit import fit
 from sim.plot import plot_time_series, tabulate_fits, tabulate_gains
+from sim.plot.animation import (
+    Choice,
+    Gain,
+    Knob,
+    Motion,
+    Panel,
+    Scene,
+    TestPlan,
+    animate_mechanism,
+)
+from sim.plot.animation.charts import Chart, animate_charts, compare_values
 from sim.plot.animation.of_logs import animate_logs
 from sim.teaching.logs import apply_mistake
 
@@ -188,6 +199,30 @@ for mass in (60.0, 30.0):
 # slip at an even lower voltage. (Our simulated wheels never slip, so we may use 3.5 V here. For
 # your robot, choose the step with the planner of lesson 3.)
 #
+# How far and how fast does our robot go in 10 s? Try the defaults first.
+
+
+# %%
+def press_button(**volts: Gain) -> Scene:
+    """One test of 10 s, with the ramp rate or the step of a slider."""
+    robot = Motion("robot", gains=truth, plan=TestPlan(**volts))
+    return Scene(np.arange(0.0, 10.0, 0.02), (robot,))
+
+
+animate_mechanism(
+    "drivetrain",
+    {("ramp",): press_button(ramp=Gain("ramp")), ("step",): press_button(step=Gain("step"))},
+    choices=(Choice("test", ("ramp", "step")),),
+    knobs=(
+        Knob("ramp", "ramp rate [V/s]", low=0.1, high=1.2, step=0.1, value=1.0),
+        Knob("step", "step [V]", low=0.5, high=7.0, step=0.5, value=7.0),
+    ),
+    panels=(Panel("voltage", "voltage [V]", high=12.0), Panel("velocity", "speed [m/s]")),
+    alt="A robot drives for 10 s. With the default ramp of 1 V/s it goes about 20 m, with the "
+    "default step of 7 V more than 25 m.",
+)
+
+# %% [markdown]
 # **What `null` means.** The fourth argument of `Config` is a callback for the *state* of the test.
 # The state is a word such as `quasistatic-forward`. It tells the analyzer where a test begins and
 # ends. With `null` these words go into the **WPILOG file** on the robot (the log that WPILib
@@ -268,6 +303,25 @@ for mass in (60.0, 30.0):
 # > section 4.
 # </details>
 #
+# Let the battery voltage drop: how many volts reach the motor?
+
+
+# %%
+def reach_motor(asked: float, battery: float) -> Chart:
+    """The volts at the motor with either method."""
+    volts = {"setVoltage(volts)": min(asked, battery), "set(volts / 12)": asked / 12 * battery}
+    return compare_values(volts, truth=asked, xlabel="volts at the motor [V] (dashed: volts)")
+
+
+animate_charts(
+    reach_motor,
+    knobs=(
+        Knob("asked", "volts [V]", low=1.0, high=12.0, step=0.5, value=7.0),
+        Knob("battery", "battery [V]", low=7.0, high=13.0, step=0.25, value=12.0),
+    ),
+)
+
+# %% [markdown]
 # ### Mechanism, second callback: log
 #
 # Once per loop, write down for each motor group: **applied voltage, position, velocity**.

@@ -110,6 +110,7 @@ from sim.plot.animation import (
     TestPlan,
     animate_mechanism,
 )
+from sim.plot.animation.charts import Chart, Curve, animate_charts
 from sim.teaching.logs import apply_mistake
 from sim.teaching.runway import GRIP, THUMB, Floor, drive_test
 
@@ -428,6 +429,30 @@ Table(
 )
 
 # %% [markdown]
+# The picture shows the battery voltage just after a step, while the motors still stand and take
+# most current. Set your own battery, as the battery tester shows it. How large may your step be?
+
+
+# %%
+def battery_chart(rest: float, resistance: float) -> Chart:
+    """The battery voltage just after a step of each voltage; half of ``rest`` is its limit."""
+    steps = np.arange(0.0, 7.01, 0.25)
+    currents = np.minimum(steps / ROBOT.motor.resistance, ROBOT.stator)
+    power = ROBOT.motor_count * ROBOT.motor.resistance * currents**2
+    bus = (rest + np.sqrt(np.maximum(rest**2 - 4e-3 * resistance * power, 0.0))) / 2
+    brownout = Curve("brownout of a roboRIO 2", [0.0, 7.0], [6.75, 6.75], "dashed")
+    return Chart("step [V]", "battery voltage [V]", (Curve("battery", steps, bus), brownout))
+
+
+animate_charts(
+    battery_chart,
+    knobs=(
+        Knob("rest", "at rest [V]", low=11.0, high=13.0, step=0.1, value=12.6),
+        Knob("resistance", "resistance [mΩ]", low=10.0, high=40.0, step=2.5, value=20.0),
+    ),
+)
+
+# %% [markdown]
 # Without a brownout, both kA columns are right, even with the tired battery: this robot calls
 # `setVoltage`, and its motor controllers compensate for the lower battery voltage. With `set`, the
 # controllers do not do this (lesson 4). With a brownout, both are wrong, and kA from the commanded
@@ -633,15 +658,61 @@ tabulate_gains({"the log": gains.gains})
 #
 # <details><summary>The same file in WPILib's SysId, in five steps</summary>
 #
-# In VS Code press `Ctrl+Shift+P`, and choose *WPILib: Start Tool*, *SysId*.
+# In VS Code press `Ctrl+Shift+P`, and choose *WPILib: Start Tool*, *SysId*. The drawings show where
+# you click (`►`); the numbers are those of one log.
 #
 # 1. *Log Loader*: *Open data log file…*
+#
+# ```
+# ┌ Log Loader ────────────────────────────────┐
+# │ ► [Open data log file...]                  │
+# │   Filter: [                              ] │
+# └────────────────────────────────────────────┘
+# ```
+#
 # 2. Type `sysid-test-state` into *Filter*. Drag that entry to *Test State*.
-# 3. Drag *Position*, *Velocity* and *Voltage* of one motor to their slots.
+#
+# ```
+# ┌ Log Loader ────────────────────────────────┐    ┌ Data Selector ─────────────────────────┐
+# │   Filter: [sysid-test-state              ] │    │ Test State: <none (DROP HERE)> (string)│
+# │ ► sysid-test-state-drive           string  │ ──►│                                        │
+# └────────────────────────────────────────────┘    └────────────────────────────────────────┘
+# ```
+#
+# 3. Empty *Filter*. Drag *Velocity*, *Position* and *Voltage* of one motor to their slots.
 # 4. Check the *Analysis Type*: it starts on *Elevator*. Choose the *Units* of your log. Click
-#    *Load*.
-# 5. Look at the plots first (lesson 6), then at the gains.
-#    ([WPILib docs: Loading Data](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/loading-data.html))
+#    *Load*, then *Ok*.
+#
+# ```
+# ┌ Data Selector ─────────────────────────────┐    ┌ Data Selector ─────────────────────────┐
+# │   Test State: sysid-test-state-drive       │    │   Test State: quasistatic-forward      │
+# │ ► Analysis Type  [Simple              ▼]   │    │     Run 1 samples: 412 Volt 412 Pos    │
+# │ ► Velocity: <none (DROP HERE)> (number)    │    │   Test State: quasistatic-reverse      │
+# │ ► Position: <none (DROP HERE)> (number)    │ ──►│     Run 1 samples: 407 Volt 407 Pos    │
+# │ ► Voltage: <none (DROP HERE)> (number)     │    │   ...                                  │
+# │ ► Units  [Meters ▼]                        │    │ ► [Ok]                                 │
+# │   Velocity scaling  [1.000]                │    └────────────────────────────────────────┘
+# │ ► [Load]                                   │
+# └────────────────────────────────────────────┘
+# ```
+#
+# 5. Look at the plots first (lesson 6), forward and backward, then at the gains.
+#
+# ```
+# ┌ Diagnostic Plots ──────────────────────────┐    ┌ Analyzer ──────────────────────────────┐
+# │ ► Direction [Forward ▼]                    │    │ Feedforward Analysis                   │
+# │   (velocity, acceleration, time steps)     │    │  Ks [0.151]    ► Window Size        [1]│
+# │   Acceleration R²  [0.74]                  │    │  Kv [2.518]    ► Velocity Threshold    │
+# │   Sim velocity R²  [0.99]                  │    │  Ka [0.192]    ► Test Duration         │
+# │   Sim velocity RMSE [0.02]                 │    │ Feedback Analysis                      │
+# └────────────────────────────────────────────┘    └────────────────────────────────────────┘
+# ```
+#
+# ([WPILib docs: Loading
+# Data](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/loading-data.html),
+# SysId's source, at one commit each:
+# [DataSelector.cpp](https://github.com/wpilibsuite/allwpilib/blob/047efb4d0e9298b39fff2035ac9ae66f296e39f6/sysid/src/main/native/cpp/view/DataSelector.cpp),
+# [Analyzer.cpp](https://github.com/wpilibsuite/allwpilib/blob/29a7e4069305ec1e271c14d1e1364fef9c3162a9/sysid/src/main/native/cpp/view/Analyzer.cpp))
 #
 # The window shows three numbers that say how good the fit is: *acceleration R²*, *simulated
 # velocity R²* and *simulated velocity RMSE*. ([WPILib docs: Viewing Diagnostics, at one

@@ -38,7 +38,6 @@
 from dataclasses import replace
 from textwrap import fill
 
-import ipywidgets as widgets
 import numpy as np
 from IPython.display import display
 
@@ -52,19 +51,16 @@ from sim.inspect.detect_faults import inspect
 from sim.inspect.faults import FAULTS
 from sim.physics.battery import Battery
 from sim.plot import (
-    Picture,
     Table,
     plot_acceleration_velocity,
-    plot_choices,
-    plot_curves,
-    plot_r2_vs_gain_error,
     plot_time_series,
-    plot_timesteps,
     plot_voltage_velocity,
-    show_interactive,
     tabulate_fits,
 )
+from sim.plot.animation import Choice, Knob
+from sim.plot.animation.charts import Chart, Curve, animate_charts, compare_values
 from sim.plot.animation.of_logs import animate_logs
+from sim.plot.decimate import decimate_cloud
 from sim.teaching.logs import select_rows
 from sim.teaching.r2_cases import GOOD, make_cases
 
@@ -235,36 +231,43 @@ gallery = {
 }
 
 
-def position_slope(log: sim.Log) -> Picture:
-    """The first half second of a step: the logged velocity, and the slope of the position."""
-    run = log.list_runs_of_test(STEP)[0]
-    since = run.time - run.time[0]
-    part = since < 0.5
-    lines = {
-        "velocity in the log": run.velocity[part],
-        "slope of the position": np.gradient(run.position, run.time)[part],
-    }
-    return plot_curves(np.round(since[part], 2), lines, xlabel="time [s]", ylabel="velocity [m/s]")
-
-
 PLOTS = {
-    "over time": lambda log: plot_time_series(log, dynamic_seconds=0.6),
-    "voltage against velocity": plot_voltage_velocity,
-    "acceleration against velocity": plot_acceleration_velocity,
-    "time steps": plot_timesteps,
-    "velocity and position's slope": position_slope,
+    "over time": lambda run, since: {
+        "voltage [V]": (since, run.voltage),
+        "velocity [m/s]": (since, run.velocity),
+    },
+    "voltage against velocity": lambda run, _: {"voltage [V]": (run.velocity, run.voltage)},
+    "acceleration against velocity": lambda run, _: {
+        "acceleration [m/s²]": (run.velocity, np.gradient(run.velocity, run.time))
+    },
+    "time steps": lambda run, since: {"time step [ms]": (since[1:], 1000 * np.diff(run.time))},
+    "velocity and position's slope": lambda run, since: {
+        "velocity in the log": (since, run.velocity),
+        "slope of the position": (since, np.gradient(run.position, run.time)),
+    },
 }
 
 
-def look(log: str, plot: str) -> Picture:
-    """One log in one plot."""
-    return PLOTS[plot](gallery[log])
+def look(log: str, plot: str, test: str) -> Chart:
+    """One test of a log in one plot; only the first 0.6 s of a step."""
+    run = gallery[log].list_runs_of_test(test)[0]
+    run = run.select(run.time - run.time[0] <= (0.6 if test == STEP else 6.0))
+    against = "against" in plot
+    curves = []
+    for color, (name, (x, y)) in enumerate(PLOTS[plot](run, run.time - run.time[0]).items()):
+        kept = decimate_cloud(x, y, most=120)
+        style = "dots" if against or "step" in name else "line"
+        curves.append(Curve(name, x[kept], y[kept], style, color))
+    return Chart("velocity [m/s]" if against else f"time in the {test} test [s]", plot, curves)
 
 
-show_interactive(
+animate_charts(
     look,
-    log=widgets.Dropdown(options=list(gallery), description="log"),
-    plot=widgets.Dropdown(options=list(PLOTS), description="plot"),
+    choices=(
+        Choice("log", tuple(gallery)),
+        Choice("plot", tuple(PLOTS)),
+        Choice("test", (RAMP, STEP)),
+    ),
 )
 
 # %% [markdown]
@@ -470,18 +473,22 @@ def kept(log: sim.Log, *, end: float, threshold: float) -> sim.Log:
     )
 
 
-def trimmed(end: float, threshold: float, median: int) -> Picture:
+def trimmed(median: str, threshold: float, end: float) -> Chart:
     """The gains of a choice, each over its true value."""
-    found = fit(kept(messy, end=end, threshold=threshold), method="sysid", median=median).gains
+    part = kept(messy, end=end, threshold=threshold)
+    found = fit(part, method="sysid", median=int(median)).gains
     ratios = {gain: value / TRUTH[gain] for gain, value in found.items()}
-    return plot_choices(ratios, truth=1.0, name="found gain ÷ true gain")
+    shown = compare_values(ratios, truth=1.0, xlabel="found gain ÷ true gain")
+    return replace(shown, x=(-2.0, 4.0))
 
 
-show_interactive(
+animate_charts(
     trimmed,
-    threshold=widgets.FloatSlider(max=1, step=0.05, description="from [m/s]"),
-    end=widgets.FloatSlider(min=1, max=6, step=0.1, value=6, description="until [s]"),
-    median=widgets.SelectionSlider(options=[1, 3, 5, 9, 15], value=1, description="median"),
+    choices=(Choice("median", ("1", "5", "15")),),
+    knobs=(
+        Knob("from", "from [m/s]", low=0.0, high=1.0, step=0.2, value=0.0),
+        Knob("until", "until [s]", low=3.0, high=6.0, step=0.5, value=6.0),
+    ),
 )
 
 # %% [markdown]
@@ -539,30 +546,33 @@ KEYS = {
     "letter": lambda case: LETTERS[case.name],
     SIM: lambda case: -case.fit.simulated_velocity_r2,
     "acceleration R²": lambda case: -case.fit.acceleration_r2,
-    "error of kA": lambda case: abs(case.compute_gain_error("kA")),
 }
 
 
-def grid(sort: str, truth: str) -> Picture:
+def grid(truth: str, sort: str) -> list[Chart]:
     """All logs with their scores, and on demand their damage and the errors of their gains."""
     revealed = truth == "reveal"
-    key = KEYS["letter" if sort == "error of kA" and not revealed else sort]  # an error would tell
-    shown = {
-        f"{LETTERS[case.name]}: {case.name}" if revealed else f"log {LETTERS[case.name]}": case
-        for case in sorted(all_cases, key=key)
-    }
-    scores = {name: case.fit.simulated_velocity_r2 for name, case in shown.items()}
-    off = {
-        gain: {name: case.compute_gain_error(gain) for name, case in shown.items()}
-        for gain in ("kS", "kV", "kA")
-    }
-    return plot_r2_vs_gain_error(scores, good=GOOD, score=SIM, off=off if revealed else None)
+    cases = sorted(all_cases, key=KEYS[sort])
+    bars = []
+    for row, case in enumerate(cases):
+        score = case.fit.simulated_velocity_r2
+        note = f"{'✓' if case.has_good_r2 else '✗'} {score:.2f}"
+        bars.append(Curve("", [0.0, score], [row, row], "bar", 1 + case.has_good_r2, ["", note]))
+    errors = []
+    for color, gain in enumerate(TRUTH if revealed else ()):
+        off = np.clip([100 * case.compute_gain_error(gain) for case in cases], -99, 99)
+        errors.append(Curve(gain, off, range(len(cases)), "dots", color))
+    rows = [f"{LETTERS[one.name]}: {one.name}" if revealed else LETTERS[one.name] for one in cases]
+    limit = Curve("", [GOOD, GOOD], [-0.6, len(rows) - 0.4], "dashed")
+    return [
+        Chart(f"{SIM} (dashed: {GOOD:g})", "", [*bars, limit], rows, x=(0.0, 1.2)),
+        Chart("error of a gain [%], at most 99", "", errors, rows, x=(-100.0, 100.0)),
+    ]
 
 
-show_interactive(
+animate_charts(
     grid,
-    truth=widgets.Dropdown(options=["hide", "reveal"], description="truth"),
-    sort=widgets.Dropdown(options=list(KEYS), description="sort by"),
+    choices=(Choice("truth", ("hide", "reveal")), Choice("sort by", tuple(KEYS))),
 )
 
 # %%

@@ -37,7 +37,6 @@
 # %%
 from dataclasses import replace
 
-import ipywidgets as widgets
 import numpy as np
 from IPython.display import display
 
@@ -55,17 +54,15 @@ from sim.physics.model import Model
 from sim.physics.replay import replay_log
 from sim.plot import (
     Line,
-    Picture,
     Table,
-    plot_choices,
     plot_curves,
-    plot_misses,
     plot_time_series,
     plot_voltage_velocity,
-    show_interactive,
     tabulate_fits,
     tabulate_gains,
 )
+from sim.plot.animation import Choice, Knob
+from sim.plot.animation.charts import Chart, Curve, animate_charts, compare_values
 from sim.plot.animation.of_logs import animate_model
 from sim.teaching.fit_gaps import fill_gaps
 from sim.teaching.logs import apply_mistake, read_own_log, select_rows
@@ -184,7 +181,7 @@ Table(
 # two errors cannot cancel each other. The method that makes this sum as small as possible is called
 # **least squares**. (To fit a model to data in this way is called a *regression*.)
 #
-# **Try it by hand** on six samples of the ramp. Move both sliders until the sum at the bottom is as
+# **Try it by hand** on six samples of the ramp. Move both sliders until the sum at the top is as
 # small as you can make it.
 
 # %%
@@ -192,16 +189,27 @@ some = slice(40, None, 60)
 six_v, six_volts = slow.velocity[some], slow.voltage[some]
 
 
-def by_hand(intercept: float, slope: float) -> Picture:
+def by_hand(intercept: float, slope: float) -> Chart:
     """The errors of a line of your choice at six samples."""
-    labels = {"xlabel": "velocity [m/s]", "ylabel": "voltage [V]"}
-    return plot_misses(six_v, six_volts, intercept=intercept, slope=slope, **labels)
+    line = intercept + slope * six_v
+    ends = np.array([0.0, 1.05 * six_v.max()])
+    gaps = np.full(six_v.size, np.nan)
+    errors = np.column_stack([line, six_volts, gaps]).ravel()
+    curves = (
+        Curve("errors", np.repeat(six_v, 3), errors, "line", 3),
+        Curve("the line", ends, intercept + slope * ends, "dashed", 1),
+        Curve("samples", six_v, six_volts, "dots", 0),
+    )
+    total = f"sum of squared errors: {np.sum((six_volts - line) ** 2):.4f} V²"
+    return Chart("velocity [m/s]", "voltage [V]", curves, title=total)
 
 
-show_interactive(
+animate_charts(
     by_hand,
-    intercept=widgets.FloatSlider(min=0, max=1, step=0.01, value=0.8, description="V at v = 0"),
-    slope=widgets.FloatSlider(min=1.5, max=3.5, step=0.01, value=2.0, description="V per m/s"),
+    knobs=(
+        Knob("intercept", "V at v = 0", low=0.0, high=1.0, step=0.05, value=0.8),
+        Knob("slope", "V per m/s", low=1.5, high=3.5, step=0.1, value=2.0),
+    ),
 )
 
 # %% [markdown]
@@ -216,7 +224,7 @@ smallest = np.sum((six_volts - columns @ [intercept, slope]) ** 2)
 print(f"{intercept:.2f} V at v = 0, {slope:.2f} V per m/s, sum of squares {smallest:.4f}")
 
 # %% [markdown]
-# No straight line has a smaller sum. Set the sliders to these values.
+# No straight line has a smaller sum. Set the sliders near these values.
 
 # %% [markdown]
 # ## 4 The whole fit in five lines
@@ -485,21 +493,28 @@ for seed in range(5):
 usual = [my_fit(one)["kA"] for one in gappy]
 
 
-def try_choices(**choices: float) -> Picture:
+def try_choices(left: str, step: str, trim: str, median: str, threshold: float) -> Chart:
     """The kA of five logs with SysId's choices and with yours: its mean and its spread."""
-    found = {"as SysId does it": usual, "yours": [my_fit(one, **choices)["kA"] for one in gappy]}
-    means = {way: float(np.mean(values)) for way, values in found.items()}
-    spreads = {way: float(np.std(values)) for way, values in found.items()}
-    return plot_choices(means, spreads=spreads, truth=truth["kA"], name="kA", unit="V·s²/m")
+    choices = {"mean_dt": step == "mean", "trim": trim == "yes", "median": int(median)}
+    mine = [my_fit(one, left, threshold=threshold, **choices)["kA"] for one in gappy]
+    found = {"as SysId does it": usual, "yours": mine}
+    return compare_values(
+        {way: float(np.mean(values)) for way, values in found.items()},
+        spreads={way: float(np.std(values)) for way, values in found.items()},
+        truth=truth["kA"],
+        xlabel="kA [V·s²/m] (dashed: the truth)",
+    )
 
 
-show_interactive(
+animate_charts(
     try_choices,
-    left=widgets.Dropdown(options=["acceleration", "voltage"], description="left side"),
-    threshold=widgets.FloatSlider(max=1.5, step=0.05, value=0.05, description="from [m/s]"),
-    median=widgets.SelectionSlider(options=[1, 3, 5, 9, 15], value=1, description="median"),
-    mean_dt=widgets.Checkbox(value=True, description="mean time step"),
-    trim=widgets.Checkbox(value=True, description="trim the step"),
+    choices=(
+        Choice("left side", ("acceleration", "voltage")),
+        Choice("time step", ("mean", "each")),
+        Choice("trim the step", ("yes", "no")),
+        Choice("median", ("1", "3", "5", "9", "15")),
+    ),
+    knobs=(Knob("from", "from [m/s]", low=0.05, high=1.55, step=0.75, value=0.05),),
 )
 
 # %% [markdown]
@@ -734,7 +749,7 @@ plot_curves(
 # and a large r give a large kP. A delay makes kP smaller, because late corrections make the
 # mechanism shake.
 #
-# Somebody got kP = 0.62 with kS 0.14, kV 2.68 and kA 0.34. Move q until the star is on the dashed
+# Somebody got kP = 0.62 with kS 0.14, kV 2.68 and kA 0.34. Move q until the dot is on the dashed
 # line. Which q did they use?
 #
 # <details><summary>For mentors: the source lesson's kP</summary>
@@ -752,31 +767,31 @@ lesson_kv, lesson_ka = 2.68, 0.34
 QS = np.round(np.arange(0.5, 4.01, 0.25), 2)
 
 
-def kp_picture(q: float, r: float, delay: int) -> Picture:
-    """The suggested kP for each allowed error, with the source lesson's gains."""
+def suggested(q: float, r: float, delay: float) -> float:
+    """The kP that SysId suggests, with the source lesson's gains."""
+    return design_velocity_loop(
+        kv=lesson_kv, ka=lesson_ka, velocity_error=q, volts=r, delay=delay / 1000
+    ).kp
 
-    def suggested(error: float) -> float:
-        loop = design_velocity_loop(
-            kv=lesson_kv, ka=lesson_ka, velocity_error=error, volts=r, delay=delay / 1000
-        )
-        return loop.kp
 
-    return plot_curves(
-        QS,
-        {f"r = {r:g} V, {delay} ms delay": [suggested(float(error)) for error in QS]},
-        xlabel="q, the allowed velocity error [m/s]",
-        ylabel="kP [V·s/m]",
-        levels={"kP = 0.62": 0.62},
-        marked=(q, suggested(q)),
-        mark="your q",
+def kp_chart(q: float, r: float, delay: float) -> Chart:
+    """The suggested kP for each allowed error."""
+    ends, kp = QS[[0, -1]], suggested(q, r, delay)
+    curves = (
+        Curve("kP = 0.62", ends, [0.62, 0.62], "dashed"),
+        Curve("kP of each q", QS, [suggested(float(one), r, delay) for one in QS], "line", 0),
+        Curve("your q", [q], [kp], "dots", 1, [f"{kp:.2f}"]),
     )
+    return Chart("q, the allowed velocity error [m/s]", "kP [V·s/m]", curves)
 
 
-show_interactive(
-    kp_picture,
-    q=widgets.FloatSlider(min=0.5, max=4, step=0.05, value=1.5, description="q [m/s]"),
-    r=widgets.FloatSlider(min=1, max=12, step=0.5, value=7, description="r [V]"),
-    delay=widgets.IntSlider(min=0, max=120, step=10, value=0, description="delay [ms]"),
+animate_charts(
+    kp_chart,
+    knobs=(
+        Knob("q", "q [m/s]", low=0.5, high=4.0, step=0.1, value=1.5),
+        Knob("r", "r [V]", low=1.0, high=11.0, step=2.0, value=7.0),
+        Knob("delay", "delay [ms]", low=0.0, high=120.0, step=20.0, value=0.0),
+    ),
 )
 
 # %%

@@ -53,10 +53,10 @@
 # the model**. You repeat this until only noise remains. At the end, a program does the same.
 
 # %%
+from dataclasses import replace
 from pathlib import Path
 from textwrap import fill
 
-import ipywidgets as widgets
 import numpy as np
 from IPython.display import display
 
@@ -66,15 +66,12 @@ from sim.bench.mechanisms import MECHANISMS
 from sim.fit import fit
 from sim.physics.effects import EFFECTS
 from sim.physics.model import Model, Part
-from sim.plot import (
-    Picture,
-    Table,
-    plot_curves,
-    plot_voltage_residual,
-    show_interactive,
-)
-from sim.plot.animation import Choice, Motion, Panel, Scene, animate_mechanism
+from sim.physics.replay import replay_log
+from sim.plot import Table, make_residual_views
+from sim.plot.animation import Choice, Knob, Motion, Panel, Scene, animate_mechanism
+from sim.plot.animation.charts import Chart, Curve, animate_charts
 from sim.plot.animation.of_logs import animate_model
+from sim.plot.decimate import decimate_cloud
 from sim.plot.effect_search import EffectSearch
 from sim.plot.story import make_findings_table, plot_remaining_gap
 from sim.reconcile import reconcile
@@ -208,20 +205,35 @@ display(*(ask_question(f"lesson9.{robot}") for robot in "abcd"))
 
 
 # %%
-def under_the_microscope(which: str) -> Picture:
+UNITS = ("speed [m/s]", "time [s]", "position [m]", "voltage [V]", "−1 reverse, 1 forward")
+
+
+def under_the_microscope(which: str) -> list[Chart]:
     """The voltage residual of one of the four robots, in five plots."""
-    return plot_voltage_residual(suspects[which], true_model)
+    views = make_residual_views(suspects[which], true_model).views
+    high = 1.5 * float(np.quantile(np.abs(views["speed"].volts), 0.98))
+    charts = []
+    for label, (name, view) in zip(UNITS, views.items(), strict=True):
+        kept = decimate_cloud(np.nan_to_num(view.at), view.volts, most=60)
+        middle = 0.5 * (view.edges[:-1] + view.edges[1:])
+        curves = (
+            Curve("samples", view.at[kept], view.volts[kept], "dots", 4),
+            Curve("mean of nearby samples", middle, view.mean, "line", 1),
+        )
+        title = f"{name}: {100 * view.explains:.0f} %"
+        charts.append(Chart(label, "residual [V]", curves, title=title, y=(-high, high)))
+    return charts
 
 
-show_interactive(
-    under_the_microscope, which=widgets.Dropdown(options=list(suspects), description="robot")
+animate_charts(
+    under_the_microscope,
+    choices=(Choice("robot", tuple(suspects)),),
 )
 
 # %% [markdown]
 # The line shows the mean of nearby samples. The percentage above each plot says how much of the
 # (squared) voltage residual beyond noise follows this line. Compare the percentages of each robot.
-# They can be more than 100 % together, because one effect can show in two plots. The title says how
-# much no plot explains. The last plot is the run with the largest error.
+# They can be more than 100 % together, because one effect can show in two plots.
 
 # %% [markdown]
 # ### Explain
@@ -344,33 +356,39 @@ Table(
 ask_question("lesson9.limit")
 
 # %%
-LIMITS = np.array([1.0, 1.5, 2.0, 2.25, 2.5, 2.75, 3.0, 3.25, 3.5, 4.0, 5.0, 6.0, 8.0])
+steps = record_limited_robot()
+hands = {name: HandSearch(one) for name, one in steps.items()}
 
 
-def gaps_of(one: sim.Log) -> list[float]:
-    """The gap of a log for each limit, the gains being the true ones."""
-    hand = HandSearch(one)
-    models = [true_model + Part("current-limit", {"limit": x}) for x in LIMITS.tolist()]
-    return [hand.measure_gap(hand.evaluate_model(model), "log") for model in models]
+def limit_charts(limit: float) -> list[Chart]:
+    """A step of each log beside a model with this limit, the gains being the true ones."""
+    model = true_model + Part("current-limit", {"limit": limit})
+    charts = []
+    for name, hand in hands.items():
+        gap = hand.measure_gap(hand.evaluate_model(model), "log")
+        run = steps[name].list_runs_of_test("dynamic-forward")[0].select(slice(50))
+        (track,) = replay_log(model, replace(steps[name], runs=(run,)))
+        curves = (
+            Curve("measured", run.time - run.time[0], run.velocity, "dots", 4),
+            Curve("model", run.time - run.time[0], track.seen, "line", 1),
+        )
+        charts.append(Chart("time [s]", "speed [m/s]", curves, title=f"{name}: gap {gap:.1f}"))
+    return charts
 
 
-plot_curves(
-    LIMITS,
-    {name: gaps_of(one) for name, one in record_limited_robot().items()},
-    xlabel="limit in the model [V above the back-EMF]",
-    ylabel="gap [times the noise]",
-    levels={"the noise": 1.0},
-    log_scale=True,
+animate_charts(
+    limit_charts,
+    knobs=(Knob("limit", "limit in the model [V]", low=1.0, high=6.0, step=0.25, value=1.0),),
 )
 
 # %% [markdown]
-# Follow the curve of the gentle log to the right: above about 2 V it is **flat**. The gentle test
-# never reached the limit, so every higher limit is equally good. The data do not contain the
-# answer, so no program can find it. We say that the parameter is *not identifiable* from these
-# data. (A book about tests that do contain the answer: Ljung, *System Identification*, 2nd edition
-# (1999), chapter 13.)
+# Raise the limit (the volts above the back-EMF). Above about 2 V, the gap of the gentle test
+# **stays the same**. The gentle test never reached the limit, so every higher limit is equally
+# good. The data do not contain the answer, so no program can find it. We say that the parameter is
+# *not identifiable* from these data. (A book about tests that do contain the answer: Ljung, *System
+# Identification*, 2nd edition (1999), chapter 13.)
 #
-# The curve of the 6 V step has a clear minimum at the true limit, 3 V. You do not need a better
+# The gap of the 6 V step is clearly smallest at the true limit, 3 V. You do not need a better
 # method. You need **another test.** (On your robot you know the limit, because you set it. Choose
 # the limit first, then measure: lesson 3.)
 #
@@ -523,6 +541,10 @@ else:
 # ```
 #
 # The gains are per radian. An `ElevatorSim` takes `LinearSystemId.identifyPositionSystem(kV, kA)`.
+# In WPILib 2027 the two are `Models.flywheelFromSysId(kV, kA)` and `Models.elevatorFromSysId(kV,
+# kA)`. ([Models of WPILib 2027, at one
+# commit](https://github.com/wpilibsuite/allwpilib/blob/28083c504ae638b084277ffb46259e51f0b73454/wpimath/src/main/java/org/wpilib/math/system/Models.java))
+#
 # It adds a gravity of 9.8 m/s² by itself, whatever your kG is. This is right only if kG/kA is 9.8
 # m/s² (lesson 2). With a counterweight or a second stage, switch `simulateGravity` off, and
 # subtract kG from the volts, too. ([LinearSystemId of WPILib

@@ -13,7 +13,7 @@
 # %% [markdown]
 # # Lesson 10: Swerve
 #
-# *About 35 minutes. You need lessons 3, 6 and 8. This lesson is for teams with a swerve drive.*
+# *About 40 minutes. You need lessons 3, 6 and 8. This lesson is for teams with a swerve drive.*
 #
 # **At the end you can**
 #
@@ -71,7 +71,8 @@ from sim.fit.physics.inertia import compute_moment_of_inertia
 from sim.fit.pooled import pool_fits
 from sim.physics.motors import find_motor
 from sim.plot import Table, plot_curves
-from sim.plot.animation import Choice, Motion, Panel, Scene, animate_mechanism
+from sim.plot.animation import Choice, Knob, Motion, Panel, Scene, animate_mechanism
+from sim.plot.animation.charts import Chart, animate_charts, compare_values
 from sim.teaching.answers import read_answer
 from sim.teaching.swerve_gaps import check_formulas
 
@@ -234,6 +235,21 @@ for name, motor_turns in spin.motor_turns.items():
     rows.append((name, motor_turns, 1000 * radius))
 print(f"The gyro turned {np.degrees(spin.turned):.0f}°, which is {spin.turned:.2f} rad.")
 Table(("module", "turns of the motor", "radius of the wheel [mm]"), tuple(rows))
+
+# %% [markdown]
+# Find the four radii by hand: with the right radius, a wheel has rolled as far as the gyro says.
+
+
+# %%
+def roll(radius: float) -> Chart:
+    """How far each wheel has rolled, if this is its radius [mm]."""
+    way = 2 * np.pi * radius / 1000 / robot.ratio
+    rolled = {name: way * turns for name, turns in spin.motor_turns.items()}
+    label = "rolled [m] (dashed: the way of a wheel by the gyro)"
+    return compare_values(rolled, truth=spin.turned * distance, xlabel=label)
+
+
+animate_charts(roll, knobs=(Knob("radius", "radius [mm]", 46.0, 54.0, 0.2, 53.0),))
 
 # %% [markdown]
 # The radius of the back left wheel is 2.4 mm smaller. Change the wheel, or write the right radius

@@ -3,13 +3,11 @@
 import contextlib
 import json
 import os
-import re
 import secrets
 import shutil
 import subprocess
 import sys
 import time
-from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -21,12 +19,6 @@ SETTINGS = {
 SCREEN = {"width": 1280, "height": 900}
 PATIENCE = 60_000  # [ms] for anything to appear, on a busy machine
 OFTEN = 100  # [ms] between two looks; a page that nobody sees draws no frames to wait for
-KINDS = {  # of knobs, and what there is to turn
-    "slider": ".noUi-handle",
-    "menu": "select",
-    "checkbox": "input[type=checkbox]",
-    "button": "button",
-}
 
 
 @contextlib.contextmanager
@@ -85,78 +77,6 @@ def outputs(page, kind):
     """The texts of all outputs of a kind: ``error``, ``stderr``."""
     where = f'[data-mime-type="application/vnd.jupyter.{kind}"]'
     return page.locator(where).all_inner_texts()
-
-
-def panels(page):
-    """Every group of knobs with the picture that they draw; not a search, which has steps."""
-    search = page.get_by_role("button", name="Add and fit")
-    groups = page.locator(".jp-Notebook .widget-vbox").filter(has=page.locator("img"))
-    return groups.filter(has_not=search).all()
-
-
-def drawn_by(panel, notebook):
-    """The function that draws a panel's picture, from ``show_interactive(NAME, …)`` in its cell."""
-    index = panel.evaluate(
-        """panel => [...document.querySelectorAll('.jp-Notebook .jp-Cell')]
-            .indexOf(panel.closest('.jp-Cell'))"""
-    )
-    cells = json.loads(notebook.read_text(encoding="utf-8"))["cells"]
-    return re.findall(
-        r"^show_interactive\(\s*(\w+)", "".join(cells[index]["source"]), flags=re.MULTILINE
-    )[-1]
-
-
-@dataclass(frozen=True)
-class Knob:
-    """One widget of a panel: its label, its kind, and what there is to turn (a locator)."""
-
-    name: str
-    kind: str
-    grip: object
-
-    @property
-    def place(self):
-        """First, present and last place: options of a menu by number, values of a slider."""
-        if self.kind == "menu":
-            return self.grip.evaluate("menu => [0, menu.selectedIndex, menu.options.length - 1]")
-        if self.kind == "slider":  # what it says aloud is rounded
-            return self.grip.evaluate(
-                """handle => {
-                    const slider = handle.closest('.noUi-target').noUiSlider;
-                    const {min, max} = slider.options.range;
-                    return [min, slider.get(true), max].map(place => Number([place].flat()[0]));
-                }"""
-            )
-        return [0, int(self.kind == "checkbox" and self.grip.is_checked()), 1]
-
-    def turn(self):
-        """Move it by one: a step, an option, a click; back where there is none further on."""
-        _, now, last = self.place
-        onward = now < last
-        if self.kind == "menu":
-            self.grip.select_option(index=now + 1 if onward else now - 1)
-        elif self.kind == "slider":
-            self.grip.press("ArrowRight" if onward else "ArrowLeft")
-        else:
-            self.grip.click()
-
-
-def knobs(panel):
-    """The widgets of a panel, all but the picture, from top to bottom.
-
-    Raises:
-        LookupError: one is of a kind that nobody here knows how to turn.
-    """
-    found = []
-    for widget in panel.locator("> *").all()[:-1]:
-        kinds = [kind for kind, grip in KINDS.items() if widget.locator(grip).count()]
-        if not kinds:
-            what = widget.get_attribute("class")
-            raise LookupError(f"{what} has no {', no '.join(KINDS)}. Add its kind to KINDS.")
-        labels = [*widget.locator("label").all_inner_texts(), widget.inner_text()]
-        name = next(filter(None, (label.strip("\u200b \n") for label in labels)), kinds[0])
-        found.append(Knob(name, kinds[0], widget.locator(KINDS[kinds[0]]).first))
-    return found
 
 
 def _command(home, token):

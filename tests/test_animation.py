@@ -19,6 +19,13 @@ from sim.plot.animation import (
     animate_mechanism,
     read_script,
 )
+from sim.plot.animation.charts import (
+    Chart,
+    Curve,
+    animate_charts,
+    chart_gain_errors,
+    compare_values,
+)
 
 TIME = np.arange(0.0, 2.0, 0.02)
 SPEED = np.sin(TIME)
@@ -79,3 +86,54 @@ def test_data_of_a_page_is_json_with_short_numbers():
     (motion,) = found["scenes"][""]["motions"]
     assert motion["gains"]["kS"] == {"knob": "kS", "times": 1.0, "plus": 0.0}
     assert max(len(str(value)) for value in motion["voltage"]) <= 9
+
+
+def ask_line(kind, slope):
+    """A line of a kind, with a gap; no line falls."""
+    if slope < 0.0:
+        raise BadRequest("a line that falls", advice="Choose a slope above 0.")
+    line = Curve("line", [0.0, 1.0, 2.0], [0.0, float("nan"), 2.0 * slope], kind, 0)
+    return Chart("x [m]", "y [V]", (line,))
+
+
+def lines():
+    return animate_charts(
+        ask_line,
+        choices=(Choice("kind", ("line", "dots"), value="dots"),),
+        knobs=(Knob("slope", "slope [V/m]", low=-0.5, high=1.0, step=0.5, value=0.5),),
+    )
+
+
+def test_charts_hold_the_curves_of_every_option_and_position_once():
+    data = json.loads(json.dumps(lines().data, allow_nan=False))
+    frames = [[(data["axes"][axes], *curves) for axes, *curves in one] for one in data["frames"]]
+    assert len(frames) == 2 * 4  # the last slider changes first
+    assert len(data["axes"]) == 2  # of the refusal, and of all lines
+    assert len(data["curves"]) == 2 * 3
+    ((axes, number),) = frames[4 + 3]
+    assert data["curves"][number]["y"] == [0.0, None, 2.0]
+    assert data["curves"][number]["style"] == "dots"
+    low, high = axes["y"]
+    assert -0.2 < low < 0.0
+    assert 2.0 < high < 2.2
+    ((refused,),) = frames[0]
+    assert "a line that falls" in refused["title"]
+
+
+def test_charts_are_described_as_first_shown():
+    assert str(lines()) == "With kind = dots, slope [V/m] = 0.5: y [V] over x [m] (line)."
+
+
+def test_compared_values_are_rows_with_their_numbers():
+    chart = compare_values({"kS": 1.5, "kV": 1.0}, truth=1.0, xlabel="", spreads={"kS": 0.1})
+    spread, truth, dots = chart.curves
+    assert spread.x == pytest.approx([1.4, 1.6])
+    assert spread.y == [0, 0]
+    assert truth.x == [1.0, 1.0]
+    assert list(zip(chart.rows, dots.notes, strict=True)) == [("kS", "1.50"), ("kV", "1.00")]
+
+
+def test_a_gain_whose_error_is_its_size_is_unknown():
+    chart = chart_gain_errors({"kS": float("inf"), "kV": 0.004})
+    assert [curve.notes[1] for curve in chart.curves] == ["unknown", "± 0.400 %"]
+    assert [curve.x for curve in chart.curves] == [[0.0, 100.0], [0.0, pytest.approx(0.4)]]

@@ -16,6 +16,7 @@ from lab import (
 )
 from matplotlib.image import imread
 
+from sim.core.errors import BadRequest
 from sim.physics.engine import State, simulate_run
 from sim.physics.model import Model
 from sim.plot.animation import (
@@ -29,6 +30,7 @@ from sim.plot.animation import (
     TestPlan,
     animate_mechanism,
 )
+from sim.plot.animation.charts import Chart, Curve, animate_charts
 from sim.plot.picture import COLORS_ON_DARK
 
 pytestmark = [pytest.mark.slow, pytest.mark.browser]
@@ -81,6 +83,24 @@ def race(motion=MOTIONS["program"], **more):
     )
 
 
+def ask_charts(style, slope):
+    """A line with a number at its end, and bars in rows; no line falls."""
+    if slope < 0.0:
+        raise BadRequest("a line that falls", advice="Choose a slope above 0.")
+    line = Curve("the line", TIME, slope * TIME, style, 0, [""] * (TIME.size - 1) + [f"{slope:g}"])
+    bar = Curve("", [0.0, slope], [0.0, 0.0], "bar", 2, ["", f"{slope:g} V"])
+    return [Chart("t [s]", "y [V]", (line,)), Chart("bars [V]", "", (bar,), ("kS", "kV"))]
+
+
+def charts():
+    """Two charts that a menu and a slider change."""
+    return animate_charts(
+        ask_charts,
+        choices=(Choice("style", ("line", "dots", "dashed", "area")),),
+        knobs=(Knob("slope", "slope", low=-0.1, high=1.0, step=0.1, value=0.5),),
+    )
+
+
 @pytest.fixture
 def shown(browser, tmp_path):
     """Shows an animation in a page; the first figure of it."""
@@ -95,7 +115,7 @@ def shown(browser, tmp_path):
         page.on("pageerror", lambda error: page.complaints.append(str(error)))
         page.on("request", lambda request: page.asked.append(request.url))
         page.goto(path.as_uri())
-        page.locator("figure[data-alive] .motion-clock").first.wait_for()
+        page.locator("figure[data-alive] .motion-knobs, .motion-clock").first.wait_for()
         pages.append(page)
         return page, page.locator("figure.motion").first
 
@@ -179,12 +199,28 @@ def test_a_knob_changes_the_motion_the_score_and_the_picture(shown):
     assert "best" in figure.locator(".motion-score").inner_text()
 
 
-def test_knobs_answer_at_twenty_pictures_a_second(shown, capsys):
-    _, figure = shown(race())
+@pytest.mark.parametrize("kind", ["race", "charts"])
+def test_knobs_answer_at_twenty_pictures_a_second(kind, shown, capsys):
+    _, figure = shown(race() if kind == "race" else charts())
     rate = figure.evaluate(f"figure => ({DRAG})({{figure, seconds: 1.5}})")
     with capsys.disabled():
         print(f"\n{rate:.0f} pictures a second")  # noqa: T201 - a figure for whoever runs it
     assert rate >= LEAST_PICTURES
+
+
+def test_a_menu_and_a_slider_change_charts_and_a_refusal_is_read(shown):
+    page, figure = shown(charts(), viewport=PHONE)
+    drawing = figure.locator("svg[role=img]").first
+    before = drawing.inner_html()
+    assert "the line, 0.5" in drawing.get_attribute("aria-label")
+    figure.get_by_label("slope").press("ArrowRight")
+    assert "the line, 0.6" in drawing.get_attribute("aria-label")
+    figure.get_by_label("style").select_option("dots")
+    assert drawing.inner_html() != before
+    assert figure.locator("svg[role=img]").last.get_by_text("kV", exact=True).is_visible()
+    assert page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]
+    figure.get_by_label("slope").press("Home")
+    assert figure.get_by_text("Choose a slope above 0.").is_visible()
 
 
 def test_the_cursor_moves_robot_and_plots_together(shown):

@@ -24,9 +24,10 @@ CELLS = (
         metadata=FOLDED,
     ),
     CODE(
-        "import ipywidgets\nfrom sim.plot import plot_choices, show_interactive\n"
-        "show_interactive(lambda ramp: plot_choices({'kS': ramp}, truth=1, name='kS'), "
-        "ramp=ipywidgets.IntSlider(3))"
+        "from sim.plot.animation import Knob\n"
+        "from sim.plot.animation.charts import animate_charts, compare_values\n"
+        "animate_charts(lambda ramp: compare_values({'kS': ramp}, truth=1.0, xlabel='kS'), "
+        "knobs=[Knob('ramp', 'ramp', 0.0, 4.0, 1.0, 3.0)])"
     ),
     MARKDOWN("## 2 System check\n\n- [ ] the robot has room\n\n### Details\n\nmore"),
     MARKDOWN("## 3 Practice\n\nnothing to tick"),
@@ -67,7 +68,13 @@ def test_a_lesson_becomes_a_page_slides_and_a_part_of_the_handout(lesson, tmp_pa
         assert re.findall(r"<h2>(.*?)</h2>", text) == [
             "1 Why: it is short", "2 System check", "3 Practice",
         ]  # fmt: skip
-        for shown in ("# ## no heading", "1 &lt; 2", "up &amp; left", "How far?", "sliders"):
+        for shown in (
+            "# ## no heading",
+            "1 &lt; 2",
+            "up &amp; left",
+            "How far?",
+            "With ramp = 3.0",
+        ):
             assert shown in text
         assert "right=" not in text
         assert "Installs" not in text

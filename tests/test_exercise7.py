@@ -169,6 +169,16 @@ def test_what_a_line_earns(line, damage, points):
     assert (result.hint == "") == (points == 2.0)
 
 
+def test_a_brownout_ends_where_the_motor_is_on_again_and_not_where_the_speed_is_back():
+    cut = case(("brownout", 2, 22.0, 22.4))
+
+    claims = LINE.read_claims("brownout, dynamic-forward, 1 to 1.9, rerun")
+    result = SCORING.score_claims(claims, cut, points=2.0)
+
+    assert result.points == 1.5
+    assert "begins to fall until it begins to rise" in result.hint
+
+
 def test_half_a_sample_off_is_forgiven_where_damage_is_short():
     short = case(("wheel-slip", 2, 21.0, 21.12))
 

@@ -7,7 +7,7 @@ import os
 import re
 import subprocess
 import sys
-from dataclasses import astuple, dataclass
+from dataclasses import astuple, dataclass, replace
 from html import unescape
 from html.parser import HTMLParser
 from pathlib import Path
@@ -24,7 +24,7 @@ from grader.robotcode.library import revlib
 from sim.bench.simulate import simulate
 from sim.fit import fit
 from sim.physics.motors import MOTORS
-from sim.plot import Picture, plot_r2_vs_gain_error
+from sim.plot.animation.charts import Chart, Curve
 from sim.teaching.answers import read_answer
 from sim.teaching.r2_cases import GOOD, make_cases
 
@@ -37,8 +37,9 @@ ASSUMED = (  # INSTRUCTORS.md's sentence about how the minutes are calculated
 )
 PICTURE = '<figure><img alt="a picture"></figure><table></table>'  # with the table of its numbers
 PLUMBING = (  # what a cell in sight does not do
-    r"^(?:import|from) |\b(?:ask_question|show_interactive|animate_mechanism)\("
+    r"^(?:import|from) |\b(?:ask_question|animate_charts|animate_mechanism)\("
 )
+MOVING = 3  # figures of a lesson, at least
 SCREENFUL = 40  # [lines] of a function; what is longer belongs into sim
 DERIVE = "run  python .ci/derive_notebooks.py  and commit the notebook with its text"
 
@@ -179,8 +180,7 @@ def test_every_question_is_on_a_slide(text, run):
     code = [cell for cell in notebook.cells if cell.cell_type == "code"]
     shown = [output.data for cell in code for output in cell.outputs if "data" in output]
     widgets = [data["text/plain"] for data in shown if VIEW in data]
-    other = ("InteractivePicture(", "EffectSearch(")
-    questions = [words for words in widgets if not words.startswith(other)]
+    questions = [words for words in widgets if not words.startswith("EffectSearch(")]
     starts = [re.sub(r"{.*", "", one["question"]) for one in list_questions(text)]
 
     assert [start for start in starts if not any(q.startswith(start) for q in questions)] == []
@@ -214,11 +214,10 @@ def test_a_mechanism_moves_in_the_lessons_that_need_it(number, run):
 
 
 @each_lesson
-def test_a_picture_with_widgets_is_there_where_no_widget_lives(text, run):
-    for cell in run(text).cells:
-        if re.search(r"^show_interactive\(", cell.source, re.MULTILINE):
-            (data,) = (output.data for output in cell.outputs if VIEW in output.get("data", {}))
-            assert Page(data["text/html"]).pictures
+def test_a_lesson_has_three_figures_that_move_without_the_kernel(text, run):
+    """The page itself draws them whenever a menu, a slider or the time changes."""
+    pages = [Page(html) for html in _htmls(run(text))]
+    assert sum(len(page.animations) for page in pages) >= MOVING
 
 
 @each_lesson
@@ -318,7 +317,7 @@ def _code_load(cell):
     """What the questions, pictures and tables of a cell of code ask; a widget counts once."""
     shown = [output["data"] for output in cell.outputs if "data" in output]
     pages = [Page(data.get("text/html", "")) for data in shown if VIEW not in data]
-    sliders = len(re.findall(r"^(?:show_interactive\(|search$)", cell.source, re.MULTILINE))
+    sliders = len(re.findall(r"^search$", cell.source, re.MULTILINE))
     return Load(
         words=0,
         questions=sum(VIEW in data for data in shown) - sliders,
@@ -372,7 +371,7 @@ def test_what_is_folded_or_repeated_takes_no_time():
         nbformat.v4.new_markdown_cell(f"# Two words\n\n{folded}\n\n| a | b |\n|---|---|\n"),
         nbformat.v4.new_markdown_cell("```\ncode\n```\n[link](https://address.org) $x + y$"),
         nbformat.v4.new_code_cell("ask_question(one)", outputs=[_widget_output(""), picture]),
-        nbformat.v4.new_code_cell("show_interactive(look)", outputs=[_widget_output(PICTURE)]),
+        nbformat.v4.new_code_cell("search", outputs=[_widget_output(PICTURE)]),
         nbformat.v4.new_code_cell("Table(look)", outputs=[_html_output("<table>")]),
     ]
 
@@ -444,6 +443,16 @@ def test_gains_in_amperes_are_those_in_volts_over_the_resistance_and_no_kv():
         assert round(steady, 1) == 3.7
 
 
+def test_rows_every_20_ms_show_the_kv_of_a_light_steering_and_not_its_ka():
+    wheel = sim.MECHANISMS["shooter"]
+    light = replace(wheel, load=wheel.load / 30)
+    routine = sim.Routine(ramp=1.0, step=3.0)
+    found = fit(simulate(light, routine, rng=np.random.default_rng(1)), method="sysid").gains
+
+    assert found["kV"] == pytest.approx(light.gains["kV"], rel=0.01)
+    assert found["kA"] > 2.0 * light.gains["kA"]
+
+
 def test_the_default_of_motion_magic_expo_is_a_kraken_without_gears():
     assert MOTORS["krakenX60"].back_emf * 2 * math.pi == pytest.approx(0.12, rel=0.01)
 
@@ -463,15 +472,15 @@ def test_lesson_6_does_not_name_the_damage_of_a_log_before_one_decided():
     source = (ROOT / "lessons" / "06_read_the_data.py").read_text(encoding="utf-8")
     cell = source.partition("# **Decide first:**")[2].partition("# %%\n")[2].partition("# %%")[0]
     cases = make_cases(rng=np.random.default_rng(0))
-    space = {"np": np, "all_cases": cases, "plot_r2_vs_gain_error": plot_r2_vs_gain_error}
-    space |= {"GOOD": GOOD, "Picture": Picture}
-    exec(cell.partition("show_interactive(")[0], space)  # noqa: S102 - the lesson's own cell
+    space = {"np": np, "all_cases": cases, "GOOD": GOOD, "Chart": Chart, "Curve": Curve}
+    space["TRUTH"] = {"kS": 0.15, "kV": 2.5, "kA": 0.2}
+    exec(cell.partition("animate_charts(")[0], space)  # noqa: S102 - the lesson's own cell
     for sort in space["KEYS"]:
-        hidden = space["grid"](sort, "hide")
-        assert "log A" in hidden.table.html
-        assert "log V" in hidden.table.html
-        assert not [case.name for case in cases if case.name in hidden.table.html + hidden.alt]
-    assert all(case.name in space["grid"]("letter", "reveal").table.html for case in cases)
+        for chart in space["grid"]("hide", sort):
+            assert sorted(chart.rows) == [chr(ord("A") + at) for at in range(len(cases))]
+            assert not [curve.name for curve in chart.curves if curve.name]
+    revealed = " ".join(space["grid"]("reveal", "letter")[0].rows)
+    assert all(case.name in revealed for case in cases)
     by_letter = [space["LETTERS"][case.name] for case in cases]
     assert by_letter != sorted(by_letter)  # the order in which they are made would tell
 

@@ -8,7 +8,6 @@ from dataclasses import replace
 from functools import cache
 from xml.etree import ElementTree as ET
 
-import ipywidgets
 import numpy as np
 import pytest
 from html_tags import Tags
@@ -23,13 +22,10 @@ from sim.plot import (
     Line,
     Picture,
     plot_acceleration_velocity,
-    plot_choices,
     plot_curves,
     plot_misses,
     plot_time_series,
-    plot_timesteps,
     plot_voltage_velocity,
-    show_interactive,
 )
 from sim.plot.picture import make_panels
 
@@ -54,12 +50,7 @@ PICTURES = {
         DRIVE,
         damages=[Damage("overrun", LogInterval(0, DRIVE.runs[0].test, 2.0, 2.5), 0.9, "", "")],
     ),
-    "timesteps": lambda: plot_timesteps(DRIVE),
     "acceleration against velocity": lambda: plot_acceleration_velocity(DRIVE),
-    "choices": lambda: plot_choices({"a": 1.0, "b": 3.0}, truth=2.0, name="kA", unit="V·s²/m"),
-    "choices with spreads": lambda: plot_choices(
-        {"a": 1.0}, truth=2.0, name="kA", spreads={"a": 0.1}
-    ),
     "curves": lambda: plot_curves(
         range(20), {"up": range(20)}, xlabel="x", ylabel="y", levels={"l": 3}, marked=(3.0, 3.0)
     ),
@@ -106,21 +97,15 @@ def test_the_same_picture_is_the_same_text(name):
     assert PICTURES[name]().svg == drawn(name)[1]
 
 
-def test_choices_say_by_how_much_each_is_off():
-    picture = plot_choices({"low": 1.5, "near": 2.002, "high": 3.0}, truth=2.0, name="kA")
-    assert [row[2] for row in picture.table.rows] == ["−25 %", "+0.1 %", "+50 %"]
-
-
 @pytest.mark.parametrize(
     "draw",
     [
-        lambda: plot_choices({}, truth=1.0, name="kA"),
         lambda: plot_curves([1, 2], {}, xlabel="", ylabel=""),
         lambda: plot_curves([1, 2], {"a": [1]}, xlabel="", ylabel=""),
         lambda: plot_time_series(replace(DRIVE, runs=())),
         lambda: plot_voltage_velocity(replace(DRIVE, runs=DRIVE.runs[2:])),
     ],
-    ids=["no choices", "no curves", "a short curve", "an empty log", "no ramp"],
+    ids=["no curves", "a short curve", "an empty log", "no ramp"],
 )
 def test_what_cannot_be_drawn_is_refused_with_advice(draw):
     with pytest.raises(BadRequest) as refused:
@@ -131,8 +116,8 @@ def test_what_cannot_be_drawn_is_refused_with_advice(draw):
 @pytest.mark.parametrize("suffix", ["svg", "png", "pdf", "PNG"])
 def test_a_picture_is_saved_whole_and_the_same_again(suffix, tmp_path):
     one, two = tmp_path / f"one.{suffix}", tmp_path / f"two.{suffix}"
-    PICTURES["choices"]().save(one)
-    PICTURES["choices"]().save(two)
+    PICTURES["misses"]().save(one)
+    PICTURES["misses"]().save(two)
     assert one.read_bytes() == two.read_bytes()
     assert sorted(path.name for path in tmp_path.iterdir()) == [one.name, two.name]
 
@@ -143,33 +128,8 @@ def test_a_picture_is_saved_whole_and_the_same_again(suffix, tmp_path):
 )
 def test_a_picture_that_cannot_be_saved_leaves_nothing_behind(name, advice, tmp_path):
     with pytest.raises(BadRequest, match=advice):
-        PICTURES["choices"]().save(tmp_path / name)
+        PICTURES["misses"]().save(tmp_path / name)
     assert list(tmp_path.iterdir()) == []
-
-
-def test_turning_a_knob_draws_the_picture_that_plain_code_draws():
-    def draw(slope):
-        return plot_misses([1, 2], [2, 5], intercept=0, slope=slope, xlabel="x", ylabel="y")
-
-    knob = ipywidgets.FloatSlider(value=1.0, min=0.0, max=4.0)
-    panel = show_interactive(draw, slope=knob)
-    assert panel.children[-1].value == draw(1.0).html
-    knob.value = 2.5
-    assert panel.children[-1].value == draw(2.5).html
-
-
-def test_a_knob_that_asks_for_what_cannot_be_drawn_says_so():
-    def draw(ramp):
-        return plot_time_series(
-            simulate(
-                sim.MECHANISMS["drivetrain"], sim.Routine(ramp=ramp), rng=np.random.default_rng(1)
-            )
-        )
-
-    knob = ipywidgets.FloatText(value=1.0)
-    panel = show_interactive(draw, ramp=knob)
-    knob.value = -1.0
-    assert "Choose a number above 0" in panel.children[-1].value
 
 
 def test_matplotlib_is_used_here_and_nowhere_else(root):
@@ -185,7 +145,8 @@ def test_matplotlib_is_used_here_and_nowhere_else(root):
 def test_drawing_needs_no_backend_and_keeps_no_figure(root):
     code = (
         "import sys, sim.plot\n"
-        "sim.plot.plot_choices({'a': 1.0}, truth=1.0, name='kA').svg\n"
+        "assert 'matplotlib' not in sys.modules\n"  # half of the time of a lesson's first cell
+        "sim.plot.plot_curves([1, 2], {'a': [1, 2]}, xlabel='x', ylabel='y').svg\n"
         "assert 'matplotlib.pyplot' not in sys.modules\n"
     )
     subprocess.run(
@@ -204,13 +165,3 @@ def test_a_name_that_the_font_lacks_stays_text_without_a_warning():
     assert ">王小明</text>" in Picture(figure, "a name").svg
     axes.set_title("ann")
     assert "<text" not in Picture(figure, "a name").svg
-
-
-def test_the_axes_of_a_picture_that_is_drawn_again_stand_still():
-    drawn, again = (plot_choices({"a": value}, truth=2.0, name="kA") for value in (1.0, 1e6))
-    assert drawn.svg
-    again.place_as(drawn)
-    assert again.svg
-
-    first, second = (picture.figure.axes[0].get_position().bounds for picture in (drawn, again))
-    assert first == pytest.approx(second)

@@ -1,11 +1,9 @@
 """Pictures of gravity: windows and bands, in words and numbers."""
 
-import math
-
 import pytest
 
 from sim.core.errors import BadRequest
-from sim.plot import plot_gain_errors, plot_hold_angles, plot_hold_window
+from sim.plot import plot_hold_angles, plot_hold_window
 
 VOLTS, SPEEDS = [1.0, 1.5, 2.0, 2.5, 3.0], [-0.17, -0.06, 0.0, 0.05, 0.17]
 HOLDS = [(-30.0, 1.06, 1.56), (0.0, 1.26, 1.76), (60.0, 0.50, 1.00)]
@@ -17,8 +15,6 @@ PICTURES = {
     ),
     "window without marks": lambda: plot_hold_window(VOLTS, SPEEDS, window=(1.76, 2.26), marks={}),
     "angles": lambda: plot_hold_angles(HOLDS, kg=1.51, ks=0.25),
-    "errors": lambda: plot_gain_errors({"kS": math.inf, "kV": 0.004, "kA": 0.05}),
-    "angles of an encoder askew": lambda: plot_hold_angles(HOLDS, kg=1.51, ks=0.25, offset=35.0),
 }  # fmt: skip
 
 

@@ -12,7 +12,6 @@ from sim.core.log import Log, Run
 from sim.inspect.fault import Damage, LogInterval
 from sim.plot import (
     plot_time_series,
-    plot_timesteps,
     plot_voltage_velocity,
 )
 from sim.plot.picture import COLORS
@@ -76,7 +75,7 @@ def test_gravity_shows_on_both_sides_of_standstill():
 
 
 @pytest.mark.parametrize(
-    "draw", [plot_time_series, plot_voltage_velocity, plot_timesteps], ids=lambda d: d.__name__
+    "draw", [plot_time_series, plot_voltage_velocity], ids=lambda d: d.__name__
 )
 def test_an_empty_run_is_refused_with_advice(draw):
     with pytest.raises(BadRequest, match=r"Use a log"):
@@ -96,7 +95,7 @@ def huge():
 
 @pytest.mark.parametrize(
     "draw",
-    [plot_time_series, plot_voltage_velocity, plot_timesteps],
+    [plot_time_series, plot_voltage_velocity],
     ids=lambda d: d.__name__,
 )
 def test_a_huge_log_makes_a_small_picture_that_counts_every_sample(draw, huge):

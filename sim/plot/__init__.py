@@ -10,18 +10,14 @@ Nothing here needs a screen, and no function keeps state between calls.
 """
 
 from sim.plot.acceleration import plot_acceleration_velocity
-from sim.plot.charts import plot_choices, plot_curves, plot_misses
-from sim.plot.gain_errors import plot_gain_errors
+from sim.plot.charts import plot_curves, plot_misses
 from sim.plot.gain_tables import tabulate_fits, tabulate_gains
 from sim.plot.gap_bars import plot_gap_bars
 from sim.plot.gauge import plot_gauge
 from sim.plot.hold_voltage import plot_hold_angles, plot_hold_window
-from sim.plot.interactive import show_interactive
 from sim.plot.logs import plot_time_series
 from sim.plot.picture import Picture
-from sim.plot.r2_vs_gain_error import plot_r2_vs_gain_error
 from sim.plot.table import Table
-from sim.plot.timesteps import plot_timesteps
 from sim.plot.voltage_residual import make_residual_views, plot_voltage_residual
 from sim.plot.voltage_velocity import Line, plot_voltage_velocity
 
@@ -31,20 +27,15 @@ __all__ = [
     "Table",
     "make_residual_views",
     "plot_acceleration_velocity",
-    "plot_choices",
     "plot_curves",
-    "plot_gain_errors",
     "plot_gap_bars",
     "plot_gauge",
     "plot_hold_angles",
     "plot_hold_window",
     "plot_misses",
-    "plot_r2_vs_gain_error",
     "plot_time_series",
-    "plot_timesteps",
     "plot_voltage_residual",
     "plot_voltage_velocity",
-    "show_interactive",
     "tabulate_fits",
     "tabulate_gains",
 ]

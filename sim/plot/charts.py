@@ -1,10 +1,9 @@
-"""Charts that compare numbers: estimates with the truth, curves, and points with a line."""
+"""Curves, and points with a line."""
 
 from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.ticker import FuncFormatter
 
 from sim.core.errors import BadRequest
 from sim.core.log import Array
@@ -16,59 +15,13 @@ from sim.plot.picture import (
     REFERENCE,
     Picture,
     make_panels,
-    make_rows,
-    write_number,
 )
 from sim.plot.table import Cell, Table, to_text
 
-WINDOW = 0.25  # [1] relative range around the truth that is always shown
-GAINS = ("kS", "kV", "kA")  # names with colors and markers of their own; others have the first
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
 TABLE_ROWS = 8  # rows of a curve's table: more are hard to read
-
-
-def plot_choices(
-    values: Mapping[str, float],
-    *,
-    truth: float,
-    name: str,
-    unit: str = "",
-    line: str = "the truth",
-    within: float = WINDOW,
-    spreads: Mapping[str, float] | None = None,
-) -> Picture:
-    """Several estimates of one number, as dots, with a line at the true value.
-
-    Args:
-        values: method -> estimate, from top to bottom.
-        truth: the true value.
-        name: name of the number: ``kA``.
-        unit: unit of the number: ``V·s²/m``.
-        line: what the line at the true value is called.
-        within: relative range around the true value that is always shown.
-        spreads: method -> standard deviation over repetitions, drawn as a bar; may lack methods.
-
-    Raises:
-        BadRequest: there are no values.
-    """
-    if not values:
-        raise BadRequest("there is nothing to compare", advice="Give at least one value.")
-    label = f"{name} [{unit}]" if unit else name
-    words = f"{line}, {to_text(truth)}"
-    figure, axes = make_rows(list(values), label=f"{label} (dashed line: {words})", line=truth)
-    for place, (way, value) in enumerate(values.items()):
-        mark = GAINS.index(way) if way in GAINS else 0
-        axes.errorbar(
-            value, place, xerr=(spreads or {}).get(way, 0.0) or None, fmt=MARKERS[mark],
-            color=COLORS[mark], markersize=8, capsize=4,
-        )  # fmt: skip
-        write_number(axes, to_text(value), (value, place))
-    rows = tuple((way, value, _percent(value, truth)) for way, value in values.items())
-    axes.margins(x=0.1)
-    near = within * abs(truth) * np.array([-1.0, 1.0]) + truth
-    axes.update_datalim(np.column_stack([near, [0.0, 0.0]]), updatey=False)
-    axes.autoscale_view(scaley=False)
-    alt = f"Dots show {name}, {len(values)} of them. A dashed line marks {words} {unit}".rstrip()
-    return Picture(figure, f"{alt}.", Table(("which", label, "off by"), rows))
 
 
 def plot_curves(
@@ -115,6 +68,8 @@ def plot_curves(
     axes.set_xlabel(xlabel, color=INK)
     axes.set_ylabel(ylabel, color=INK)
     if log_scale:
+        from matplotlib.ticker import FuncFormatter  # noqa: PLC0415 - slow
+
         axes.set_yscale("log")
         axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axes.legend(fontsize=8)
@@ -191,14 +146,5 @@ def _squared(label: str) -> str:
     return f" {unit}²" if unit.isalpha() else f" ({unit})²"
 
 
-def _corner(axes: Axes, text: str) -> None:
+def _corner(axes: "Axes", text: str) -> None:
     axes.text(0.98, 0.04, text, transform=axes.transAxes, ha="right", fontsize=9, color=INK)
-
-
-def _percent(value: float, truth: float) -> str:
-    """By how much a value is off, as a signed percentage; the difference where truth is zero."""
-    if not truth:
-        return to_text(value - truth)
-    off = 100.0 * (value / truth - 1.0)
-    digits = 0 if abs(off) >= 1.0 else 1
-    return f"{off:+.{digits}f} %".replace("-", "−")

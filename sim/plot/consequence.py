@@ -2,9 +2,9 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.axes import Axes
 
 from sim.core.errors import BadRequest
 from sim.feedback.following import FollowedProfile
@@ -19,6 +19,9 @@ from sim.plot.picture import (
     add_legend,
     make_panels,
 )
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 SIDE_BY_SIDE = 2  # panels in a row
 HEIGHT, MORE = 0.8, 2.2  # [in] height around the panels, and of each row of them
@@ -89,7 +92,7 @@ def plot_consequence(shown: Sequence[Trace], *, words: str) -> Picture:
     return Picture(figure, alt)
 
 
-def _draw(axes: Axes, one: Trace) -> None:
+def _draw(axes: "Axes", one: Trace) -> None:
     """Draw one panel; the target is a broad line, so that a curve on it stays visible."""
     time = np.asarray(one.time, dtype=float)
     name = "it must have stopped here" if one.limit else "what was wanted"

@@ -1,9 +1,9 @@
 """A gauge: numbers as marks on a scale with named bands."""
 
 from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.axes import Axes
 
 from sim.core.errors import BadRequest
 from sim.plot.picture import (
@@ -17,6 +17,9 @@ from sim.plot.picture import (
     write_number,
 )
 from sim.plot.table import Table, to_text
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 GOOD = COLORS[2]
 REST = ((COLORS[4], "//"), (COLORS[3], ".."))  # colors and hatches of the other bands
@@ -76,7 +79,7 @@ def _span(values: Sequence[float], *, least: float, last: float) -> tuple[float,
 
 
 def _draw(
-    axes: Axes,
+    axes: "Axes",
     values: Mapping[str, float],
     bands: Mapping[str, float],
     *,

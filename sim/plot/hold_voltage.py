@@ -1,7 +1,6 @@
 """The window of voltages that hold a mechanism against gravity: kG - kS to kG + kS."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -69,73 +68,46 @@ def _where(value: float, low: float, high: float) -> str:
     return "below it" if value < low else "above it" if value > high else "inside"
 
 
-@dataclass(frozen=True)
-class _Words:
-    """Names of the angles in a picture."""
-
-    angle: str
-    across: str
-    cosine: str
-    level: str
-
-
-_SHOWS_LEVEL = _Words("angle [deg]", "angle from level [deg]", "kG·cos(angle)", "the arm is level")
-
-
-def _name_with_offset(offset: float) -> _Words:
-    return _Words(
-        "reading [deg]",
-        "what the encoder reads [deg]",
-        "kG·cos(reading + offset)",
-        f"the arm is level, if the offset is {to_text(offset)}°",
-    )
-
-
 def plot_hold_angles(
     holds: Sequence[tuple[float, float, float]],
     *,
     kg: float,
     ks: float,
-    offset: float | None = None,
 ) -> Picture:
     """The window of an arm over its angle: a cosine with a constant width.
 
     Args:
-        holds: encoder reading [deg], and lower and upper edge of the window measured there [V].
+        holds: angle from level [deg], and lower and upper edge of the window measured there [V].
         kg: voltage that holds the arm level [V].
         ks: voltage of static friction [V].
-        offset: what to add to a reading for the angle from level [deg], a guess; None if the
-            encoder shows the angle from level.
     """
-    words, add = _SHOWS_LEVEL if offset is None else _name_with_offset(offset), offset or 0.0
-    ends = [reading for reading, *_ in holds]
-    readings = np.linspace(min([-QUARTER_TURN, *ends]) - 5.0, max([QUARTER_TURN, *ends]) + 5.0, 181)
-    middle = kg * np.cos(np.radians(readings + add))
+    ends = [angle for angle, *_ in holds]
+    angles = np.linspace(min([-QUARTER_TURN, *ends]) - 5.0, max([QUARTER_TURN, *ends]) + 5.0, 181)
+    middle = kg * np.cos(np.radians(angles))
     figure, ((axes,),) = make_panels(1, 1, height=3.6)
     axes.fill_between(
-        readings, middle - ks, middle + ks, color=BAND, alpha=0.35, label="it stays", linewidth=0
+        angles, middle - ks, middle + ks, color=BAND, alpha=0.35, label="it stays", linewidth=0
     )
-    axes.plot(readings, middle, "--", color=COLORS[0], label=words.cosine)
+    axes.plot(angles, middle, "--", color=COLORS[0], label="kG·cos(angle)")
     axes.axhline(0.0, color=REFERENCE, linewidth=0.8)
     for index, place, name in ((1, 1, "no longer falls"), (2, 2, "begins to rise")):
         edges = [hold[place] for hold in holds]
         axes.plot(ends, edges, MARKERS[index], color=COLORS[index], markersize=7, label=name)
-    level = 0.0 - add  # never −0
-    axes.axvline(level, color=REFERENCE, linestyle=":", linewidth=1.2, label=words.level)
-    axes.set_xlabel(words.across, color=INK)
+    axes.axvline(0.0, color=REFERENCE, linestyle=":", linewidth=1.2, label="the arm is level")
+    axes.set_xlabel("angle from level [deg]", color=INK)
     axes.set_ylabel("voltage [V]", color=INK)
     add_legend(figure, (axes,))
     alt = (
         "A band shows which voltages hold an arm at each angle. The band is "
         f"{to_text(2 * ks)} V wide everywhere. The middle of the band follows a cosine curve with "
-        f"a peak of {to_text(kg)} V. The peak is at {to_text(level)} degrees: there {words.level}. "
+        f"a peak of {to_text(kg)} V. The peak is at 0 degrees: there the arm is level. "
         f"Each of the {len(holds)} measured angles has two marks. They are the lowest and the "
         "highest voltage that hold the arm there."
     )
-    header = (words.angle, "no longer falls [V]", "begins to rise [V]", "middle [V]",
+    header = ("angle [deg]", "no longer falls [V]", "begins to rise [V]", "middle [V]",
               "half the width [V]")  # fmt: skip
     rows = tuple(
-        (f"{reading:g}".replace("-", "−"), low, high, (low + high) / 2.0, (high - low) / 2.0)
-        for reading, low, high in holds
+        (f"{angle:g}".replace("-", "−"), low, high, (low + high) / 2.0, (high - low) / 2.0)
+        for angle, low, high in holds
     )
     return Picture(figure, alt, Table(header, rows))

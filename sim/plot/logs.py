@@ -2,9 +2,9 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.axes import Axes
 
 from sim.core.errors import BadRequest
 from sim.core.log import DIRECTIONS, Array, Log, Run
@@ -22,6 +22,9 @@ from sim.plot.picture import (
     make_panels,
 )
 from sim.plot.table import Table
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 KINDS = ("quasistatic", "dynamic")
 APART = 0.15  # [share of a panel] distance of markers
@@ -84,7 +87,7 @@ def plot_time_series(
 
 
 def _mark_damage(
-    log: Log, damage: Damage, drawn: Mapping[int, Sequence[tuple[Axes, Array]]]
+    log: Log, damage: Damage, drawn: Mapping[int, Sequence[tuple["Axes", Array]]]
 ) -> str:
     """Hatch a damaged part in the color of its curve; a sentence about where it is."""
     where = damage.where
@@ -121,12 +124,12 @@ def _first_runs(log: Log) -> dict[int, Run]:
 def _draw(
     runs: Mapping[int, Run],
     kind: str,
-    axes: Sequence[Axes],
+    axes: "Sequence[Axes]",
     *,
     per: Unit,
     pens: Sequence[_Pen],
     labels: Sequence[str],
-) -> dict[int, list[tuple[Axes, Array]]]:
+) -> dict[int, list[tuple["Axes", Array]]]:
     """Draw both directions of a kind of test into two axes: voltage above, velocity below."""
     drawn: dict[int, list[tuple[Axes, Array]]] = {}
     for index, run in runs.items():

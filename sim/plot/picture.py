@@ -7,17 +7,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
 from pathlib import Path
-from typing import Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 from warnings import catch_warnings, filterwarnings
-
-from matplotlib import rc_context
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from sim.core.errors import BadRequest
 from sim.plot.table import Table
 from sim.support.atomic_file import atomic_path
 from sim.support.os_errors import refuse_os_errors
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 Dash: TypeAlias = str | tuple[float, tuple[float, ...]]  # a line style, as matplotlib takes it
 
@@ -47,7 +47,7 @@ class Picture:
         table: its numbers.
     """
 
-    figure: Figure
+    figure: "Figure"
     alt: str
     table: Table | None = None
 
@@ -64,23 +64,13 @@ class Picture:
             return self._draw_svg("none", missing="ignore")
 
     def _draw_svg(self, text: str, *, missing: Literal["error", "ignore"]) -> str:
+        from matplotlib import rc_context  # noqa: PLC0415 - slow, so with the first picture
+
         buffer = io.StringIO()
         with rc_context({"svg.hashsalt": "picture", "svg.fonttype": text}), catch_warnings():
             filterwarnings(missing, message=r"Glyph .* missing from", category=UserWarning)
             self.figure.savefig(buffer, format="svg", metadata={"Date": None, "Title": self.alt})
         return buffer.getvalue()
-
-    def place_as(self, drawn: "Picture") -> None:
-        """Put the axes where those of another picture were drawn; that takes less time, too.
-
-        Args:
-            drawn: a picture whose SVG or HTML was made; one with other axes changes nothing.
-        """
-        mine, theirs = self.figure.axes, drawn.figure.axes
-        if len(mine) == len(theirs):
-            self.figure.set_layout_engine("none")
-            for axes, like in zip(mine, theirs, strict=True):
-                axes.set_position(like.get_position())
 
     @property
     def html(self) -> str:
@@ -104,6 +94,8 @@ class Picture:
         Raises:
             BadRequest: the name does not end in .svg, .png or .pdf, or the file cannot be written.
         """
+        from matplotlib import rc_context  # noqa: PLC0415 - as above
+
         target = Path(path)
         kind = target.suffix.lower()
         if kind not in SUFFIXES:
@@ -138,7 +130,7 @@ _DATE = {".svg": "Date", ".pdf": "CreationDate"}
 
 def make_panels(
     rows: int, columns: int, *, width: float = 7.6, height: float = 3.2, shared: bool = False
-) -> tuple[Figure, list[list[Axes]]]:
+) -> "tuple[Figure, list[list[Axes]]]":
     """A figure with a grid of empty axes.
 
     Args:
@@ -148,6 +140,8 @@ def make_panels(
         height: height of the figure [in].
         shared: whether a column shares its x axis, and a row its y axis.
     """
+    from matplotlib.figure import Figure  # noqa: PLC0415 - slow, so with the first picture
+
     figure = Figure(figsize=(width, height), layout="constrained", facecolor=PAPER)
     grid = figure.subplots(
         rows,
@@ -164,20 +158,7 @@ def make_panels(
     return figure, [list(row) for row in grid]
 
 
-def make_rows(
-    names: Sequence[str], *, label: str, line: float | None = None
-) -> tuple[Figure, Axes]:
-    """A figure with a row for each name, over one scale with a dashed line at a value."""
-    figure, ((axes,),) = make_panels(1, 1, height=0.9 + 0.36 * len(names))
-    if line is not None:
-        axes.axvline(line, color=REFERENCE, linestyle="--", linewidth=1.2)
-    axes.set_xlabel(label, color=INK)
-    axes.set_yticks(range(len(names)), names)
-    axes.set_ylim(len(names) - 0.4, -0.8)
-    return figure, axes
-
-
-def write_number(axes: Axes, text: str, at: tuple[float, float], *, right: bool = False) -> None:
+def write_number(axes: "Axes", text: str, at: tuple[float, float], *, right: bool = False) -> None:
     """Write a number above a point, or to the right of it, legible over lines."""
     place: dict[str, Any] = (
         {"xytext": (4, 0), "va": "center"} if right else {"xytext": (0, 7), "ha": "center"}
@@ -188,7 +169,7 @@ def write_number(axes: Axes, text: str, at: tuple[float, float], *, right: bool 
     )
 
 
-def add_legend(figure: Figure, axes: Sequence[Axes], *, columns: int = 3) -> None:
+def add_legend(figure: "Figure", axes: Sequence["Axes"], *, columns: int = 3) -> None:
     """Add one legend below all panels, with each name once.
 
     Args:

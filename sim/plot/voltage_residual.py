@@ -10,9 +10,9 @@ more voltage than the model says; below 0, it got less.
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from sim.core.errors import BadRequest
@@ -33,6 +33,9 @@ from sim.plot.picture import (
     make_panels,
 )
 from sim.plot.table import Table, to_text
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 JUMP = 0.5  # [V] a larger change from one sample to the next is a jump
 CLOSE = (0.0, 0.03, 0.07, 0.11, 0.15, 0.21, 0.31, 0.51, 1.01)  # [s] after a jump, edges of bins
@@ -310,7 +313,7 @@ def plot_voltage_residual(
     )))  # fmt: skip
 
 
-def _draw_worst_run(axes: Axes, log: Log, simulated: Sequence[Array]) -> None:
+def _draw_worst_run(axes: "Axes", log: Log, simulated: Sequence[Array]) -> None:
     """The measured and the simulated velocity of the run that differ most."""
     with np.errstate(over="ignore"):  # a simulation that diverged
         errors = [np.mean((r.velocity - v) ** 2) for r, v in zip(log.runs, simulated, strict=True)]
@@ -356,7 +359,7 @@ def _bin_residual(missing: Array, at: Array, way: Array, edges: Array) -> Residu
     return ResidualView(at, missing, way, edges, cell, mean, error, 0.0)
 
 
-def _draw(axes: Axes, view: ResidualView, *, high: float) -> None:
+def _draw(axes: "Axes", view: ResidualView, *, high: float) -> None:
     inside = np.flatnonzero((view.at >= view.edges[0]) & (view.at <= view.edges[-1]))
     inside = inside[:: max(1, -(-inside.size // MOST))]
     axes.plot(

@@ -2,9 +2,9 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.axes import Axes
 
 from sim.core.errors import BadRequest
 from sim.core.log import DIRECTIONS, Array, Log, Run
@@ -12,6 +12,9 @@ from sim.core.units import Unit, find_unit
 from sim.plot.decimate import decimate_cloud
 from sim.plot.picture import COLORS, INK, LINES, MARKERS, REFERENCE, Picture, make_panels
 from sim.plot.table import Table
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 MOST = 150  # samples of a ramp drawn in the panel of the whole ramp
 CLOSEST = 500  # samples of a ramp drawn in the panel near standstill
@@ -101,7 +104,7 @@ def _ramps(runs: Sequence[Run], per: Unit) -> list[_Ramps]:
 
 
 def _set_limits(
-    axes: Axes, ramps: Sequence[_Ramps], lines: Mapping[str, Line], *, near: float, both: bool
+    axes: "Axes", ramps: Sequence[_Ramps], lines: Mapping[str, Line], *, near: float, both: bool
 ) -> None:
     """Set the limits of the panel near standstill to the samples and lines in it."""
     ways = {one.way for one in ramps}
@@ -122,7 +125,7 @@ def _set_limits(
     axes.set_ylim(float(seen.min()) - margin, float(seen.max()) + margin)
 
 
-def _within(ramps: Sequence[_Ramps], axes: Axes) -> list[_Ramps]:
+def _within(ramps: Sequence[_Ramps], axes: "Axes") -> list[_Ramps]:
     """The samples that a panel shows."""
     (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
     shown = []
@@ -134,7 +137,7 @@ def _within(ramps: Sequence[_Ramps], axes: Axes) -> list[_Ramps]:
 
 
 def _draw(
-    axes: Axes, ramps: Sequence[_Ramps], lines: Mapping[str, Line], *, top: float, most: int
+    axes: "Axes", ramps: Sequence[_Ramps], lines: Mapping[str, Line], *, top: float, most: int
 ) -> None:
     """Draw the samples, at most so many of each direction, and the lines."""
     for one in ramps:
@@ -163,7 +166,7 @@ def _draw(
         )
 
 
-def _moving(one: _Ramps, *, top: float) -> "np.ndarray[tuple[int], np.dtype[np.bool_]]":
+def _moving(one: _Ramps, *, top: float) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
     """Whether each sample (n,) moves in the direction of its test; an elevator falls at first."""
     sign = 1.0 if one.way == "forward" else -1.0
     return np.asarray(sign * one.velocity > MOVING * top)

@@ -6,8 +6,9 @@ The result is HTML with a script inside. It works in JupyterLab and in a page wi
 needs no network. If a motion has gains, the page simulates it (``sim/physics/engine/simulate.js``),
 so that a slider has an effect at once.
 
-animation.js   clock, controls and plots
+animation.js   clock and plots over time
 stages.js      drawings of the mechanisms
+charts.js      menus, sliders, axes, and the charts of ``charts.py``
 ticks.js       round numbers on an axis
 animation.css  styles, for light and dark pages
 """
@@ -126,6 +127,7 @@ def read_script() -> str:
         Path(engine.__file__).with_name("simulate.js"),
         FOLDER / "ticks.js",
         FOLDER / "stages.js",
+        FOLDER / "charts.js",
         FOLDER / "animation.js",
     )
     rows = [row for file in files for row in file.read_text(encoding="utf-8").splitlines()]
@@ -180,8 +182,8 @@ def animate_mechanism(
     }
     data = {
         "stage": stage,
-        "colors": [f"var({_color_name(at)})" for at in range(len(COLORS))],
-        "choices": [_describe_choice(choice) for choice in choices],
+        "colors": list_colors(),
+        "choices": describe_choices(choices),
         "knobs": [vars(knob) for knob in knobs],
         "score": None if score is None else vars(score),
         "rules": [vars(rule) | {"at_most": _describe_value(rule.at_most)} for rule in rules],
@@ -191,9 +193,14 @@ def animate_mechanism(
     return Animation(data, alt)
 
 
-def _describe_choice(choice: Choice) -> dict[str, object]:
-    first = choice.value or choice.options[0]
-    return {"label": choice.label, "options": list(choice.options), "value": first}
+def list_colors() -> list[str]:
+    """The colors of the palette, as the page writes them."""
+    return [f"var({_color_name(at)})" for at in range(len(COLORS))]
+
+
+def describe_choices(choices: Sequence[Choice]) -> list[dict[str, object]]:
+    """The menus as plain data for the script."""
+    return [vars(one) | {"value": one.value or one.options[0]} for one in choices]
 
 
 def _check_kind(kind: str) -> None:
@@ -299,10 +306,13 @@ def _describe_plan(plan: TestPlan | None) -> dict[str, Any] | None:
     )
 
 
-def _numbers(values: Array | None) -> list[float] | None:
-    """(n,) values rounded to ``DIGITS`` significant digits."""
-    return None if values is None else [_round(value) for value in np.asarray(values).tolist()]
+def round_numbers(values: Sequence[float] | Array) -> list[float | None]:
+    """(n,) values rounded to ``DIGITS`` significant digits; None for nan."""
+    return [
+        None if math.isnan(value) else float(f"{value:.{DIGITS}g}")
+        for value in np.asarray(values, dtype=float).tolist()
+    ]
 
 
-def _round(value: float) -> float:
-    return float(f"{value:.{DIGITS}g}")
+def _numbers(values: Array | None) -> list[float | None] | None:
+    return None if values is None else round_numbers(values)

@@ -5,13 +5,12 @@
 // output of JupyterLab and in a page without a server.
 
 import { makeModel, rms, simulateRun } from "./simulate.js";
+import { Charts, addKnobs, create, drawAxes, drawKey, rounded } from "./charts.js";
 import { STAGES, draw } from "./stages.js";
-import { roundTicks, short } from "./ticks.js";
 
 const SHORTEST = 3; // [s] least duration of a play: shorter scenes are shown in slow motion
 const LONGEST = 12; // [s] largest duration of a play
 const HIGH = { one: 170, many: 120 }; // [px] height of a single panel or one with areas, and of one of several
-const EDGE = { left: 46, right: 14, top: 6, bottom: 22 };
 const MARGIN = 0.08; // [1] margin of an axis, relative to the range of its values
 const FLOORS = ["drivetrain", "swerve"]; // kinds that drive on a floor
 const LONG = 0.9, BEHIND = 0.16; // [m] a robot with bumpers; [1] most of the floor drawn behind its start
@@ -70,25 +69,15 @@ function addErrors(motions) {
   }));
 }
 
-const rounded = (value, digits = 2) => value.toFixed(digits).replace(/^-(?=0\.?0*$)/, "").replace("-", "−");
-
-const create = (parent, name, properties = {}) => {
-  const element = Object.assign(document.createElement(name), properties);
-  parent.append(element);
-  return element;
-};
-
 class Animation {
-  constructor(figure) {
+  constructor(figure, data) {
     this.figure = figure;
-    this.data = JSON.parse(figure.querySelector("script").textContent);
-    this.knobs = Object.fromEntries(this.data.knobs.map((knob) => [knob.name, knob.value]));
-    this.picked = this.data.choices.map((choice) => choice.value);
+    this.data = data;
     this.now = 0;
     this.playing = false;
     this.pictures = 0;
     this.tries = 0;
-    figure.querySelector(".motion-still").hidden = true;
+    addKnobs(this, (slid) => { if (slid) this.count(); this.change(); });
     this.fitAxes();
     this.build();
     this.compute();
@@ -97,34 +86,9 @@ class Animation {
     this.playWhenSeen();
   }
 
-  /** Create the parts that do not depend on the width: controls, and containers of the drawings. */
+  /** Create the parts that do not depend on the width: the clock, and containers of the drawings. */
   build() {
     const { data, figure } = this;
-    const knobs = create(figure, "div", { className: "motion-knobs" });
-    data.choices.forEach((choice, at) => {
-      const label = create(knobs, "label");
-      create(label, "span", { textContent: choice.label });
-      const menu = create(label, "select");
-      for (const option of choice.options) create(menu, "option", { textContent: option, value: option });
-      menu.value = choice.value;
-      menu.addEventListener("change", () => { this.picked[at] = menu.value; this.change(); });
-    });
-    for (const knob of data.knobs) {
-      const label = create(knobs, "label");
-      create(label, "span", { textContent: knob.label });
-      const { low: min, high: max, step } = knob;
-      const slider = create(label, "input", { type: "range", min, max, step, value: knob.value });
-      slider.setAttribute("aria-label", knob.label);
-      const digits = `${step}`.split(".")[1]?.length ?? 0;
-      const shown = create(label, "output", { textContent: rounded(knob.value, digits) });
-      slider.addEventListener("input", () => {
-        this.knobs[knob.name] = Number(slider.value);
-        shown.textContent = rounded(Number(slider.value), digits);
-        this.count();
-        this.change();
-      });
-    }
-    if (!knobs.childElementCount) knobs.remove();
     if (data.rules.length) this.rules = create(figure, "ul", { className: "motion-rules" });
     if (data.score) this.score = create(figure, "p", { className: "motion-score" });
     this.title = create(figure, "p", { className: "motion-title" });
@@ -289,18 +253,14 @@ class Animation {
     const shown = this.scene.motions.filter((motion) => motion[panel.signal]?.length);
     const now = create(this.panels, "ul", { className: "motion-now" });
     create(now, "li", { textContent: panel.label });
-    const values = panel.terms ? [] : shown.map((motion) => this.drawKey(now, motion));
+    const values = panel.terms ? [] : shown.map((motion) => drawKey(now, motion.name, this.color(motion), motion.dash));
     const high = this.data.panels.length > 1 && !panel.terms ? HIGH.many : HIGH.one;
     const svg = draw(this.panels, "svg", { width, height: high, role: "img" });
     svg.setAttribute("aria-label", `${panel.label} over time: ${shown.map(({ name }) => name).join(", ")}`);
-    const [left, right, top, bottom] = [EDGE.left, width - EDGE.right, EDGE.top, high - EDGE.bottom];
     const begin = this.scene.time[0];
-    const toX = (time) => left + ((time - begin) / this.duration) * (right - left);
-    const toY = (value) => {
-      const share = (Math.min(Math.max(value, panel.low), panel.high) - panel.low) / (panel.high - panel.low);
-      return bottom - share * (bottom - top);
-    };
-    this.drawAxes(svg, panel, { toX, toY, left, right, bottom });
+    const { toX, toY, left, right, top, bottom } = drawAxes(svg, {
+      width, height: high, x: [begin, begin + this.duration], y: [panel.low, panel.high],
+    });
     const path = (values) => values.map((value, k) =>
       `${toX(this.scene.time[k]).toFixed(1)},${toY(value).toFixed(1)}`).join(" ");
     if (panel.terms) this.drawTerms(svg, now, { toX, toY });
@@ -323,28 +283,6 @@ class Animation {
     return { panel, shown, values, line, dots, toX, toY };
   }
 
-  drawKey(parent, motion) {
-    const item = create(parent, "li");
-    const swatch = draw(item, "svg", { width: 26, height: 8, "aria-hidden": true });
-    draw(swatch, "line", {
-      x2: 26, y1: 4, y2: 4, stroke: this.color(motion), "stroke-width": 3, "stroke-dasharray": motion.dash,
-    });
-    create(item, "span", { textContent: motion.name });
-    return create(item, "b");
-  }
-
-  drawAxes(svg, panel, { toX, toY, left, right, bottom }) {
-    for (const value of roundTicks(panel.low, panel.high, 4)) {
-      const y = toY(value);
-      draw(svg, "line", { x1: left, x2: right, y1: y, y2: y, stroke: "currentColor", opacity: value ? 0.18 : 0.6 });
-      draw(svg, "text", { x: left - 6, y: y + 4, "text-anchor": "end" }, short(value));
-    }
-    for (const [k, time] of roundTicks(0, this.duration, right - left > 340 ? 6 : 3).entries()) {
-      const x = toX(this.scene.time[0] + time);
-      draw(svg, "text", { x, y: bottom + 17, "text-anchor": k ? "middle" : "start" }, `${short(time)}${k ? "" : " s"}`);
-    }
-  }
-
   /** Draw the shares of kS, kV and kA in the first motion's volts, stacked from zero. */
   drawTerms(svg, now, { toX, toY }) {
     const { time, motions: [{ gains, velocity }] } = this.scene;
@@ -364,11 +302,7 @@ class Animation {
         draw(svg, "polygon", { points: [...there, ...back].join(" "), fill: this.data.colors[color], opacity: 0.55 });
         next.forEach((value, k) => { edge[k] = value; });
       }
-      const item = create(now, "li");
-      const swatch = draw(item, "svg", { width: 14, height: 14, "aria-hidden": true });
-      draw(swatch, "rect", { width: 14, height: 14, fill: this.data.colors[color], opacity: 0.55 });
-      create(item, "span", { textContent: name });
-      takes[color].shown = create(item, "b");
+      takes[color].shown = drawKey(now, name, this.data.colors[color]);
     }
     create(now, "li", { textContent: "line: applied" });
     this.takes = takes;
@@ -456,5 +390,7 @@ class Animation {
 
 for (const figure of document.querySelectorAll("figure[data-motion]:not([data-alive])")) {
   figure.dataset.alive = "";
-  figure.animation = new Animation(figure);
+  figure.querySelector(".motion-still").hidden = true;
+  const data = JSON.parse(figure.querySelector("script").textContent);
+  figure.animation = data.frames ? new Charts(figure, data) : new Animation(figure, data);
 }

@@ -1,0 +1,209 @@
+"""Charts whose curves menus and sliders select; the page holds the curves of all positions."""
+
+import json
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import product
+from typing import Any, Literal
+
+import numpy as np
+
+from sim.core.errors import Refusal
+from sim.core.log import Array
+from sim.plot.animation import Animation, describe_choices, list_colors, round_numbers
+from sim.plot.animation.scene import Choice, Knob
+from sim.plot.table import to_text
+
+MARGIN = 0.05  # [share of an axis] beyond the outermost curve
+UNKNOWN = 1.0  # [share of the gain] standard error from which a gain is called unknown
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """A curve of a chart.
+
+    Args:
+        name: its name in the legend; without one it is not listed.
+        x: (n,) horizontal coordinates.
+        y: (n,) vertical coordinates, or numbers of the chart's rows; nan interrupts the curve.
+        style: ``line``, ``dashed``, ``dots``, ``bar`` (a thick line) or ``area`` (filled).
+        color: index in the palette; None is the color of the text.
+        notes: text beside each point; may be empty.
+    """
+
+    name: str
+    x: Sequence[float] | Array
+    y: Sequence[float] | Array
+    style: Literal["line", "dashed", "dots", "bar", "area"] = "line"
+    color: int | None = None
+    notes: Sequence[str] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Chart:
+    """A chart at one position of the sliders.
+
+    Args:
+        xlabel: label of the horizontal axis, with unit.
+        ylabel: label of the vertical axis, with unit.
+        curves: what is drawn, the first one at the back.
+        rows: names of rows 0, 1, … from top to bottom, instead of a vertical scale.
+        title: a sentence above the chart; may be empty.
+        x: ends of the horizontal axis; None fits it to the curves of all positions.
+        y: ends of the vertical axis, in the same way.
+    """
+
+    xlabel: str
+    ylabel: str
+    curves: Sequence[Curve]
+    rows: Sequence[str] = ()
+    title: str = ""
+    x: tuple[float, float] | None = None
+    y: tuple[float, float] | None = None
+
+
+@dataclass
+class _Pool:
+    """Data that many positions share, each held once."""
+
+    numbers: dict[str, int] = field(default_factory=dict)
+
+    def add(self, data: Curve | Mapping[str, Any]) -> int:
+        """The number of this data."""
+        text = json.dumps(data, default=_describe_curve, allow_nan=False, ensure_ascii=False)
+        return self.numbers.setdefault(text, len(self.numbers))
+
+    def list_all(self) -> list[Any]:
+        """All data, by number."""
+        return [json.loads(text) for text in self.numbers]
+
+
+def _describe_curve(curve: Curve) -> dict[str, Any]:
+    return vars(curve) | {"x": round_numbers(curve.x), "y": round_numbers(curve.y)}
+
+
+def compare_values(
+    values: Mapping[str, float],
+    *,
+    truth: float,
+    xlabel: str,
+    spreads: Mapping[str, float] | None = None,
+) -> Chart:
+    """Numbers as dots, one in a row, with a dashed line at the true value.
+
+    Args:
+        values: name of the row -> number.
+        truth: the true value.
+        xlabel: label of the scale, with unit.
+        spreads: name -> standard deviation, drawn as a bar.
+    """
+    rows = tuple(values)
+    numbers = [values[name] for name in rows]
+    bars = [
+        Curve("", [values[name] - one, values[name] + one], [rows.index(name)] * 2, "bar", 4)
+        for name, one in (spreads or {}).items()
+    ]
+    line = Curve("", [truth, truth], [-0.6, len(rows) - 0.4], "dashed")
+    dots = Curve("", numbers, range(len(rows)), "dots", 0, [to_text(one) for one in numbers])
+    return Chart(xlabel, "", (*bars, line, dots), rows)
+
+
+def chart_gain_errors(errors: Mapping[str, float]) -> Chart:
+    """The standard error of each gain as a bar; a gain with a full bar is unknown.
+
+    Args:
+        errors: gain -> standard error as a share of the gain, may be infinite.
+    """
+    bars = []
+    for row, error in enumerate(errors.values()):
+        share = 100.0 * min(error, UNKNOWN)
+        words = f"± {to_text(share)} %" if error < UNKNOWN else "unknown"
+        bars.append(Curve("", [0.0, share], [row, row], "bar", row, ["", words]))
+    return Chart("standard error [% of the gain]", "", bars, tuple(errors), x=(0.0, 118.0))
+
+
+def animate_charts(
+    draw: Callable[..., Chart | Sequence[Chart]],
+    *,
+    choices: Sequence[Choice] = (),
+    knobs: Sequence[Knob] = (),
+) -> Animation:
+    """Charts whose curves menus and sliders select.
+
+    ``draw`` is called here for every combination of options and positions, so that the page can
+    show each at once, without a kernel. Charts with the same labels have the same axes. Where
+    ``draw`` refuses, the page shows the reason.
+
+    Args:
+        draw: function of the options and then of the values of the sliders, in their order.
+        choices: menus.
+        knobs: sliders.
+    """
+    positions = [choice.options for choice in choices] + [_list_values(knob) for knob in knobs]
+    frames = [_draw(draw, position) for position in product(*positions)]
+    fitted = _fit_axes([chart for charts in frames for chart in charts])
+    axes, curves = _Pool(), _Pool()
+    shown = [
+        [[axes.add(_describe_axes(one, fitted)), *map(curves.add, one.curves)] for one in charts]
+        for charts in frames
+    ]
+    data = {
+        "colors": list_colors(),
+        "choices": describe_choices(choices),
+        "knobs": [vars(knob) for knob in knobs],
+        "axes": axes.list_all(),
+        "curves": curves.list_all(),
+        "frames": shown,
+    }
+    return Animation(data, _describe_start(draw, choices, knobs))
+
+
+def _draw(draw: Callable[..., Chart | Sequence[Chart]], position: Sequence[object]) -> list[Chart]:
+    try:
+        drawn = draw(*position)
+    except Refusal as refusal:
+        return [Chart("", "", (), title=str(refusal), x=(0.0, 1.0), y=(0.0, 1.0))]
+    return [drawn] if isinstance(drawn, Chart) else list(drawn)
+
+
+def _describe_start(
+    draw: Callable[..., Chart | Sequence[Chart]], choices: Sequence[Choice], knobs: Sequence[Knob]
+) -> str:
+    """The charts in words, as first shown."""
+    start: dict[str, object] = {one.label: one.value or one.options[0] for one in choices}
+    start |= {knob.label: knob.value for knob in knobs}
+    words = [f"With {', '.join(f'{name} = {value}' for name, value in start.items())}:"]
+    for chart in _draw(draw, [*start.values()]):
+        named = [*chart.rows, *(w for one in chart.curves for w in (one.name, *one.notes) if w)]
+        words.append(f"{chart.title} {chart.ylabel} over {chart.xlabel} ({', '.join(named)}).")
+    return " ".join(" ".join(words).split())
+
+
+def _list_values(knob: Knob) -> list[float]:
+    count = round((knob.high - knob.low) / knob.step)
+    return [round(knob.low + number * knob.step, 9) for number in range(count + 1)]
+
+
+def _fit_axes(charts: Sequence[Chart]) -> dict[str, tuple[float, float]]:
+    """Label -> ends of its axis that hold all curves."""
+    found: dict[str, tuple[float, float]] = {}
+    for chart in charts:
+        for label, axis in ((chart.xlabel, "x"), (chart.ylabel, "y")):
+            for curve in chart.curves:
+                values = np.asarray(getattr(curve, axis), dtype=float)
+                joined = [*found.get(label, ()), np.nanmin(values), np.nanmax(values)]
+                found[label] = float(min(joined)), float(max(joined))
+    for label, (low, high) in found.items():
+        margin = MARGIN * ((high - low) or 1.0)
+        found[label] = low - margin, high + margin
+    return found
+
+
+def _describe_axes(chart: Chart, fitted: Mapping[str, tuple[float, float]]) -> dict[str, Any]:
+    """A chart without its curves as plain data for the script."""
+    axes = {name: value for name, value in vars(chart).items() if name != "curves"}
+    rows = (len(chart.rows) - 0.4, -0.6) if chart.rows else None
+    return axes | {
+        "x": chart.x or fitted[chart.xlabel],
+        "y": rows or chart.y or fitted[chart.ylabel],
+    }
