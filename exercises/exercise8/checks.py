@@ -68,8 +68,8 @@ def kept(answers: Answers) -> None:
     raise WrongAnswer(
         f"too little is left of {tests}",
         hint="Cut only samples in which something other than the motor moves or holds the "
-        "mechanism. A fit averages out the noise of good samples; missing samples help "
-        "nobody.",
+        "mechanism, and choose a threshold just above the noise. A fit averages out the noise of "
+        "good samples.",
         misconception="M-TRIM-PRETTY",
         earned=2 * (1 - len(short) / len(FOUR_TESTS)),
     )
@@ -82,13 +82,12 @@ def reach(answers: Answers) -> None:
     if not short:
         return
     tests = ", ".join(one.test for one in short)
-    ramps = any(one.test.startswith("quasi") for one in short)
-    why = (
-        "The fast samples of a ramp determine kV: without them a little noise changes the slope"
-        " of the line."
-        if ramps
-        else "A step contains kA only in its first rise, right after the voltage jumps."
-    )
+    needs = {
+        "quasistatic": "The fast samples of a ramp determine kV: without them a little noise "
+        "changes the slope of the line.",
+        "dynamic": "A step contains kA only in its first rise, right after the voltage jumps.",
+    }
+    why = " ".join(needs[kind] for kind in needs if kind in tests)
     raise WrongAnswer(
         f"cut off in {tests}",
         hint=why,

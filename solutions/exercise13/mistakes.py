@@ -79,6 +79,8 @@ MISTAKES = (
         "slip-current", "the current just after the slip begins?"),
     Mistake("a speed in km/h", ANSWERS, scale_numbers(3.6, "top_speed"), "top-speed",
         "Is this in km/h?", "M-UNITS"),
+    Mistake("12 V times kV", ANSWERS, change_number("top_speed", lambda right: 12 * right["kV"]),
+        "top-speed", "divide by it"),
     Mistake("a torque from a wrong current", ANSWERS,
         scale_numbers(1.31, "slip_current", "max_torque"), "max-torque",
         "it follows from your slip_current"),

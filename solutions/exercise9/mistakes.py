@@ -148,6 +148,13 @@ MISTAKES = (
         "Your kV is right, so your units are, too",
     ),
     Mistake(
+        "the time constant for kA",
+        ANSWERS,
+        change_number("kA", lambda right: right["kA"] / right["kV"]),
+        "ka",
+        "Your kV is right, so your units are, too",
+    ),
+    Mistake(
         "speed for each volt",
         ANSWERS,
         change_number("kV", lambda right: 1.0 / right["kV"]),

@@ -29,7 +29,7 @@ def compare_motor(name: str, rows: Sequence["Row"], sent: tuple[Sent, ...]) -> D
     if unknown or not rows:
         return Driven(loops=len(rows), unknown=unknown, sent=sent)
     got = [float(row.applied[name]) for row in rows]
-    asked = [row.asked for row in rows]
+    asked = [max(-row.battery, min(row.asked, row.battery)) for row in rows]
     limits = [row.limits.get(name, 1.0) for row in rows]
     off = [k for k in range(len(rows)) if abs(got[k] - asked[k] * limits[k]) > CLOSE]
     late = [k for k in range(1, len(rows)) if abs(got[k] - asked[k - 1] * limits[k]) > CLOSE]

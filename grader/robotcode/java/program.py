@@ -330,6 +330,11 @@ class Program:
             best = min(elsewhere, key=lambda full: _likeness(full, scope.unit))
             self.error(f"{first} is not imported. Write at the top: import {best};", at)
             return _descend(JAVA[best], rest)
+        for one in scope.unit.imports:  # a class within a library's class
+            inner = _descend(self.load(one.full), [first])
+            if isinstance(inner, type):
+                self.error(f"{first} is not imported. Write {one.name}.{first}.", at)
+                return _descend(inner, rest)
         simple = [full.rpartition(".")[2] for full in JAVA if full.startswith(VENDORS)]
         close = difflib.get_close_matches(first, simple, 1, NEARLY)
         if close:
