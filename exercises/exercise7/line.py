@@ -122,7 +122,7 @@ def _listed() -> str:
 
 
 def _claim(text: str) -> Claim:
-    left = re.sub(r"[\s_]+", " ", text.lower())
+    left = re.sub(r"[\s_]+", " ", text.lower().replace("backward", "reverse"))
     faults, left = _take(left, (CLEAN, *FAULTS))
     actions, left = _take(left, tuple(ACTIONS))
     places, left = _take(left, PLACES)
