@@ -178,9 +178,9 @@ def diagnose_number(
 
 
 def is_ka_alone(name: str, given: Mapping[str, object], key: AnswerKey) -> bool:
-    """Whether this is the kA of a test, and kV of the same test is right."""
+    """Whether this is the kA of a fit, and kV of the same fit is right."""
     kv = _read_value("kV", given, key) if "kV" in key.asked else None
-    return name == "kA" and key.scene.ramp > 0 and kv is not None and key.asked["kV"].is_right(kv)
+    return name == "kA" and kv is not None and key.asked["kV"].is_right(kv)
 
 
 def _find_wrong_numbers(
