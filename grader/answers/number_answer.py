@@ -172,8 +172,7 @@ def diagnose_number(
     for other in key.asked:
         if other != name and other in given:
             shared = {slip.code for slip in _find_wrong_numbers(other, given, key)}
-            both = tuple(slip for slip in found if slip.code in shared)
-            found = both or found
+            found = tuple(slip for slip in found if slip.code in shared) or found
     return found if len(found) <= MANY else ()
 
 

@@ -8,7 +8,6 @@ from grader.mistake import (
     change_number,
     exchange_numbers,
     make_wrong_answer,
-    replace_text,
     scale_numbers,
 )
 
@@ -94,7 +93,6 @@ MISTAKES = (
         "worn-radius", "ratio of turns upside down"),
     Mistake("a number from nowhere", ANSWERS, scale_numbers(1.31, "max_torque"), "max-torque",
         "outside the accepted"),
-    Mistake("not a number", ANSWERS, replace_text(("kA = ", "kA = nan # ")), "ka", "nan"),
     Mistake("kV typed for kA", ANSWERS, change_number("kA", lambda right: right["kV"]), "ka",
         "this is the kV of the same fit"),
 )  # fmt: skip

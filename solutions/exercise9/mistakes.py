@@ -56,14 +56,6 @@ MISTAKES = (
         "M-UNITS",
     ),
     Mistake(
-        "radians for rotations, and kA knows it too",
-        ANSWERS,
-        scale_numbers(2 * math.pi, "kV", "kA"),
-        "ka",
-        "about 6.28 times too large",
-        "M-UNITS",
-    ),
-    Mistake(
         "velocity in rpm",
         ANSWERS,
         scale_numbers(1 / 60, "kV", "kA"),
@@ -124,13 +116,6 @@ MISTAKES = (
         "kv",
         "is not a unit of kV",
         "M-UNITS",
-    ),
-    Mistake(
-        "a list for a number", ANSWERS, replace_text(("kA = ", "kA = [1, 2] # ")), "ka", "a list"
-    ),
-    Mistake("not a number", ANSWERS, replace_text(("kA = ", "kA = nan # ")), "ka", "nan"),
-    Mistake(
-        "yes or no for a number", ANSWERS, replace_text(("kS = ", "kS = true # ")), "ks", "true"
     ),
     Mistake(
         "R² in percent",

@@ -33,7 +33,7 @@ def compare_motor(name: str, rows: Sequence["Row"], sent: tuple[Sent, ...]) -> D
     limits = [row.limits.get(name, 1.0) for row in rows]
     off = [k for k in range(len(rows)) if abs(got[k] - asked[k] * limits[k]) > CLOSE]
     late = [k for k in range(1, len(rows)) if abs(got[k] - asked[k - 1] * limits[k]) > CLOSE]
-    at = (rows[off[0]].time, asked[off[0]], got[off[0]]) if off else (0.0, 0.0, 0.0)
+    at = (0.0, 0.0, 0.0)
     if off:  # where it differs most tells most
         worst = max(off, key=lambda k: abs(got[k] - asked[k]))
         at = (rows[worst].time, asked[worst], got[worst])
