@@ -27,7 +27,6 @@ def find_sound_radius(right: Numbers) -> float:
 
 
 MISTAKES = (
-    Mistake("nothing for kV", ANSWERS, make_wrong_answer("kV", '""'), "kv", "nothing yet"),
     Mistake("velocity per minute", ANSWERS, scale_numbers(1 / 60, "kV", "kA"), "kv",
         "one minute has 60 seconds", "M-UNITS"),
     Mistake("the motor's own velocity", ANSWERS,
@@ -91,8 +90,6 @@ MISTAKES = (
             "worn_radius", lambda right: find_sound_radius(right) ** 2 / right["worn_radius"]
         ),
         "worn-radius", "ratio of turns upside down"),
-    Mistake("a number from nowhere", ANSWERS, scale_numbers(1.31, "max_torque"), "max-torque",
-        "outside the accepted"),
     Mistake("kV typed for kA", ANSWERS, change_number("kA", lambda right: right["kV"]), "ka",
         "this is the kV of the same fit"),
 )  # fmt: skip
