@@ -376,9 +376,8 @@ Table(("runs", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "simulated velocity R²
 # > ([DataSelector.cpp, at one
 # > commit](https://github.com/wpilibsuite/allwpilib/blob/79096e63a005e096b2acd4774a8ab145058c24c0/sysid/src/main/native/cpp/view/DataSelector.cpp)).
 # >
-# > **Try it:** look at the row "forward only" in section 4's table. For a *symmetric* drivetrain it
-# > is fine. Now open the code above, set `LEAN` to 0, and run it again: does each row of this
-# > section's table now show about the same gains?
+# > **Try it:** open the code above, set `LEAN` to 0, and run it again: for a *symmetric*
+# > drivetrain, does each row of the table show about the same gains?
 # </details>
 
 # %% [markdown]

@@ -864,8 +864,8 @@ display(ask_question("lesson4.quick"), enable_checkboxes())
 # grade exercise4
 # ```
 #
-# This command reads your code and says what is wrong. If RobotPy is installed, it also runs Python
-# code in WPILib's simulation. Hints cost nothing: `grade exercise4 --hint`.
+# This command runs your code on a simulated robot and says what is wrong. Hints cost nothing:
+# `grade exercise4 --hint`.
 #
 # The exercise asks for 0.5 V/s, 3.5 V and 10 s. For a real robot, choose your own numbers (lesson
 # 3).

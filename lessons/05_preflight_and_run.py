@@ -782,9 +782,9 @@ tabulate_gains({"the log": gains.gains})
 #   SPARK).
 # - A NEO's own encoder filters the velocity so much that the logged velocity is about 0.1 s late
 #   (lesson 6). Shorten the filter *before* the tests, in `config.encoder`: `uvwMeasurementPeriod`
-# (32 ms; from 8 ms) and `uvwAverageDepth` (8 samples; 1, 2, 4 or 8). ([`EncoderConfig` of
-# robotpy-rev 2026.0.4](https://pypi.org/project/robotpy-rev/2026.0.4/)) **Do it** with 8 ms and a
-# depth of 2, and run one step with each setting. Which kA does `sysid fit` find?
+#   (32 ms; from 8 ms) and `uvwAverageDepth` (8 samples; 1, 2, 4 or 8). ([`EncoderConfig` of
+#   robotpy-rev 2026.0.4](https://pypi.org/project/robotpy-rev/2026.0.4/)) **Do it** with 8 ms and a
+#   depth of 2, and run one step with each setting. Which kA does `sysid fit` find?
 # </details>
 #
 # <details><summary>If your team uses AdvantageKit</summary>

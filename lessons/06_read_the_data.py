@@ -169,8 +169,8 @@ print(f", {slope[later] / slope[early]:.0%} of it")
 #
 # A *fault* is something that makes a log wrong: it *contaminates* the log. The table lists four
 # classic faults, five more that are common on real robots, and four that are easy to see. Exercise
-# 7 and `sysid inspect` use the same names, with a hyphen: `encoder-slip`. Only *velocity filter*
-# and *current limit* are not among theirs: `sysid effects` lists these two.
+# 7 and `sysid inspect` use the same names, with a hyphen: `encoder-slip`. Two of the thirteen,
+# *velocity filter* and *current limit*, are not faults there: `sysid effects` lists them.
 #
 # | fault | what happened | what to do |
 # |---|---|---|

@@ -585,7 +585,7 @@ sysids = 1 - rmse / np.sqrt(np.mean(seen**2))
 print(f"Acceleration R², adjusted: {adjusted:.4f} by hand, {recipe.acceleration_r2:.4f} by SysId")
 print(f"Simulated velocity R²: {sysids:.3f} by hand, {recipe.simulated_velocity_r2:.3f} by SysId")
 print(f"With the textbook's formula it would be {textbook:.4f}. (RMSE: {rmse:.4f} m/s)")
-print(f"With a mean velocity of 0, SysId's 0.9 is the textbook's {1 - (1 - 0.9) ** 2:.2f}.")
+print(f"If the mean velocity is 0, SysId writes 0.9 for a textbook's {1 - (1 - 0.9) ** 2:.2f}.")
 
 # %% [markdown]
 #

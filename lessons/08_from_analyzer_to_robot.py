@@ -672,8 +672,8 @@ animate_mechanism(
 )
 
 # %% [markdown]
-# The arm hangs below level by an angle of (missing kG)/kP or less, because friction helps to hold
-# it. A larger kP makes this angle smaller, but never zero. The right kG removes the error. So
+# The arm hangs below level. The angle is (missing kG)/kP, or less if friction helps to hold the
+# arm. A larger kP makes this angle smaller, but never zero. The right kG removes the error. So
 # measure **with and without** the piece (or compute the second kG), and switch the gains when a
 # sensor detects the piece.
 #

@@ -506,8 +506,9 @@ Table(
 # commit](https://github.com/mjansen4857/pathplanner/blob/c8ac86828f398c73cc945206dcd519279b3e50df/pathplannerlib/src/main/java/com/pathplanner/lib/config/ModuleConfig.java))
 # Choreo's page proposes the torque at 1.5 times the current of the breaker: 60 A for a 40 A
 # breaker. Then some torque remains for corrections. But more torque than the motor has at the slip
-# current does not help. Choreo's window has *Wheel COF*, too. ([Robot Configuration, at one
-# commit](https://github.com/SleipnirGroup/Choreo/blob/05c89476612291b458a7971b6c61f665d0fe1244/docs/document-settings/robot-configuration.md),
+# current does not help. Choreo's window has *Wheel COF*, too. If you tick *Use torque-speed curve*
+# there, enter the motor's free speed and stall torque of the data sheet. ([Robot Configuration, at
+# one commit](https://github.com/SleipnirGroup/Choreo/blob/05c89476612291b458a7971b6c61f665d0fe1244/docs/document-settings/robot-configuration.md),
 # [ModuleConfigPanel.tsx, at one
 # commit](https://github.com/SleipnirGroup/Choreo/blob/083dd735db2cc0fe83d62bd8a6edbeb6ad9e7138/src/components/config/robotconfig/ModuleConfigPanel.tsx))
 # </details>

@@ -69,12 +69,14 @@ def _list_ways(variant: Variant, name: str) -> tuple[list[Way], ...]:
 def _list_unit_slips(variant: Variant, name: str) -> Iterator[tuple[float, WrongNumber]]:
     """Factors that a velocity is off by, in another unit than kV's."""
     shown, times = SHOWN[variant.kind]
-    found = {"changed": times, "back": 1 / times}
+    found = [("changed", times), ("changed", 1 / times)]
     if name == "forward":
-        found = {"raw": times, "turned": times * times}
-    turn = {"turns": 2 * math.pi, "radians": 0.5 / math.pi}
-    found |= {"minutes": 60.0} if variant.kind == "drivetrain" else turn
-    for code, factor in found.items():
+        found = [("raw", times), ("turned", times * times)]
+    turn = [("turns", 2 * math.pi), ("turns", 0.5 / math.pi)]
+    found += [("minutes", 60.0)] if variant.kind == "drivetrain" else turn
+    if shown == "deg/s":
+        found += [("half-circle", 2.0), ("half-circle", 0.5)]
+    for code, factor in found:
         yield factor, SLIPS.name(code, shown=shown, right=f"{variant.symbol}/s")
 
 

@@ -43,11 +43,12 @@ def _list_rotations(gain: str, variant: Variant) -> Ways:
     if variant.place != SLOT0 or gain in {"kS", "kG"}:
         return []
     needed = variant.needed(gain)
+    right = (needed, variant.coded(gain))
     return [
         ("radians", [needed / TURN]),
         ("rotor", [needed / variant.ratio]),
         ("geared-twice", [needed * variant.ratio]),
-        ("diameter", [2.0 * needed, 2.0 * variant.coded(gain)] if variant.radius else []),
+        ("diameter", [by * one for one in right for by in (2, 0.5)] if variant.radius else []),
     ]
 
 

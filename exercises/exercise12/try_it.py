@@ -33,9 +33,10 @@ def main() -> int:
     asked = parser.parse_args()
     course = find_course(Path(__file__).resolve().parent)
     exercise = find_exercise("12", course)
+    names = exercise.module.read_names(asked.effects) if asked.effects else ()
     data = asked.logs or _prepare_own(exercise, asked.student or load_progress(course)[0].student)
     search = EffectSearch.read(data)
-    for name in exercise.module.read_names(asked.effects) if asked.effects else ():
+    for name in names:
         _say(search.add(name))
     _say(", ".join(f"{name} = {value:.4g}" for name, value in search.gains.items()))
     for name, gap in search.gaps.items():

@@ -87,6 +87,7 @@ def list_rarer_slips(variant: Variant) -> Numbers:
             "km-per-hour": 3.6 * asked["top_speed"],
             "feet": asked["top_speed"] / 0.3048,
             "turned-speed": 1.0 / asked["top_speed"],
+            "multiplied": BATTERY * asked["kV"],
         },
         "max_torque": {
             "stall-torque": torque,

@@ -23,6 +23,7 @@ def make_key(variant: Variant, *, offset: float) -> AnswerKey:
         for mine, other in others.items()
         for gain in ("kG", "kS")
     }
+    rarer["arm_kG"] += SLIPS.list_lookalikes(("row", hold.middle) for hold in variant.arm)
     return AnswerKey(
         variant.asked, Scene(lookalikes=dict(_list_lookalikes(variant, offset)), rarer=rarer)
     )

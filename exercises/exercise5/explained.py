@@ -45,7 +45,8 @@ def check_comment(one: Press) -> None:
     if re.match(rf"\W*{NAMES[other]}", said, re.IGNORECASE) and not re.search(
         NAMES[kind], said, re.IGNORECASE
     ):
-        raise WrongAnswer(seen, hint=f"This button runs the {kind} test.")
+        hint = f"This button runs the {kind} test. What does the method that it calls return?"
+        raise WrongAnswer(seen, hint=hint)
     if WAY[opposite].search(said) and not WAY[way].search(said):
         raise WrongAnswer(seen, hint=f"This button runs the {kind} test in {way}.")
     test, property_ = bool(TEST[kind].search(said)), bool(PROPERTY[kind].search(said))

@@ -18,7 +18,7 @@ from .feedback import ACTIONS, FAULTS, list_actions
 
 CLEAN = "clean"
 PLACES = (*FOUR_TESTS, "quasistatic", "dynamic", "forward", "reverse", "whole")
-SPELLED = {"mislabeled-test": "mislabelled-test", "all": "whole"}  # what else people write
+SPELLED = {"mislabeled-test": "mislabelled-test", "all": "whole", "re-run": "rerun"}  # people write
 FILLERS = {"from", "to", "until", "till", "s", "sec", "seconds", "at", "in", "the", "test", "tests"}
 FILLERS |= {"log", "run", "t", "between"}
 NUMBER = re.compile(r"\d+(?:[.,]\d+)?")
@@ -122,7 +122,7 @@ def _listed() -> str:
 
 
 def _claim(text: str) -> Claim:
-    left = re.sub(r"[\s_]+", " ", text.lower())
+    left = re.sub(r"[\s_]+", " ", text.lower().replace("backward", "reverse"))
     faults, left = _take(left, (CLEAN, *FAULTS))
     actions, left = _take(left, tuple(ACTIONS))
     places, left = _take(left, PLACES)
@@ -159,10 +159,6 @@ def _take(text: str, words: Sequence[str]) -> tuple[list[str], str]:
     known |= {other: word for other, word in SPELLED.items() if word in words}
     found = []
     for other, word in known.items():
-        pattern = re.compile(rf"\b{other.replace('-', '[ -]?')}\b|\b{other}\b")
-        if other == "rerun":
-            pattern = re.compile(r"\bre[ -]?run\b")
-        if pattern.search(text):
-            found.append(word)
-            text = pattern.sub(" ", text)
+        text, count = re.subn(rf"\b{other.replace('-', '[ -]?')}\b", " ", text)
+        found += [word] * count
     return list(dict.fromkeys(found)), text

@@ -64,15 +64,11 @@ def kept(answers: Answers) -> None:
     short = [one for one in _measure_coverage(answers) if not one.enough]
     if not short:
         return
-    tests = ", ".join(one.test for one in short)
-    raise WrongAnswer(
-        f"too little is left of {tests}",
-        hint="Cut only samples in which something other than the motor moves or holds the "
-        "mechanism. A fit averages out the noise of good samples; missing samples help "
-        "nobody.",
-        misconception="M-TRIM-PRETTY",
-        earned=2 * (1 - len(short) / len(FOUR_TESTS)),
+    hint = (
+        "Cut only samples in which something other than the motor moves or holds the mechanism, "
+        "and choose a threshold just above the noise. A fit averages out the noise of good samples."
     )
+    raise _refuse_tests("too little is left of", short, hint)
 
 
 @check(points=2)
@@ -81,20 +77,20 @@ def reach(answers: Answers) -> None:
     short = [one for one in _measure_coverage(answers) if not one.reaches]
     if not short:
         return
+    needs = {
+        "quasi": "The fast samples of a ramp determine kV: without them a little noise changes the "
+        "slope of the line.",
+        "dynam": "A step contains kA only in its first rise, right after the voltage jumps.",
+    }
+    hints = dict.fromkeys(needs[one.test[:5]] for one in short)
+    raise _refuse_tests("cut off in", short, " ".join(hints))
+
+
+def _refuse_tests(seen: str, short: list[Coverage], hint: str) -> WrongAnswer:
+    """What is wrong with what is left of some tests; the others earn their points."""
     tests = ", ".join(one.test for one in short)
-    ramps = any(one.test.startswith("quasi") for one in short)
-    why = (
-        "The fast samples of a ramp determine kV: without them a little noise changes the slope"
-        " of the line."
-        if ramps
-        else "A step contains kA only in its first rise, right after the voltage jumps."
-    )
-    raise WrongAnswer(
-        f"cut off in {tests}",
-        hint=why,
-        misconception="M-TRIM-PRETTY",
-        earned=2 * (1 - len(short) / len(FOUR_TESTS)),
-    )
+    earned = 2 * (1 - len(short) / len(FOUR_TESTS))
+    return WrongAnswer(f"{seen} {tests}", hint=hint, misconception="M-TRIM-PRETTY", earned=earned)
 
 
 def _preparation(answers: Answers) -> Preparation:

@@ -25,7 +25,7 @@ START_AGAIN = "Check the numbers you started from, and their units"
 CALCULATION = re.compile(r"[-+*/·^]+\s*[\d(]")  # how the rest of a number begins that is a sum
 NO_UNIT = "It has no unit, and it is not in percent: write the number alone."
 UNIT_ASSUMED = " (no unit given, so I assumed "
-OF_BOTH = ("gear", "radius")  # slips that make kV and kA wrong, never kA alone
+OF_BOTH = {"M-GEARING", "M-UNITS"}  # slips that make kV and kA wrong, never kA alone
 
 
 def read_answer_number(raw: object, asked: AskedNumber) -> float:
@@ -168,19 +168,18 @@ def diagnose_number(
     """The mistakes that would explain a wrong number; those that another number shares alone."""
     found = _find_wrong_numbers(name, given, key)
     if is_ka_alone(name, given, key):
-        found = tuple(slip for slip in found if slip.code not in OF_BOTH)
+        found = tuple(slip for slip in found if slip.misconception not in OF_BOTH)
     for other in key.asked:
         if other != name and other in given:
             shared = {slip.code for slip in _find_wrong_numbers(other, given, key)}
-            both = tuple(slip for slip in found if slip.code in shared)
-            found = both or found
+            found = tuple(slip for slip in found if slip.code in shared) or found
     return found if len(found) <= MANY else ()
 
 
 def is_ka_alone(name: str, given: Mapping[str, object], key: AnswerKey) -> bool:
-    """Whether this is the kA of a test, and kV of the same test is right."""
+    """Whether this is the kA of a fit, and kV of the same fit is right."""
     kv = _read_value("kV", given, key) if "kV" in key.asked else None
-    return name == "kA" and key.scene.ramp > 0 and kv is not None and key.asked["kV"].is_right(kv)
+    return name == "kA" and kv is not None and key.asked["kV"].is_right(kv)
 
 
 def _find_wrong_numbers(

@@ -8,7 +8,6 @@ from grader.mistake import (
     change_number,
     exchange_numbers,
     make_wrong_answer,
-    replace_text,
     scale_numbers,
 )
 
@@ -28,7 +27,6 @@ def find_sound_radius(right: Numbers) -> float:
 
 
 MISTAKES = (
-    Mistake("nothing for kV", ANSWERS, make_wrong_answer("kV", '""'), "kv", "nothing yet"),
     Mistake("velocity per minute", ANSWERS, scale_numbers(1 / 60, "kV", "kA"), "kv",
         "one minute has 60 seconds", "M-UNITS"),
     Mistake("the motor's own velocity", ANSWERS,
@@ -79,6 +77,8 @@ MISTAKES = (
         "slip-current", "the current just after the slip begins?"),
     Mistake("a speed in km/h", ANSWERS, scale_numbers(3.6, "top_speed"), "top-speed",
         "Is this in km/h?", "M-UNITS"),
+    Mistake("12 V times kV", ANSWERS, change_number("top_speed", lambda right: 12 * right["kV"]),
+        "top-speed", "divide by it"),
     Mistake("a torque from a wrong current", ANSWERS,
         scale_numbers(1.31, "slip_current", "max_torque"), "max-torque",
         "it follows from your slip_current"),
@@ -90,9 +90,6 @@ MISTAKES = (
             "worn_radius", lambda right: find_sound_radius(right) ** 2 / right["worn_radius"]
         ),
         "worn-radius", "ratio of turns upside down"),
-    Mistake("a number from nowhere", ANSWERS, scale_numbers(1.31, "max_torque"), "max-torque",
-        "outside the accepted"),
-    Mistake("not a number", ANSWERS, replace_text(("kA = ", "kA = nan # ")), "ka", "nan"),
     Mistake("kV typed for kA", ANSWERS, change_number("kA", lambda right: right["kV"]), "ka",
         "this is the kV of the same fit"),
 )  # fmt: skip

@@ -16,8 +16,6 @@ def in_degrees(right: Numbers) -> float:
 EDGE, SIMPLE, UNITS = "M-KG-EDGE", "M-NO-KG-IN-SYSID", "M-UNITS"
 
 MISTAKES = (
-    Mistake("nothing for kG", ANSWERS, replace_text(("elevator_kG = ", 'elevator_kG = "" # ')),
-        "elevator-kg", "nothing yet"),
     Mistake("where it begins to rise for the elevator's kG", ANSWERS,
         change_number("elevator_kG", lambda right: right["elevator_kG"] + right["elevator_kS"]),
         "elevator-kg", "an edge of the band", EDGE),

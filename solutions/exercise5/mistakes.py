@@ -138,6 +138,11 @@ MISTAKES = (
                 "testing = lambda: not wpilib.DriverStation.isTest()\n",
             )
         ), "guard", "checks for another mode than test mode"),
+    Mistake("a direction that is not imported", JAVA,
+        replace_text(("(SysIdRoutine.Direction.k", "(Direction.k")), "held",
+        "import edu.wpi.first.wpilibj2.command.sysid.SysIdRoutine.Direction;"),
+    Mistake("a method that returns no command", PYTHON,
+        replace_text(("return self.routine.", "self.routine.")), "held", "needs a command"),
     Mistake("a misspelled binding", JAVA, replace_text(("whileTrue", "whileTreu")), "held",
         "Did you mean whileTrue?"),
     Mistake("a misspelled method of the routine", PYTHON,

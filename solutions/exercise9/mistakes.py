@@ -56,14 +56,6 @@ MISTAKES = (
         "M-UNITS",
     ),
     Mistake(
-        "radians for rotations, and kA knows it too",
-        ANSWERS,
-        scale_numbers(2 * math.pi, "kV", "kA"),
-        "ka",
-        "about 6.28 times too large",
-        "M-UNITS",
-    ),
-    Mistake(
         "velocity in rpm",
         ANSWERS,
         scale_numbers(1 / 60, "kV", "kA"),
@@ -126,13 +118,6 @@ MISTAKES = (
         "M-UNITS",
     ),
     Mistake(
-        "a list for a number", ANSWERS, replace_text(("kA = ", "kA = [1, 2] # ")), "ka", "a list"
-    ),
-    Mistake("not a number", ANSWERS, replace_text(("kA = ", "kA = nan # ")), "ka", "nan"),
-    Mistake(
-        "yes or no for a number", ANSWERS, replace_text(("kS = ", "kS = true # ")), "ks", "true"
-    ),
-    Mistake(
         "R² in percent",
         ANSWERS,
         scale_numbers(100, "acceleration_r2", "simulated_velocity_r2"),
@@ -144,6 +129,13 @@ MISTAKES = (
         "a velocity that is smoothed too much",
         ANSWERS,
         scale_numbers(1.4, "kA"),
+        "ka",
+        "Your kV is right, so your units are, too",
+    ),
+    Mistake(
+        "the time constant for kA",
+        ANSWERS,
+        change_number("kA", lambda right: right["kA"] / right["kV"]),
         "ka",
         "Your kV is right, so your units are, too",
     ),

@@ -29,11 +29,11 @@ def compare_motor(name: str, rows: Sequence["Row"], sent: tuple[Sent, ...]) -> D
     if unknown or not rows:
         return Driven(loops=len(rows), unknown=unknown, sent=sent)
     got = [float(row.applied[name]) for row in rows]
-    asked = [row.asked for row in rows]
+    asked = [max(-row.battery, min(row.asked, row.battery)) for row in rows]
     limits = [row.limits.get(name, 1.0) for row in rows]
     off = [k for k in range(len(rows)) if abs(got[k] - asked[k] * limits[k]) > CLOSE]
     late = [k for k in range(1, len(rows)) if abs(got[k] - asked[k - 1] * limits[k]) > CLOSE]
-    at = (rows[off[0]].time, asked[off[0]], got[off[0]]) if off else (0.0, 0.0, 0.0)
+    at = (0.0, 0.0, 0.0)
     if off:  # where it differs most tells most
         worst = max(off, key=lambda k: abs(got[k] - asked[k]))
         at = (rows[worst].time, asked[worst], got[worst])

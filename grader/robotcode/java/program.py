@@ -321,11 +321,14 @@ class Program:
             near = type_names.did_you_mean(rest[0], inner)
             self.error(f"{whole.__name__} has no {rest[0]}{near}", at)
             return _descend(whole, [near.rpartition(" ")[2].rstrip("?")]) if near else whole
-        elsewhere = packages_of(first)
+        loaded = [(one.full, self.load(one.full)) for one in scope.unit.imports]
+        nested = {f"{full}.{first}": _descend(cls, [first]) for full, cls in loaded}
+        elsewhere = {full: JAVA[full] for full in packages_of(first)}
+        elsewhere |= {full: cls for full, cls in nested.items() if isinstance(cls, type)}
         if elsewhere:
             best = min(elsewhere, key=lambda full: _likeness(full, scope.unit))
             self.error(f"{first} is not imported. Write at the top: import {best};", at)
-            return _descend(JAVA[best], rest)
+            return _descend(elsewhere[best], rest)
         simple = [full.rpartition(".")[2] for full in JAVA if full.startswith(VENDORS)]
         close = difflib.get_close_matches(first, simple, 1, NEARLY)
         if close:

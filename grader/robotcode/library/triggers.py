@@ -4,6 +4,7 @@
 ``WORLD.singletons["controllers"]`` every controller with what the program reads of it.
 """
 
+import inspect
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
@@ -122,6 +123,8 @@ class BooleanEvent(Fake):
 
 def _bind(how: str) -> Callable[..., Any]:
     def bind(self: Any, command: Any) -> "Trigger":
+        if command is None or inspect.isroutine(command):
+            raise WrongArgument(f"{how} needs a command. Call a method that returns one.")
         binding = Binding(self, how, command, WORLD.where())
         binding.before = self.getAsBoolean()
         WORLD.singletons.setdefault("bindings", []).append(binding)
