@@ -1,6 +1,5 @@
 """The site: every page is there, every link leads somewhere, and nothing is asked of elsewhere."""
 
-import importlib.util
 import os
 import re
 import subprocess
@@ -14,6 +13,7 @@ from urllib.parse import unquote, urlparse
 
 import pytest
 from chromium import LEAST_CONTRAST, least_contrast, list_violations
+from ci_scripts import load_script
 
 pytestmark = pytest.mark.slow
 
@@ -129,11 +129,13 @@ def tab(built_site, browser):
 
 
 @pytest.mark.browser
-def test_no_page_has_an_error_in_its_console_or_a_faint_link(built_site, tab):
+def test_no_page_has_an_error_in_its_console_a_faint_link_or_what_axe_finds(built_site, tab):
     texts = '[role="main"] :is(a, p, li, h2), .bs-sidebar a, .navbar a:not(.disabled)'
-    faint = {}
+    faint, wrong = {}, {}
     for name in sorted(built_site[1]):
         tab.open(name)
+        if found := list_violations(tab):
+            wrong[name] = found
         for theme in ("light", "dark"):
             tab.evaluate(f"setColorMode('{theme}')")
             if (contrast := least_contrast(tab, texts)) < LEAST_CONTRAST:
@@ -141,16 +143,6 @@ def test_no_page_has_an_error_in_its_console_or_a_faint_link(built_site, tab):
 
     assert tab.complaints == []
     assert faint == {}
-
-
-@pytest.mark.browser
-def test_axe_finds_nothing_wrong_with_a_page_of_the_site(built_site, tab):
-    wrong = {}
-    for name in sorted(built_site[1]):
-        tab.open(name)
-        if found := list_violations(tab):
-            wrong[name] = found
-
     assert wrong == {}
 
 
@@ -229,10 +221,7 @@ def test_a_lesson_says_how_to_run_it_and_offers_its_notebook(built_site, lesson)
 
 
 def test_the_picture_of_a_grade_is_what_its_command_draws():
-    spec = importlib.util.spec_from_file_location("pictures", ROOT / ".ci" / "draw_pictures.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
     kept = (ROOT / ".ci" / "pictures" / "grade.svg").read_text("utf-8")
 
-    assert module.draw_grade() == kept, "run  python .ci/draw_pictures.py"
+    assert load_script("draw_pictures").draw_grade() == kept, "run  python .ci/draw_pictures.py"
     assert "http" not in re.sub(r"http://www.w3.org/2000/svg|https://www.textualize.io", "", kept)
