@@ -4,6 +4,8 @@ import itertools
 import os
 import re
 import shutil
+import socket
+import tarfile
 from pathlib import Path
 
 import pytest
@@ -51,6 +53,32 @@ def shared() -> Path:
     if not (folder / "data").is_dir():
         pytest.skip(f"reference data not found at {folder} (set SYSID_SHARED to its folder)")
     return folder
+
+
+@pytest.fixture(scope="session")
+def real_logs(shared, tmp_path_factory) -> Path:
+    """The folder of further logs of real robots, unpacked."""
+    packed = shared / "data" / "real-more" / "logs.tar.xz"
+    if not packed.is_file():
+        pytest.skip(f"logs of real robots not found: {packed}")
+    folder = tmp_path_factory.mktemp("real")
+    with tarfile.open(packed) as archive:
+        archive.extractall(folder, filter="data")
+    return folder / "real-more"
+
+
+@pytest.fixture(autouse=True)
+def no_secret_around(monkeypatch):
+    """No class's secret is set where tests run."""
+    monkeypatch.delenv("SYSID_SECRET", raising=False)
+
+
+@pytest.fixture
+def port():
+    """A port that nothing listens on."""
+    with socket.socket() as one:
+        one.bind(("127.0.0.1", 0))
+        return one.getsockname()[1]
 
 
 @pytest.fixture(scope="module")

@@ -1,4 +1,4 @@
-"""Robot code, damaged: the corpus with lines, tokens and bytes lost, repeated, swapped and mixed.
+"""Java robot code, damaged: lines, tokens and bytes lost, repeated, swapped and mixed.
 
 The same number gives the same mutant as long as the corpus stays as it is.
 """
@@ -13,7 +13,6 @@ from robot_corpus import whole_corpus
 
 ROOT = Path(__file__).resolve().parents[1]
 FOLDERS = (*sorted((ROOT / "solutions").glob("exercise*")), whole_corpus())
-SUFFIXES = {".java", ".py"}
 MOST_CHANGES = 4
 LONGEST = 60  # pieces that one change takes, repeats or moves
 BRACKETS = [b"(", b")", b"{", b"}", b"[", b"]", b"<", b">", b'"', b"'", b'"""', b"/*", b"*/", b"\\"]
@@ -53,9 +52,9 @@ class Mutant:
 
 
 def sources() -> list[Path]:
-    """The sound and broken files that mutants are made of."""
+    """The sound and broken Java files that mutants are made of."""
     found = (path for folder in FOLDERS for path in sorted(folder.rglob("*")))
-    return [path for path in found if path.suffix in SUFFIXES]
+    return [path for path in found if path.suffix == ".java"]
 
 
 def mutant(number: int, files: Sequence[Path]) -> Mutant:

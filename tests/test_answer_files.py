@@ -334,7 +334,6 @@ def test_whatever_is_handed_in_is_graded_or_listed(course, tmp_path, files, form
 def classroom(course, tmp_path, monkeypatch):
     """The folder of a class that handed something in, and its roster, beside the course."""
     monkeypatch.chdir(course)
-    monkeypatch.delenv("SYSID_SECRET", raising=False)
     put(tmp_path / "in", {"ann/exercise1/answers.toml": HALF, "ben/exercise1/answers.toml": RIGHT})
     put(tmp_path, {"roster.csv": "student,group,late\nann,A,\ncat,A,\nben,,2 days\ndan,,\n"})
     return tmp_path

@@ -256,6 +256,19 @@ def workflow(root, tmp_path, monkeypatch):
     return repository, yaml.safe_load(path.read_text(encoding="utf-8"))
 
 
+def run_step(step, repository, folder):
+    """Run a step of the workflow as GitHub does: the results that it hands on."""
+    output = folder / "output"
+    output.write_text("", encoding="utf-8")
+    place = {"RUNNER_TEMP": str(folder), "GITHUB_OUTPUT": str(output), "STUDENT": "octo-cat"}
+    place["PATH"] = f"{SCRIPTS}{os.pathsep}{os.environ['PATH']}"
+    shell = [BASH, "-e", "-o", "pipefail", "-c", step["run"]]
+    subprocess.run(shell, cwd=repository, env={**os.environ, **place}, check=True)
+    name, _, text = output.read_text(encoding="utf-8").strip().partition("=")
+    assert name == "result"
+    return json.loads(base64.b64decode(text))
+
+
 @needs_bash
 def test_the_workflow_grades_and_hands_its_results_to_the_reporter(root, workflow, tmp_path):
     repository, parsed = workflow
@@ -263,27 +276,11 @@ def test_the_workflow_grades_and_hands_its_results_to_the_reporter(root, workflo
     for name in ("exercise1", "exercise4"):
         for file, text in perfect(root, name, "octo-cat", tmp_path / "copy").items():
             (repository / "exercises" / name / file).write_text(text, encoding="utf-8")
-    output = tmp_path / "output"
     for step in steps:
         if "id" not in step:
             continue
         (tmp_path / step["id"]).unlink(missing_ok=True)
-        output.write_text("", encoding="utf-8")
-        subprocess.run(
-            [BASH, "-e", "-o", "pipefail", "-c", step["run"]],
-            cwd=repository,
-            env={
-                **os.environ,
-                "STUDENT": "octo-cat",
-                "RUNNER_TEMP": str(tmp_path),
-                "GITHUB_OUTPUT": str(output),
-                "PATH": f"{SCRIPTS}{os.pathsep}{os.environ['PATH']}",
-            },
-            check=True,
-        )
-        name, _, text = output.read_text(encoding="utf-8").strip().partition("=")
-        results = json.loads(base64.b64decode(text))
-        assert name == "result"
+        results = run_step(step, repository, tmp_path)
         assert (results["status"], [one["name"] for one in results["tests"]]) == (
             "pass",
             [step["id"]],
@@ -317,18 +314,4 @@ def test_nothing_handed_in_is_a_result_of_zero(export):
 def test_the_workflow_of_a_wrong_answer_tells_so_and_does_not_stop(workflow, tmp_path):
     repository, parsed = workflow
     (step,) = [one for one in parsed["jobs"]["grade"]["steps"] if one.get("id") == "exercise4"]
-    output = tmp_path / "output"
-    subprocess.run(
-        [BASH, "-e", "-c", step["run"]],
-        cwd=repository,
-        env={
-            **os.environ,
-            "STUDENT": "octo-cat",
-            "RUNNER_TEMP": str(tmp_path),
-            "GITHUB_OUTPUT": str(output),
-            "PATH": f"{SCRIPTS}{os.pathsep}{os.environ['PATH']}",
-        },
-        check=True,
-    )
-
-    assert json.loads(base64.b64decode(output.read_text().partition("=")[2]))["status"] == "fail"
+    assert run_step(step, repository, tmp_path)["status"] == "fail"

@@ -47,7 +47,6 @@ def course(tmp_path, monkeypatch):
     """A small course, in whose folder the command runs."""
     lay_out(tmp_path / "course")
     monkeypatch.chdir(tmp_path / "course")
-    monkeypatch.delenv("SYSID_SECRET", raising=False)
     return tmp_path / "course"
 
 

@@ -59,7 +59,6 @@ def handed_in(tmp_path, monkeypatch):
     """A small course, and what ann handed in, in folders with a space in their names."""
     lay_out(tmp_path / "the course")
     monkeypatch.chdir(tmp_path / "the course")
-    monkeypatch.delenv("SYSID_SECRET", raising=False)
     answer = tmp_path / "hand ins" / "ann" / "exercise1" / "answers.toml"
     answer.parent.mkdir(parents=True)
     answer.write_text(RIGHT, "utf-8")

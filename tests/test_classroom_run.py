@@ -39,7 +39,6 @@ def course(tmp_path, monkeypatch):
     lay_out(tmp_path / "course")
     (tmp_path / "course" / "exercises" / "exercise1" / "checks.py").write_text(CHECKS, "utf-8")
     monkeypatch.chdir(tmp_path / "course")
-    monkeypatch.delenv("SYSID_SECRET", raising=False)
     answer = tmp_path / "in" / "ann" / "exercise1" / "answers.toml"
     answer.parent.mkdir(parents=True)
     answer.write_text("a = 1\n", "utf-8")

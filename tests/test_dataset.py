@@ -15,11 +15,6 @@ from sim.bench.simulate import simulate
 from sim.inspect.contaminate import contaminate
 
 
-@pytest.fixture(autouse=True)
-def _no_secret_around(monkeypatch):
-    monkeypatch.delenv("SYSID_SECRET", raising=False)
-
-
 def jobs_of(path):
     asked = read_spec(path)
     return plan_jobs(asked, asked.find_secret(make=False))

@@ -15,11 +15,6 @@ from sim.core.errors import BadRequest
 from sim.support.secret import Secret
 
 
-@pytest.fixture(autouse=True)
-def _no_secret_around(monkeypatch):
-    monkeypatch.delenv("SYSID_SECRET", raising=False)
-
-
 def refused(capsys, *arguments):
     """What is said by a command that refuses, in one line."""
     capsys.readouterr()

@@ -13,11 +13,6 @@ from sim.core.units import find_unit
 from sim.support.secret import Secret
 
 
-@pytest.fixture(autouse=True)
-def _no_secret_around(monkeypatch):
-    monkeypatch.delenv("SYSID_SECRET", raising=False)
-
-
 def test_the_key_holds_the_true_gains_in_the_units_of_the_log(tmp_path):
     text = PLAIN.replace("count = 2", "drawn = false").replace("timeout = 1.0", "timeout = 6.0")
     folder = make_dataset(spec(tmp_path, text))

@@ -11,11 +11,6 @@ FAULT = '[[logs.faults]]\nname = "loop-overrun"\n'
 EFFECT = '[[logs.effects]]\nname = "stribeck"\n'
 
 
-@pytest.fixture(autouse=True)
-def _no_secret_around(monkeypatch):
-    monkeypatch.delenv("SYSID_SECRET", raising=False)
-
-
 @pytest.fixture
 def refusal(tmp_path, capsys):
     """What the command says of a spec, in one line, before it makes anything."""

@@ -17,11 +17,6 @@ LONGEST = 100.0  # [s] a start takes, should the engine have to be compiled firs
 ENOUGH = 10  # [files] after which a run is in full swing
 
 
-@pytest.fixture(autouse=True)
-def _no_secret_around(monkeypatch):
-    monkeypatch.delenv("SYSID_SECRET", raising=False)
-
-
 @pytest.fixture(scope="module")
 def undisturbed(tmp_path_factory):
     """What a run that nothing stops makes of LONG."""

@@ -23,13 +23,14 @@ from sim.physics.engine import (
     NO_WIRES,
     RunBatch,
     State,
+    compose,
     filter_runs,
     make_effect_arrays,
     make_model_constants,
     simulate_run,
 )
 from sim.physics.engine.compose import MODULES, compose_engine, is_compiled
-from sim.physics.engine.kernel import NO_USE
+from sim.physics.engine.kernel import NO_USE, find_kernel_file
 from sim.physics.engine.machine_code import ObjectCode, link_code
 from sim.physics.engine.power_path import CUT
 from sim.physics.engine.two_body_modes import TABLES_SIZE
@@ -239,15 +240,17 @@ ENDS = str(round(1.4 * (1.0 - math.exp(-0.98 / 0.15)), 6))  # (3 - 0.2)/2, and k
 def started(environment, program=SIMULATION_SCRIPT):
     done = subprocess.run(
         [sys.executable, "-c", program], env=environment, capture_output=True, encoding="utf-8",
-        check=False, timeout=120,
+        check=False, timeout=300,
     )  # fmt: skip
     return done.returncode, done.stdout.strip(), done.stderr
 
 
 @pytest.fixture(scope="module")
 def cache(tmp_path_factory):
-    """A cache in which one process left what it compiled."""
-    kept = tmp_path_factory.mktemp("cache") / "kept"
+    """A cache in which one process left what it compiled, in place of a damaged engine."""
+    kept = tmp_path_factory.mktemp("cache")
+    text = "\n".join(compose._engine_lines(FEW, compiled=True))
+    find_kernel_file(kept, compose._engine_hash(FEW, text)).write_bytes(b"not an engine")
     assert started({**os.environ, CACHE: str(kept)}) == (0, ENDS, "")
     return kept
 
@@ -259,7 +262,8 @@ def test_what_was_compiled_is_kept_where_the_environment_says(cache, tmp_path, m
     monkeypatch.setenv(CACHE, str(cache))
     assert find_cache_folder() == cache
     assert is_compiled(FEW)
-    (kept,) = cache.iterdir()
+    (kept,) = cache.iterdir()  # no file beside the damaged one, which is an engine again
+    assert ObjectCode.from_bytes(kept.read_bytes())
     written = kept.stat().st_mtime_ns
     assert started(os.environ.copy()) == (0, ENDS, "")
     assert kept.stat().st_mtime_ns == written
@@ -291,16 +295,6 @@ def test_a_damaged_engine_is_never_loaded(cache, damage):
 
     assert code is None or link_code(code) is None
     assert link_code(ObjectCode.from_bytes(kept.read_bytes()))
-
-
-def test_a_damaged_engine_is_compiled_anew(cache, tmp_path):
-    (kept,) = cache.glob("*.kernel")
-    copy = tmp_path / kept.name
-    copy.write_bytes(kept.read_bytes()[:-1])
-
-    assert started({**os.environ, CACHE: str(tmp_path)}) == (0, ENDS, "")
-
-    assert ObjectCode.from_bytes(copy.read_bytes())
 
 
 def test_where_object_files_do_not_work_the_compiler_keeps_its_own(cache, tmp_path):

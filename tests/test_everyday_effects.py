@@ -1,13 +1,7 @@
 """Small effects, lags and the errors of gains, on logs that the simulation did not make."""
 
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
-
-sys.path.insert(0, str(Path(__file__).parent / "benchmarks"))
-
 from made_elsewhere import KINDS, error_logs, lag_logs
 
 from sim.fit import fit

@@ -41,11 +41,6 @@ count = 100
 """
 
 
-@pytest.fixture(autouse=True)
-def _no_secret_around(monkeypatch):
-    monkeypatch.delenv("SYSID_SECRET", raising=False)
-
-
 @pytest.fixture(scope="module")
 def address():
     """The scheduler of a cluster with two workers, each a process of its own."""

@@ -8,7 +8,6 @@ from pathlib import Path
 import pytest
 from gain_styles import BODY, IMPORTS, PYTHON_BODY, PYTHON_STYLES, STYLES
 
-from grader.course_check import list_mistakes, solve
 from grader.exercise import Exercise
 from grader.robotcode.running import run_gains
 
@@ -342,23 +341,6 @@ def test_a_gain_in_the_code_and_in_the_motor_controller_is_a_double_feedforward(
     assert (found.status == "failed") == bool(double)
     assert double in found.seen
     assert ("This is a double feedforward" in found.hint) == bool(double)
-
-
-@pytest.mark.parametrize("kind", KINDS)
-def test_every_mistake_is_named_whatever_the_mechanism(checked, tmp_path, kind):
-    student = of(kind=kind, duty=kind in KINDS[::2])
-    (tmp_path / "given.toml").write_text(OWN.module.describe(OWN.module.draw(student)), "utf-8")
-    answers = solve(OWN, tmp_path)
-
-    for mistake in (
-        one for one in list_mistakes(OWN) if one.file == JAVA
-    ):  # Python: a process each
-        text = mistake.edit_text(answers[mistake.file])
-        found = checked(text, student=student, name=mistake.file)[mistake.check]
-
-        assert (mistake.name, found.status) == (mistake.name, "failed")
-        assert mistake.says in f"{found.seen} {found.hint}"
-        assert (mistake.name, found.misconception) == (mistake.name, mistake.misconception)
 
 
 PID = "Constants.kA);\n  PIDController pid = new PIDController("

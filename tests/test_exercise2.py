@@ -103,30 +103,6 @@ def test_the_file_tells_of_every_planted_trouble_and_of_no_other(copy):
         assert {word for word, there in seen.items() if there} == set(variant.planted)
 
 
-@pytest.mark.parametrize(
-    ("written", "status"),
-    [
-        ("['Gear ratio', 'LOGGED VOLTAGE']", "passed"),
-        ("'gear_ratio, logged_voltage'", "passed"),
-        ("['gear-ratio', 'gear-ratio', 'logged-voltage']", "passed"),
-        ("['gear-ratio']", "failed"),
-        ("'gear-ratio'", "failed"),
-        ("[3, 4]", "failed"),
-        ("{a = 1}", "failed"),
-        ("true", "failed"),
-        ("''", "failed"),
-        ("['gear-ratio', ['logged-voltage']]", "failed"),
-    ],
-)
-def test_a_list_may_be_written_in_many_ways(copy, written, status):
-    student = student_who(lambda variant: variant.planted in {(), ("gear-ratio",)})
-    path = copy.folder / "answers.toml"
-    path.write_text(f"inspection = {written}\n", "utf-8")
-    (found,) = (one for one in copy.grade(path, student=student).checks if one.id == "inspection")
-
-    assert found.status == status
-
-
 @pytest.mark.parametrize("times", [0.5, 2 * 3.14159265])
 def test_a_difference_that_follows_from_a_wrong_theory_earns_half(copy, times):
     variant = OWN.module.draw("ann")
@@ -135,15 +111,6 @@ def test_a_difference_that_follows_from_a_wrong_theory_earns_half(copy, times):
 
     assert found["kv-theory"].points == 0
     assert (found["difference"].points, found["difference"].status) == (1, "failed")
-
-
-@pytest.mark.parametrize("written", ["{:.1f} %", "{:.1f}%", "{:.1f} percent", "{:.1f}"])
-def test_a_percentage_may_be_written_in_many_ways(copy, written):
-    variant = OWN.module.draw("ann")
-    text = written.format(variant.percent(variant.parts.theoretical_kv))
-
-    assert grade_answer(copy, difference=text)["difference"].status == "passed"
-    assert grade_answer(copy, difference=text.replace(".", ","))["difference"].status == "passed"
 
 
 @pytest.mark.parametrize("given", ["bookkeeping", "ok", "watch", "inspect"])
@@ -156,26 +123,14 @@ def test_a_wrong_verdict_is_not_told_the_right_one(copy, given):
         assert verdict not in found.hint
 
 
-def test_every_slip_on_paper_is_named_for_everybody(copy):
-    """Over rpm, over the ratio, twice the wheel, radians for rotations."""
+def test_every_slip_of_the_gearing_is_named_for_everybody(copy):
+    """Over the ratio, twice the wheel, the diameter for the way around it."""
     for student in CLASS[:20]:
-        variant = OWN.module.draw(student)
-        parts = variant.parts
-        units = [1 / 60, 60.0, 6.2832]
-        gearing = [1 / parts.ratio, *([0.5, 2.0, math.pi] if parts.diameter else [])]
-        for times in units + gearing:
+        parts = OWN.module.draw(student).parts
+        for times in (1 / parts.ratio, *([0.5, 2.0, math.pi] if parts.diameter else [])):
             found = grade_answer(copy, student=student, kV_theory=parts.theoretical_kv * times)
 
-            code = "M-UNITS" if times in units else "M-GEARING"
-            assert found["kv-theory"].misconception == code, (student, times)
-
-
-def test_a_theory_in_another_unit_is_converted(copy):
-    student = student_who(lambda one: one.kind == "turret")
-    paper = OWN.module.draw(student).parts.theoretical_kv
-
-    in_radians = f"{paper / 6.283185:.5f} V·s/rad"
-    assert grade_answer(copy, student=student, kV_theory=in_radians)["kv-theory"].status == "passed"
+            assert found["kv-theory"].misconception == "M-GEARING", (student, times)
 
 
 def situations():

@@ -68,14 +68,6 @@ def grid(machine):
         yield PLAN.Plan(float(ramp), float(step), timeout, mark)
 
 
-def test_plans_away_from_every_bound_pass(copy):
-    for student in CLASS:
-        results = grade_answer(copy, student=student, **right(student))
-
-        assert {check.status for check in results.values()} == {"passed"}
-        assert sum(check.points for check in results.values()) == 10  # as the course lists it
-
-
 def test_every_mechanism_has_several_plans_and_far_more_that_break_a_rule():
     for student in CLASS[:4]:
         for machine in OWN.module.draw(student).machines.values():
@@ -226,29 +218,6 @@ def test_a_plan_that_breaks_one_rule_earns_half(copy):
     ]
 
     assert (one.points, two.points) == (0.75, 0)
-
-
-@pytest.mark.parametrize(
-    ("written_as", "status"),
-    [
-        ("{:.3f} V", "passed"),
-        ("{:.3f}V", "passed"),
-        ("{:.3f} volts", "passed"),
-        ("{:.3f} V/s", "failed"),
-        ("about {:.3f}", "failed"),
-        ("-{:.3f}", "failed"),
-        ("0", "failed"),
-        ("1e999", "failed"),
-        ("nan", "failed"),
-    ],
-)
-def test_a_number_may_be_written_in_many_ways(copy, written_as, status):
-    plan = DRAWN.make_sound_plan(OWN.module.draw("ann").machines["turret"])
-    answers = written("turret", plan) | {"turret_step": written_as.format(plan.step)}
-    comma = answers | {"turret_step": answers["turret_step"].replace(".", ",")}
-
-    assert grade_answer(copy, **answers)["turret"].status == status
-    assert grade_answer(copy, **comma)["turret"].status == status
 
 
 @pytest.mark.parametrize(

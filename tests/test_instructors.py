@@ -64,17 +64,6 @@ def test_guide_lists_the_misconceptions_that_the_examiner_names(text):
     ]
 
 
-@pytest.mark.parametrize("code", MISCONCEPTIONS)
-def test_every_misconception_points_to_a_section_that_is_there(root, code):
-    known = MISCONCEPTIONS[code]
-    lesson = root / "lessons" / f"{known.lesson}.py"
-    told = lesson.read_text(encoding="utf-8")
-    headings = re.findall(r"^# ##+ (?:\d+ )?(.+)$", told, re.MULTILINE)
-
-    assert known.section in headings
-    assert lesson.with_suffix(".ipynb").is_file()
-
-
 def test_every_exercise_has_a_place_in_the_plans(text, root):
     told = text.partition("Each exercise belongs to a lesson:")[2].partition("\n\n")[0]
     named = {int(number) for number in re.findall(r"\d+", told)}

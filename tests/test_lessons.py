@@ -1,13 +1,12 @@
 """The lessons: notebook and text agree, every cell runs clean, every picture speaks."""
 
 import ast
-import importlib.util
 import math
 import os
 import re
 import subprocess
 import sys
-from dataclasses import astuple, dataclass, replace
+from dataclasses import replace
 from html import unescape
 from html.parser import HTMLParser
 from pathlib import Path
@@ -15,6 +14,7 @@ from pathlib import Path
 import nbformat
 import numpy as np
 import pytest
+from ci_scripts import load_script
 from jupyter_client.kernelspec import KernelSpecManager
 
 import grader
@@ -30,12 +30,6 @@ from sim.teaching.r2_cases import GOOD, make_cases
 
 ROOT = Path(__file__).resolve().parents[1]
 TEXTS = sorted((ROOT / "lessons").glob("*.py"))
-LONGEST = 45  # [minutes] of a lesson, for one student alone
-ASSUMED = (  # INSTRUCTORS.md's sentence about how the minutes are calculated
-    r"We assume (\d+) words a minute, (\d+) seconds for a question, (\d+) seconds for a picture "
-    r"that moves or has sliders, and (\d+) seconds for any other picture or table"
-)
-PICTURE = '<figure><img alt="a picture"></figure><table></table>'  # with the table of its numbers
 PLUMBING = (  # what a cell in sight does not do
     r"^(?:import|from) |\b(?:ask_question|animate_charts|animate_mechanism)\("
 )
@@ -52,10 +46,6 @@ pytestmark = [
 each_lesson = pytest.mark.parametrize("text", TEXTS, ids=lambda path: path.stem)
 
 
-# Summaries of the folded texts that answer a question, which the learner opens after thinking.
-ANSWERS = ("Answer", "Solution", "The defect", "The five defects, and some more")
-
-
 def list_questions(text):
     """The questions of a lesson, as the package keeps them."""
     kept = read_answer(f"lesson{int(text.stem[:2])}").values()
@@ -63,17 +53,15 @@ def list_questions(text):
 
 
 class Page(HTMLParser):
-    """The pictures, the tables and the open-and-close of details in a piece of HTML."""
+    """The pictures and the open-and-close of details in a piece of HTML."""
 
     def __init__(self, html):
         super().__init__()
         self.pictures, self.animations, self.open, self.summaries = [], [], 0, 0
-        self.tables = 0
         self.feed(html)
 
     def handle_starttag(self, tag, attrs):
-        """Note a picture or a table, and what opens."""
-        self.tables += tag == "table"
+        """Note a picture, and what opens."""
         if tag == "img":
             self.pictures.append(dict(attrs))
         if tag == "figure" and "data-motion" in dict(attrs):
@@ -84,14 +72,6 @@ class Page(HTMLParser):
     def handle_endtag(self, tag):
         """Note what closes."""
         self.open -= tag == "details"
-
-
-def load_script(name):
-    """A script of the folder .ci as a module."""
-    spec = importlib.util.spec_from_file_location(name, ROOT / ".ci" / f"{name}.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
 
 
 @pytest.fixture(scope="module")
@@ -119,21 +99,6 @@ def run():
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("PYTHONWARNINGS", "error")
         yield ran
-
-
-def test_what_people_read_is_spelled_right():
-    paths = ["lessons", "exercises", "grader", "sim", "README.md", "INSTRUCTORS.md"]
-
-    done = subprocess.run(
-        [sys.executable, "-m", "codespell_lib", *paths],
-        cwd=ROOT,
-        capture_output=True,
-        text=True,
-        encoding="utf-8",
-        check=False,
-    )
-
-    assert done.returncode == 0, done.stdout
 
 
 def test_there_are_lessons():
@@ -237,15 +202,6 @@ def test_a_lesson_has_the_anatomy_of_the_source_lesson(text):
         assert part in headings
 
 
-@each_lesson
-def test_every_box_quotes_the_lesson_gives_the_source_and_something_to_try(text):
-    for quote in re.findall(r"(?:^# >.*\n)+", text.read_text(encoding="utf-8"), re.MULTILINE):
-        if "**Lesson says:**" in quote:
-            assert "**Source says:**" in quote
-            assert "**Try it" in quote
-            assert "](https://" in quote, f"no link to the source:\n{quote}"
-
-
 @pytest.mark.shared
 @each_lesson
 def test_what_the_lesson_is_said_to_say_it_says(text, shared):
@@ -279,106 +235,6 @@ def test_the_practice_of_a_lesson_links_to_its_exercises_and_names_grade_watch(t
     for name in linked:
         assert (ROOT / "exercises" / name / "README.md").is_file()
     assert "`grade watch exercise" in practice
-
-
-@dataclass(frozen=True)
-class Load:
-    """What a lesson asks of its reader."""
-
-    words: int  # of Markdown in sight
-    questions: int  # predictions, quick checks, and tasks whose answer is folded
-    moving: int  # pictures that move or have sliders
-    still: int  # other pictures, each with the table of its numbers, and other tables
-
-
-def measure_load(notebook):
-    """What is in sight on the page of an executed notebook."""
-    load = Load(0, 0, 0, 0)
-    for cell in notebook.cells[1:]:  # the first only installs the course
-        one = _text_load(cell) if cell.cell_type == "markdown" else _code_load(cell)
-        load = Load(*(a + b for a, b in zip(astuple(load), astuple(one), strict=True)))
-    return load
-
-
-def _text_load(cell):
-    """What a cell of text asks; its code, formulas, addresses and folded texts do not count."""
-    text = re.sub(r"<details>.*?</details>|```.*?```", " ", cell.source, flags=re.DOTALL)
-    prose = re.sub(r"\$[^$]*\$|<[^>]+>|\]\([^)]*\)|`", " ", text)
-    opened = re.findall(r"<summary>(.*?)</summary>", cell.source)
-    return Load(
-        words=len(re.findall(r"[A-Za-z][A-Za-z'’-]*", prose)),
-        questions=sum(summary in ANSWERS for summary in opened),
-        moving=0,
-        still=len(re.findall(r"^\|[-| :]+\|$|!\[", text, re.MULTILINE)),
-    )
-
-
-def _code_load(cell):
-    """What the questions, pictures and tables of a cell of code ask; a widget counts once."""
-    shown = [output["data"] for output in cell.outputs if "data" in output]
-    pages = [Page(data.get("text/html", "")) for data in shown if VIEW not in data]
-    sliders = len(re.findall(r"^search$", cell.source, re.MULTILINE))
-    return Load(
-        words=0,
-        questions=sum(VIEW in data for data in shown) - sliders,
-        moving=sliders + sum(len(page.animations) for page in pages),
-        still=sum(len(page.pictures) or page.tables for page in pages),
-    )
-
-
-def minutes(load):
-    """The minutes of a lesson by the numbers that INSTRUCTORS.md assumes."""
-    text = " ".join((ROOT / "INSTRUCTORS.md").read_text(encoding="utf-8").split())
-    words, question, moving, still = (float(number) for number in re.search(ASSUMED, text).groups())
-    seconds = load.questions * question + load.moving * moving + load.still * still
-    return load.words / words + seconds / 60
-
-
-def stated_minutes(text):
-    """The minutes in the head of a lesson."""
-    return int(re.search(r"^# \*About (\d+) minutes\.", text.read_text("utf-8"), re.MULTILINE)[1])
-
-
-@each_lesson
-def test_a_lesson_takes_as_long_as_its_head_says_and_at_most_45_minutes(text, run):
-    """The minutes in the head are those that INSTRUCTORS.md calculates, rounded to 5.
-
-    A question makes the learner think and then click: a prediction, a quick check, or a task whose
-    answer is folded (an answer of the knowledge check, a solution, a list of defects). Code is not
-    counted, neither read nor written, and of folded texts only that they are answers.
-    """
-    load = measure_load(run(text))
-    calculated = minutes(load)
-
-    assert calculated <= LONGEST, f"{calculated:.1f} minutes: {load}"
-    assert stated_minutes(text) == 5 * round(calculated / 5), f"{calculated:.1f} minutes: {load}"
-
-
-def test_the_plan_for_a_class_adds_half_to_the_minutes_of_the_lessons():
-    text = " ".join((ROOT / "INSTRUCTORS.md").read_text(encoding="utf-8").split())
-    low, high = re.search(r"plan 50 % more time: (\d+) to (\d+) minutes", text).groups()
-    in_class = [1.5 * stated_minutes(lesson) for lesson in TEXTS]
-
-    assert int(low) == 5 * math.floor(min(in_class) / 5)
-    assert int(high) == 5 * math.ceil(max(in_class) / 5)
-
-
-def test_what_is_folded_or_repeated_takes_no_time():
-    folded = "<details><summary>Answer</summary>\n\nlong words\n\n| a |\n|---|\n</details>"
-    picture = _html_output(PICTURE)
-    cells = [
-        nbformat.v4.new_code_cell("install"),
-        nbformat.v4.new_markdown_cell(f"# Two words\n\n{folded}\n\n| a | b |\n|---|---|\n"),
-        nbformat.v4.new_markdown_cell("```\ncode\n```\n[link](https://address.org) $x + y$"),
-        nbformat.v4.new_code_cell("ask_question(one)", outputs=[_widget_output(""), picture]),
-        nbformat.v4.new_code_cell("search", outputs=[_widget_output(PICTURE)]),
-        nbformat.v4.new_code_cell("Table(look)", outputs=[_html_output("<table>")]),
-    ]
-
-    load = measure_load(nbformat.v4.new_notebook(cells=cells))
-
-    assert load == Load(words=2 + 2 + 1, questions=2, moving=1, still=1 + 1 + 1)
-    assert minutes(load) == pytest.approx(5 / 130 + 2 * 0.75 + 1.5 + 3)
 
 
 def run_cell(number, begin, **space):
@@ -568,16 +424,6 @@ def test_lesson_7_reads_the_log_that_exercise_9_made(tmp_path, root):
 
     assert "ada" in said
     assert "in rotations" in said
-
-
-def _html_output(html):
-    """An output of a cell that shows HTML."""
-    return nbformat.v4.new_output("display_data", data={"text/html": html})
-
-
-def _widget_output(html):
-    """An output of a cell that shows widgets, and HTML where no widget lives."""
-    return nbformat.v4.new_output("display_data", data={"text/html": html, VIEW: {}})
 
 
 def _plain(text):

@@ -49,17 +49,22 @@ def address(tmp_path_factory):
         yield where
 
 
-# Every lesson is executed in test_lessons.py; a browser takes another 20 s for each.
-@pytest.mark.parametrize("lesson", LESSONS[::2], ids=lambda path: path.stem)
-def test_a_lesson_runs_in_a_browser_without_the_network(lesson, address, browser, tmp_path):
+@pytest.fixture
+def page(browser):
+    """A page that asks nobody elsewhere and complains of nothing."""
     hosts, complaints = set(), []
-    page = browser.new_page(viewport=SCREEN)
-    page.set_default_timeout(PATIENCE)
-    page.on("request", lambda request: hosts.add(urlsplit(request.url).hostname))
-    page.on("pageerror", lambda error: complaints.append(str(error)))
+    opened = browser.new_page(viewport=SCREEN)
+    opened.set_default_timeout(3 * PATIENCE)  # a first kernel compiles the engine
+    opened.on("request", lambda request: hosts.add(urlsplit(request.url).hostname))
+    opened.on("pageerror", lambda error: complaints.append(str(error)))
+    yield opened
+    opened.close()
+    assert hosts - {None} <= HOME  # a data: address has no host
+    assert complaints == []
 
-    run_all(page, address.format(name=lesson.name))
 
+def check_lesson(page, folder):
+    """A lesson that ran to its end is whole, can be turned and can be read in both themes."""
     assert outputs(page, "error") == []
     assert outputs(page, "stderr") == []
     _check_pictures(page)
@@ -67,10 +72,15 @@ def test_a_lesson_runs_in_a_browser_without_the_network(lesson, address, browser
     for theme in ("JupyterLab Light", "JupyterLab Dark"):
         _use_theme(page, theme)
         assert _faintest(page) >= LEAST_CONTRAST, theme
-        page.screenshot(path=tmp_path / f"{lesson.stem} {theme}.png")
-    page.close()
-    assert hosts - {None} <= HOME  # a data: address has no host
-    assert complaints == []
+        page.screenshot(path=folder / f"{theme}.png")
+
+
+# Every lesson is executed in test_lessons.py, 0 and 9 below; a browser takes 20 s for each.
+@pytest.mark.parametrize("lesson", LESSONS[4::2], ids=lambda path: path.stem)
+def test_a_lesson_runs_in_a_browser_without_the_network(lesson, address, page, tmp_path):
+    run_all(page, address.format(name=lesson.name))
+
+    check_lesson(page, tmp_path)
 
 
 @pytest.fixture
@@ -122,10 +132,9 @@ def test_a_newcomer_soon_sees_something_move(printed, browser):
     page.close()
 
 
-def test_a_prediction_a_quick_check_and_a_box_answer_a_click(address, browser):
-    page = browser.new_page(viewport=SCREEN)
-    page.set_default_timeout(3 * PATIENCE)  # a first kernel compiles the engine
+def test_a_prediction_a_quick_check_and_a_box_answer_a_click(address, page, tmp_path):
     run_all(page, address.format(name=LESSONS[0].name))
+    check_lesson(page, tmp_path)
 
     def click(asked, answer):
         question = page.locator(".jp-OutputArea .widget-vbox").filter(has_text=asked)
@@ -142,14 +151,12 @@ def test_a_prediction_a_quick_check_and_a_box_answer_a_click(address, browser):
     assert page.evaluate(
         "Object.keys(localStorage).some(key => key.startsWith('system check: '))"
     )  # it is kept
-    page.close()
 
 
-def test_a_student_finds_what_lesson_9_hides_by_clicks(address, browser, tmp_path):
+def test_a_student_finds_what_lesson_9_hides_by_clicks(address, page, tmp_path):
     """As the page says: the largest share, an effect for it, fit, look again, stop."""
-    page = browser.new_page(viewport=SCREEN)
-    page.set_default_timeout(PATIENCE)
     run_all(page, address.format(name="09_reality_gap.ipynb"))
+    check_lesson(page, tmp_path)
     widget = page.locator(".jp-Notebook .widget-vbox").filter(
         has=page.get_by_role("button", name="Add and fit")
     )
@@ -192,7 +199,6 @@ def test_a_student_finds_what_lesson_9_hides_by_clicks(address, browser, tmp_pat
     assert float(window[1]) == pytest.approx(float(window[2]), rel=0.05)  # yours, and the truth
     assert widget.get_by_role("button", name="Add and fit").is_disabled()
     page.screenshot(path=tmp_path / "opened.png")
-    page.close()
 
 
 def _check_pictures(page):

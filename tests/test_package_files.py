@@ -6,7 +6,6 @@ import shutil
 import subprocess
 import sys
 import tomllib
-import zipfile
 from pathlib import Path
 
 import pytest
@@ -256,38 +255,6 @@ def grade_installed(place, folder, *words):
         encoding="utf-8",
         check=False,
     )
-
-
-def test_an_installation_that_is_not_editable_releases_the_folder_it_is_run_in(root, tmp_path):
-    place = installed(root, tmp_path / "site-packages")
-    course = tmp_path / "Überblick 2 course"
-    course.mkdir()
-    copy_course(root, course)
-    (tmp_path / "r.csv").write_text("student\nann\n", encoding="utf-8")
-    words = ("release", "-o", "../out", "--roster", "../r.csv", "--secret", "../class.secret")
-    first = grade_installed(place, course, *words)
-    common = (tmp_path / "out" / "course.zip").read_bytes()
-    again = grade_installed(place, course, *words)
-
-    assert (first.returncode, again.returncode) == (0, 0), first.stderr + again.stderr
-    assert (tmp_path / "out" / "course.zip").read_bytes() == common
-    assert "a new secret" in first.stderr
-    assert again.stderr == ""
-    unpacked = tmp_path / "Ann's ünpacked"
-    for archive in ("course.zip", "students/ann.zip"):
-        with zipfile.ZipFile(tmp_path / "out" / archive) as opened:
-            opened.extractall(unpacked)
-    started = subprocess.run(  # the package's own grader, from its own folder
-        [sys.executable, "-c", "import sys; from grader.cli import main; main()", "start",
-         "--no-lab", "--student", "ann"],
-        cwd=unpacked / "course",
-        capture_output=True,
-        text=True,
-        encoding="utf-8",
-        check=False,
-    )  # fmt: skip
-    assert (started.returncode, started.stderr) == (0, "")
-    assert "Next: open lessons/00_guess_or_measure.ipynb" in started.stdout
 
 
 def test_other_code_in_the_course_folder_is_said_in_one_line(root, tmp_path):

@@ -1,6 +1,5 @@
 """What carries the project to other machines: workflows, container, constraints, first cells."""
 
-import importlib.util
 import json
 import re
 import shlex
@@ -13,6 +12,7 @@ import click
 import nbformat
 import pytest
 import yaml
+from ci_scripts import load_script
 from nbclient import NotebookClient
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
@@ -40,14 +40,6 @@ LOCKED = [
     for line in (ROOT / "constraints.txt").read_text("utf-8").splitlines()
     if line and not line.startswith("#")
 ]
-
-
-def load_script(name):
-    """A script of the folder .ci, as a module."""
-    spec = importlib.util.spec_from_file_location(name, ROOT / ".ci" / f"{name}.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
 
 
 def steps(workflow):

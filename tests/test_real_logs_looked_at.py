@@ -4,7 +4,6 @@ The table was written by looking at a plot of each run (voltage, velocity, slope
 position) before the inspection was run on it. The logs are not part of the project.
 """
 
-import tarfile
 from dataclasses import dataclass, field
 
 import pytest
@@ -82,21 +81,9 @@ FOUND, FALSE = 0.9, 0.1  # [share] of what was seen, and of the logs in which no
 
 
 @pytest.fixture(scope="session")
-def logs(shared, tmp_path_factory):
-    """The folder with the real logs, unpacked."""
-    packed = shared / "data" / "real-more" / "logs.tar.xz"
-    if not packed.is_file():
-        pytest.skip(f"logs of real robots not found: {packed}")
-    folder = tmp_path_factory.mktemp("real")
-    with tarfile.open(packed) as archive:
-        archive.extractall(folder, filter="data")
-    return folder / "real-more"
-
-
-@pytest.fixture(scope="session")
-def inspected(logs):
+def inspected(real_logs):
     """Every log that was looked at, inspected."""
-    return {name: inspect(read(logs / f"{name}.json")) for name in LOOKED_AT}
+    return {name: inspect(read(real_logs / f"{name}.json")) for name in LOOKED_AT}
 
 
 def test_what_is_seen_is_found(inspected):

@@ -1,6 +1,5 @@
 """The site: every page is there, every link leads somewhere, and nothing is asked of elsewhere."""
 
-import importlib.util
 import os
 import re
 import subprocess
@@ -14,6 +13,7 @@ from urllib.parse import unquote, urlparse
 
 import pytest
 from chromium import LEAST_CONTRAST, least_contrast, list_violations
+from ci_scripts import load_script
 
 pytestmark = pytest.mark.slow
 
@@ -229,10 +229,7 @@ def test_a_lesson_says_how_to_run_it_and_offers_its_notebook(built_site, lesson)
 
 
 def test_the_picture_of_a_grade_is_what_its_command_draws():
-    spec = importlib.util.spec_from_file_location("pictures", ROOT / ".ci" / "draw_pictures.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
     kept = (ROOT / ".ci" / "pictures" / "grade.svg").read_text("utf-8")
 
-    assert module.draw_grade() == kept, "run  python .ci/draw_pictures.py"
+    assert load_script("draw_pictures").draw_grade() == kept, "run  python .ci/draw_pictures.py"
     assert "http" not in re.sub(r"http://www.w3.org/2000/svg|https://www.textualize.io", "", kept)

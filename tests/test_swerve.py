@@ -2,7 +2,6 @@
 
 import json
 import math
-import tarfile
 from dataclasses import replace
 
 import numpy as np
@@ -457,29 +456,17 @@ def test_a_push_at_a_wall_tells_the_slip_current():
 # ---- logs of real robots ----
 
 
-@pytest.fixture(scope="module")
-def real(shared, tmp_path_factory):
-    """The folder of further logs of real robots, unpacked."""
-    packed = shared / "data" / "real-more" / "logs.tar.xz"
-    if not packed.is_file():
-        pytest.skip(f"logs of real robots not found: {packed}")
-    folder = tmp_path_factory.mktemp("real")
-    with tarfile.open(packed) as archive:
-        archive.extractall(folder, filter="data")
-    return folder / "real-more"
-
-
 PIKE = "PikeRoboDevils+FRC-2022-Software~sysid~sysid_data20220305-"
 CUBE = "StuyPulse+SwerveSysId~client~data.json"
 
 
 @pytest.mark.shared
-def test_a_real_robot_that_turned_has_a_moment_of_inertia_a_robot_can_have(real, capsys):
+def test_a_real_robot_that_turned_has_a_moment_of_inertia_a_robot_can_have(real_logs, capsys):
     """A tank of 2022, some 55 kg; its track width is not known, 0.55 m is ordinary."""
     turning, straight = f"{PIKE}151809-angular.json", f"{PIKE}152235.json"
 
     _, said, _ = run(
-        capsys, "fit", real / turning, "--straight", real / straight,
+        capsys, "fit", real_logs / turning, "--straight", real_logs / straight,
         "--mass", 55, "--lever", 0.275, "--json",
     )  # fmt: skip
     found = json.loads(said)["moment_of_inertia"]
@@ -489,9 +476,9 @@ def test_a_real_robot_that_turned_has_a_moment_of_inertia_a_robot_can_have(real,
 
 
 @pytest.mark.shared
-def test_a_real_log_of_a_swerve_project_is_read_and_not_believed(real, capsys):
+def test_a_real_log_of_a_swerve_project_is_read_and_not_believed(real_logs, capsys):
     """Its velocity is the position times a factor: no gains describe it, and it is said so."""
-    code, _, why = run(capsys, "fit", real / CUBE)
+    code, _, why = run(capsys, "fit", real_logs / CUBE)
 
     assert code == 2
     assert "no gains describe this log" in why
@@ -576,12 +563,12 @@ def test_json_holds_the_moment_of_inertia_and_a_grave_warning_of_a_wrong_lever(l
 
 
 @pytest.mark.shared
-def test_a_real_pair_of_logs_in_different_units_is_told_by_the_lever(real, capsys):
+def test_a_real_pair_of_logs_in_different_units_is_told_by_the_lever(real_logs, capsys):
     """One file has the wheel's circumference in it, the other none: kV differs sixteenfold."""
     turning, straight = f"{EDWIN}-angular.json", f"{EDWIN}.json"
 
     code, said, _ = run(
-        capsys, "fit", real / turning, "--straight", real / straight,
+        capsys, "fit", real_logs / turning, "--straight", real_logs / straight,
         "--mass", 55, "--lever", 0.3, "--json",
     )  # fmt: skip
 

@@ -1,7 +1,6 @@
 """`sysid watch --nt`: a robot over NetworkTables, with all that happens to a connection."""
 
 import json
-import socket
 import subprocess
 import sys
 import time
@@ -78,14 +77,6 @@ def start(port, tmp_path, drive):  # noqa: ARG001 - the file of that log has to 
     for one in robots:
         if one.process.poll() is None:
             one.stop()
-
-
-@pytest.fixture
-def port():
-    """A port that nothing listens on."""
-    with socket.socket() as one:
-        one.bind(("127.0.0.1", 0))
-        return one.getsockname()[1]
 
 
 @pytest.fixture

@@ -2,7 +2,6 @@
 
 import json
 import queue
-import socket
 import subprocess
 import sys
 import threading
@@ -44,14 +43,6 @@ class Watch:
         """End it, and say what went wrong."""
         self.process.kill()
         return self.process.communicate()[1]
-
-
-@pytest.fixture
-def port():
-    """A port that nothing listens on."""
-    with socket.socket() as one:
-        one.bind(("127.0.0.1", 0))
-        return one.getsockname()[1]
 
 
 def run_robot(root, folder, *arguments, port):

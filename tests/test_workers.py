@@ -44,7 +44,6 @@ def course(tmp_path, monkeypatch):
     checks = tmp_path / "course" / "exercises" / "exercise1" / "checks.py"
     checks.write_text(DOES, encoding="utf-8")
     monkeypatch.chdir(tmp_path / "course")
-    monkeypatch.delenv("SYSID_SECRET", raising=False)
     return tmp_path / "course"
 
 

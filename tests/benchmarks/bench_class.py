@@ -3,14 +3,11 @@
     python tests/benchmarks/bench_class.py [STUDENTS]
 
 All thirteen exercises, answers right, half right, mistaken and missing (`class_made.py`). The
-second run finds everything graded; where Dask is installed, a third goes through two workers of a
-local cluster, and its files are compared with those of the first. Processor time is what the run
-asks of the machine, however busy that is with other things (Windows does not tell it). Memory is
-that of the largest process, and the time of each exercise is that of a few students graded here,
-one after another. Aim: 500 students in five minutes.
+second run finds everything graded. Processor time is what the run asks of the machine, however busy
+that is with other things (Windows does not tell it). Memory is that of the largest process. Aim:
+500 students in five minutes.
 """
 
-import importlib.util
 import json
 import sys
 import tempfile
@@ -23,12 +20,10 @@ import psutil
 from bench_grade import loaded, spent
 from class_made import ROOT, SECRET, asked, make_class
 
-from grader.student_data.variant import use_class_secret
 from sim.support.work.executor import count_available_cores
 
 CORES = count_available_cores()
 TARGET = 300.0  # [s] for 500 students
-SAMPLE = 20  # [students] of all the class that are graded one exercise after another
 LOOK = 0.5  # [s] between two looks at the memory
 CODE = f"import sys; sys.path.insert(0, {str(ROOT)!r}); from grader.cli import main; main()"
 
@@ -44,16 +39,14 @@ def largest(process: psutil.Process) -> int:
     return max(sizes)
 
 
-def grade_class(
-    handed_in: Path, secret: Path, *, only: Sequence[str], more: Sequence[str] = ()
-) -> tuple[float, int]:
+def grade_class(handed_in: Path, secret: Path, *, only: Sequence[str]) -> tuple[float, int]:
     """Seconds of one whole run, and the bytes of its largest process.
 
     Raises:
         RuntimeError: it could not grade.
     """
     chosen = [word for name in only for word in ("--exercise", name)]
-    options = ["--secret", str(secret), *chosen, *more]
+    options = ["--secret", str(secret), *chosen]
     said = handed_in.with_name("said.txt")
     most, begin = 0, time.perf_counter()
     with said.open("wb") as stream:
@@ -80,41 +73,6 @@ def outcomes(results: Path) -> Counter[str]:
     """What became of every answer: how many are of each status."""
     kept = [json.loads(path.read_text(encoding="utf-8")) for path in results.glob("*.json")]
     return Counter(record["status"] for one in kept for record in one["grades"])
-
-
-def through_a_cluster(handed_in: Path, secret: Path, *, only: Sequence[str]) -> None:
-    """Print how long the class takes a local cluster, and whether each file is the same."""
-    if importlib.util.find_spec("distributed") is None:
-        return
-    from distributed import LocalCluster  # noqa: PLC0415 - an extra
-
-    out = handed_in.with_name("there")
-    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address="127.0.0.1:0") as found:
-        more = ["--cluster", found.scheduler_address, "--run", "-o", str(out)]
-        took, _ = grade_class(handed_in, secret, only=only, more=more)
-    here, there = (
-        {path.relative_to(top): path.read_bytes() for path in top.rglob("*") if path.is_file()}
-        for top in (handed_in.with_name("class-graded"), out)
-    )
-    same = "the same files" if here == there else "OTHER files"
-    print(f"{'by a local cluster':36}{took:8.1f} s   {same}: {len(there)}")
-
-
-def by_exercise(handed_in: Path) -> None:
-    """Print what each exercise takes of a few students: the mean, and the longest."""
-    everybody = sorted(handed_in.iterdir())
-    students = everybody[:: -(-len(everybody) // SAMPLE)]
-    print(f"\n{'exercise, of ' + str(len(students)) + ' students':36}{'mean s':>8}{'most s':>8}")
-    with use_class_secret(SECRET):
-        for one in asked(ROOT):
-            there = [place for place in students if (place / one.name).is_dir()]
-            took = []
-            for place in there:
-                begin = time.perf_counter()
-                one.grade(place / one.name, student=place.name)
-                took.append(time.perf_counter() - begin)
-            mean = sum(took) / max(len(took), 1)
-            print(f"{one.name:36}{mean:8.3f}{max(took, default=0.0):8.3f}")
 
 
 def main() -> None:
@@ -146,8 +104,6 @@ def main() -> None:
         print(f"{'each of ' + str(there) + ' submissions':36}{1e3 * total / there:8.0f} ms")
         print(f"{'once more':36}{again:8.1f} s   {anew} students graded again")
         print(f"{'largest process':36}{most / 1e6:8.0f} MB")
-        through_a_cluster(handed_in, secret, only=names)
-        by_exercise(handed_in)
 
 
 if __name__ == "__main__":

@@ -1,9 +1,6 @@
 """How long a dataset takes, and how much memory: seconds, files a second, most memory at a time.
 
-    python tests/benchmarks/bench_dataset.py [LOGS] [PROCESSES] [cluster]
-
-With ``cluster``, the workers of a Dask cluster on this machine make the logs, too: PROCESSES
-workers of one thread, which must make the same files. Memory is then that of the command alone.
+    python tests/benchmarks/bench_dataset.py [LOGS] [PROCESSES]
 
 The whole command as a person runs it, from its start to the sealed key: logs of four tests (34 s of
 a robot's time) as WPILOG, each of another mechanism, once plain and once with effects hidden and
@@ -14,8 +11,6 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Sequence
-from hashlib import sha256
 from pathlib import Path
 
 import psutil
@@ -51,12 +46,12 @@ def memory(process: psutil.Process) -> int:
     return total
 
 
-def measured(text: str, *, asked: Sequence[str]) -> tuple[float, int, dict[str, str]]:
-    """Seconds, most bytes, and the digest of each file of one dataset, by its name.
+def measured(text: str, *, processes: int) -> tuple[float, int, int]:
+    """Seconds, most bytes, and number of files of one dataset.
 
     Args:
         text: the logs of the specification.
-        asked: options of the command.
+        processes: so many make it.
     """
     with tempfile.TemporaryDirectory() as folder:
         spec = Path(folder) / "spec.toml"
@@ -65,7 +60,7 @@ def measured(text: str, *, asked: Sequence[str]) -> tuple[float, int, dict[str, 
         running = psutil.Popen(
             [
                 *(sys.executable, "-c", "from sim.cli import main; main()"),
-                *("dataset", str(spec), "-o", f"{folder}/data", *asked),
+                *("dataset", str(spec), "-o", f"{folder}/data", "--processes", str(processes)),
             ],
             stdout=subprocess.DEVNULL,
         )
@@ -76,38 +71,21 @@ def measured(text: str, *, asked: Sequence[str]) -> tuple[float, int, dict[str, 
         taken = time.perf_counter() - start
         if running.returncode:
             sys.exit(f"the command ended with {running.returncode}")
-        there = Path(folder, "data").iterdir()
-        return taken, most, {path.name: sha256(path.read_bytes()).hexdigest() for path in there}
-
-
-def report(name: str, found: tuple[float, int, dict[str, str]], more: str) -> None:
-    """Print one line."""
-    taken, most, files = found
-    print(
-        f"{name:20} {len(files):6} files   {taken:7.2f} s   {len(files) / taken:7.0f} files/s   "
-        f"{most / 1e6:6.0f} MB{more}",
-        flush=True,
-    )
+        return taken, most, len(list(Path(folder, "data").iterdir()))
 
 
 def main() -> None:
-    """Print one line for each kind of dataset, and another for the cluster."""
-    words = [one for one in sys.argv[1:] if one != "cluster"]
+    """Print one line for each kind of dataset."""
+    words = sys.argv[1:]
     logs, processes = ([int(text) for text in words] + [1000, 2][len(words) :])[:2]
     goal = f"   target {TARGET:g} s, {MOST / 1e6:g} MB" if (logs, processes) == (1000, 2) else ""
     for name, text in KINDS.items():
-        made = text.format(count=logs // 2)
-        here = measured(made, asked=("--processes", str(processes)))
-        report(name, here, f"   {processes} processes{goal}")
-        if "cluster" in sys.argv:
-            from distributed import LocalCluster  # noqa: PLC0415 - an extra
-
-            with LocalCluster(
-                n_workers=processes, threads_per_worker=1, dashboard_address="127.0.0.1:0"
-            ) as found:
-                there = measured(made, asked=("--cluster", found.scheduler_address))
-            same = "the same files" if here[2] == there[2] else "OTHER files"
-            report(name, there, f"   {processes} workers of a cluster: {same}")
+        taken, most, files = measured(text.format(count=logs // 2), processes=processes)
+        print(
+            f"{name:20} {files:6} files   {taken:7.2f} s   {files / taken:7.0f} files/s   "
+            f"{most / 1e6:6.0f} MB   {processes} processes{goal}",
+            flush=True,
+        )
 
 
 if __name__ == "__main__":

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from bench_gains import NOISES, one_cell
 from bench_real import HeldOutScore, held_out
+from comparison_dirt import NOISES, one_cell
 from comparison_fits import BUILT, METHODS, SUBSETS, Found, found, outcomes
 from comparison_plan import SECTIONS, Row
 

@@ -5,7 +5,7 @@ from itertools import groupby
 from statistics import median
 
 import numpy as np
-from bench_gains import DIRT, GAINS
+from comparison_dirt import DIRT, GAINS
 from comparison_fits import (
     BUILT,
     FARTHEST,

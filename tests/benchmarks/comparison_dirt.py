@@ -1,12 +1,9 @@
-"""Two methods against the truth: every mechanism, three noise levels, 20 and 5 ms, everyday dirt.
-
-    python tests/benchmarks/bench_gains.py [seeds]
+"""Two methods against the truth: a mechanism with everyday dirt, at a noise and a period.
 
 Dirt is what nobody has to name: a little Stribeck friction, sag, delay and cogging, drawn anew for
 each log. A cell is a mechanism at a noise and a period; its figure is the median error over seeds.
 """
 
-import sys
 from dataclasses import replace
 from statistics import median
 
@@ -22,49 +19,9 @@ from sim.fit import fit
 
 ROUTINE = Routine(ramp=0.5, step=3.5)
 NOISES = (1.0, 3.0, 10.0)  # times the mechanism's own
-PERIODS = (0.02, 0.005)  # [s]
 DIRT = {"stribeck": 0.15, "battery-sag": 0.1, "delay": 0.08, "cogging": 0.1}  # [1] sizes at most
 METHODS = ("sysid", "output-error")
 GAINS = ("kS", "kV", "kA")
-
-
-def main() -> None:
-    """Print every cell, then the ratios that matter."""
-    seeds = int(sys.argv[1]) if len(sys.argv) > 1 else 20
-    cells: dict[tuple[str, float, float], dict[str, dict[str, float]]] = {}
-    print(f"{'cell':32} {'kS [V]':>17} {'kV [%]':>17} {'kA [%]':>17}   refused   (recipe, ours)")
-    for name in MECHANISMS:
-        for noise in NOISES:
-            for period in PERIODS:
-                cell, refused = one_cell(name, noise=noise, period=period, seeds=seeds)
-                cells[name, noise, period] = cell
-                shown = "".join(
-                    f"{cell['sysid'][g] * u:9.3g}{cell['output-error'][g] * u:9.3g}"
-                    for g, u in zip(GAINS, (1.0, 100.0, 100.0), strict=True)
-                )
-                print(f"{name:12} noise x{noise:<4g} {1e3 * period:3.0f} ms {shown}   {refused}")
-    for gain in GAINS:
-        theirs = median(cell["sysid"][gain] for cell in cells.values())
-        ours = median(cell["output-error"][gain] for cell in cells.values())
-        worse = {
-            key: (cell["sysid"][gain], cell["output-error"][gain])
-            for key, cell in cells.items()
-            if cell["output-error"][gain] > cell["sysid"][gain] + 0.01
-        }
-        share = ours / theirs
-        print(
-            f"{gain}: median over cells {theirs:.3g} (recipe) {ours:.3g} (ours), {share:.2f} of it"
-        )
-        print(f"    above it by more than 0.01 in {worse or 'no cell'}")
-        worst = max(cells, key=lambda key: cells[key]["output-error"][gain])
-        closest = max(cells, key=lambda key: _share(cells[key], gain))
-        print(f"    worst cell {worst}: {cells[worst]['output-error'][gain]:.3g}")
-        print(f"    closest to the recipe {closest}: {_share(cells[closest], gain):.2f} of it")
-
-
-def _share(cell: dict[str, dict[str, float]], gain: str) -> float:
-    """Our error over the recipe's."""
-    return cell["output-error"][gain] / max(cell["sysid"][gain], 1e-12)
 
 
 def one_cell(
@@ -99,7 +56,3 @@ def one_log(name: str, *, noise: float, period: float, seed: int) -> tuple[Mecha
     for effect, most in DIRT.items():
         built = built.hide(effect, float(chance.uniform(0.2, 1.0)) * most)
     return built, simulate(built, ROUTINE, rng=chance, period=period)
-
-
-if __name__ == "__main__":
-    main()
