@@ -133,10 +133,7 @@ Table(
 # mass. For an elevator, kG/kA is the acceleration of gravity:
 
 # %%
-print(
-    f"elevator: kG/kA = {truth['kG'] / truth['kA']:.2f} m/s². The acceleration of gravity is 9.81 "
-    "m/s²."
-)
+print(f"elevator: kG/kA = {truth['kG'] / truth['kA']:.2f} m/s². Gravity is 9.81 m/s².")
 
 # %% [markdown]
 # On a real elevator kG/kA is a little smaller, because kA also contains the spinning parts of the
@@ -165,8 +162,7 @@ print(
 # %%
 for name in ("cascade-elevator", "counterweight-elevator"):
     other = MECHANISMS[name]
-    ratio = other.gains["kG"] / other.gains["kA"]
-    print(f"{other.summary}: kG/kA = {ratio:.1f} m/s²")
+    print(f"{other.summary}: kG/kA = {other.gains['kG'] / other.gains['kA']:.1f} m/s²")
 
 # %% [markdown]
 # ## 3 Doing it: hold it still
@@ -263,14 +259,10 @@ plot_hold_window(
 # > **kG is the middle: (lower + upper) / 2. kS is half the width: (upper − lower) / 2.**
 
 # %%
+errors = {name: round(volts - truth["kG"], 3) + 0.0 for name, volts in recipes.items()}
 rows = [
-    (
-        name,
-        volts,
-        round(volts - truth["kG"], 3) + 0.0,
-        round((volts - truth["kG"]) / truth["kV"], 3) + 0.0,
-    )
-    for name, volts in recipes.items()
+    (name, recipes[name], error, round(error / truth["kV"], 3) + 0.0)
+    for name, error in errors.items()
 ]
 print(f"Half the window's width is {(not_rising - not_falling) / 2:.3f} V.", end=" ")
 print(f"The true kS is {truth['kS']:.3f} V.")
@@ -340,23 +332,16 @@ true_angles = [-30, -15, 0, 20, 40, 60, 85]
 measured = [(float(angle), *edges_at(angle)) for angle in true_angles]
 
 
-def let_go_at(degrees: int) -> Scene:
-    """The arm, let go at an angle under a voltage of your choice."""
-    held = Motion(
-        "arm",
-        gains=arm.gains,
-        type="arm",
-        voltage=Gain("volts"),
-        start=float(np.radians(degrees)),
+MOTIONS = {
+    f"{degrees}°".replace("-", "−"): Motion(
+        "arm", gains=arm.gains, type="arm", voltage=Gain("volts"), start=float(np.radians(degrees))
     )
-    return Scene(np.arange(0.0, 1.01, 0.02), (held,))
-
-
-ANGLES = {f"{degrees}°".replace("-", "−"): let_go_at(degrees) for degrees in (-30, 0, 30, 60, 85)}
+    for degrees in (-30, 0, 30, 60, 85)
+}
 animate_mechanism(
     "arm",
-    {(name,): scene for name, scene in ANGLES.items()},
-    choices=(Choice("angle", tuple(ANGLES), value="60°"),),
+    {(name,): Scene(np.arange(0.0, 1.01, 0.02), (held,)) for name, held in MOTIONS.items()},
+    choices=(Choice("angle", tuple(MOTIONS), value="60°"),),
     knobs=(Knob("volts", "voltage [V]", low=-0.5, high=2.5, step=0.01, value=0.2),),
     panels=(Panel("position", "angle [°]", low=-90.0, high=135.0, scale=180 / np.pi),),
     alt="The picture shows an arm at its angle. You choose a voltage and let go of the arm. At "
