@@ -129,7 +129,7 @@ def test_an_arm_of_phoenix_6_is_told_what_its_sensor_reads_when_level():
 @pytest.mark.parametrize(
     ("type_", "target", "changes", "said"),
     [
-        ("simple", "phoenix6", {}, "no radius"),
+        ("simple", "phoenix6", {}, "only with a radius"),
         ("elevator", "yagsl", {}, "an elevator for YAGSL"),
         ("simple", "talonsrx", {}, "unknown target 'talonsrx'"),
         ("simple", "revlib", {"gains": GAINS | {"kV": -2.5}}, "no code is printed for kV"),

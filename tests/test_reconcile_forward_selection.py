@@ -29,7 +29,8 @@ from sim.reconcile.story import TriedCandidate
 def weighed(effect, score, *, gap=0.95, why="", **values):
     """A candidate with its score, its gap ratio and its parameters."""
     structure = ModelStructure("simple") + effect
-    named = {f"{effect}.{name}": value for name, value in values.items()}
+    effects = {f"{effect}.{name}": value for name, value in values.items()}
+    named = {"kS": 0.2, "kV": 0.05, "kA": 0.005, **effects}
     point = replace(NOWHERE, structure=structure, values=named)
     tried = TriedCandidate(effect, score, gap, admitted=not why, why=why)
     return WeighedCandidate(Candidate(effect, point, 0.0), Gap(gap, gap), tried)
