@@ -56,8 +56,8 @@ class DamageDecision:
     Args:
         excluded: log name -> intervals that are excluded.
         reported: the surest interval of each fault, which is reported as a finding.
-        suspected: the same of faults that look like missing physics. They are reported if no effect
-            explains the log.
+        suspected: the same of faults that look like missing physics. They are reported if
+            something remains that no effect explains.
     """
 
     excluded: Mapping[str, tuple[ExcludedInterval, ...]] = field(default_factory=dict)
