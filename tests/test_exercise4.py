@@ -179,6 +179,22 @@ def graded(tmp_path, *changes):
 SENT = "m_left.setVoltage(voltage.in(Volts));"
 HELPER = "  private double getMeters("
 PRINTS = "  @Override\n  public void periodic() {\n    System.out.println(m_left);\n  }\n"
+RARE = """
+  private enum Mode { IDLE { double volts() { return 0; } }; abstract double volts(); }
+  private final java.util.Map<String, Double> m_counts = new java.util.HashMap<>();
+
+  @Override
+  public void periodic() {
+    m_counts.merge("loops", Mode.IDLE.volts(), Double::sum);
+    java.util.List<Integer> ids = new java.util.ArrayList<>(java.util.List.of(3, 1, 2));
+    ids.sort(java.util.Comparator.reverseOrder());
+    double[] speeds = {1.0, 2.0};
+    System.arraycopy(speeds, 0, speeds, 1, 1);
+    if (speeds[1] > m_counts.get("loops") + ids.get(0)) {
+      System.out.println(ids);
+    }
+  }
+"""
 FIELD = "private final SysIdRoutine m_routine"
 END = "    return motor.getVelocity().getValueAsDouble() * METERS_PER_ROTATION;\n  }\n"
 RIGHT_TOO = {
@@ -188,6 +204,7 @@ RIGHT_TOO = {
     ),
     "a condition without the voltage": (SENT, f"if (m_left.isConnected()) {{ {SENT} }}"),
     "a periodic() that moves nothing": (HELPER, f"{PRINTS}\n{HELPER}"),
+    "a periodic() that computes what nobody knows": (HELPER, f"{RARE}\n{HELPER}"),
     "a method that would lose the routine, and that nobody calls": (
         END,
         f"{END}  public void close() {{ m_other = null; }}\n  private Object m_other;\n",

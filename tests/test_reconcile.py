@@ -145,7 +145,7 @@ def test_what_the_validation_does_not_confirm_is_not_named():
 
 def test_what_inspect_saw_is_told_only_where_no_effect_explains_the_log():
     slip = DamagedInterval(2, 0.0, 0.3, "wheel-slip", 0.9, "The wheels spin.", "Halve the step.")
-    seen = {"log": (slip, replace(slip, fault="brownout", confidence=0.5))}
+    seen = {"log": (slip, replace(slip, fault="brownout", confidence=0.4))}
     sessions = logs("elevator", "constant-load", simple=True)
     clean = session(bench("elevator", simple=True), "validation")  # without the weight
 

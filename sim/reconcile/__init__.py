@@ -31,7 +31,7 @@ from sim.reconcile.remarks import list_remarks, select_reported_rounds
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound
-from sim.reconcile.story import UNEXPLAINED, Story
+from sim.reconcile.story import NOTHING_MISSING, Story
 from sim.reconcile.thresholds import SEARCH_BUDGET
 from sim.reconcile.verdict import reach_verdict
 
@@ -138,7 +138,7 @@ def _make_story(
         refuted=refuted,
         unit=unit,
     )
-    if verdict == UNEXPLAINED:
+    if remainder and verdict != NOTHING_MISSING:
         findings += make_suspicions(recordings.damage.suspected, findings, chapters[0].gap)
     return Story(
         verdict=verdict, findings=findings, remainder=remainder, remains=remains,

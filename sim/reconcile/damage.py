@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from sim.estimation.run_records import ExcludedInterval
-from sim.reconcile.thresholds import DAMAGED, SURE_FAULT
+from sim.reconcile.thresholds import DAMAGED, LEAST_PROBABILITY
 
 STOP_FAULTS = ("hard-stop",)
 """Faults after which the rest of a run is useless: the mechanism leans on a stop."""
@@ -56,8 +56,8 @@ class DamageDecision:
     Args:
         excluded: log name -> intervals that are excluded.
         reported: the surest interval of each fault, which is reported as a finding.
-        suspected: the same of faults that look like missing physics. They are reported if no effect
-            explains the log.
+        suspected: the same of faults that look like missing physics. They are reported if
+            something remains that no effect explains.
     """
 
     excluded: Mapping[str, tuple[ExcludedInterval, ...]] = field(default_factory=dict)
@@ -70,7 +70,7 @@ def judge_damage(damages: Mapping[str, Sequence[DamagedInterval]]) -> DamageDeci
 
     An interval is excluded if the user left it out, if it is at a hard stop, or if its fault is one
     of ``RECORD_FAULTS`` with a confidence of at least ``DAMAGED``. Any other fault of a run is
-    suspected if its confidence is at least ``SURE_FAULT``.
+    suspected if its confidence is at least ``LEAST_PROBABILITY``.
     """
     excluded: dict[str, list[ExcludedInterval]] = {}
     found: dict[str, DamagedInterval] = {}
@@ -89,7 +89,9 @@ def judge_damage(damages: Mapping[str, Sequence[DamagedInterval]]) -> DamageDeci
             if name == "held_out" or left_out:
                 continue
             told = found if damaged or stopped else suspected
-            sure = damaged or stopped or (one.run is not None and one.confidence >= SURE_FAULT)
+            sure = (
+                damaged or stopped or (one.run is not None and one.confidence >= LEAST_PROBABILITY)
+            )
             best = told.get(one.fault)
             if sure and (best is None or one.confidence > best.confidence):
                 told[one.fault] = one

@@ -28,7 +28,8 @@ def write_headline(story: Story) -> str:
 
 def _write_verdict(story: Story) -> str:
     found = [one for one in story.findings if one.kind == FAULT]
-    suspected = [one for one in found if one.size == MINOR and story.verdict == UNEXPLAINED]
+    remains = story.remainder and story.verdict != NOTHING_MISSING
+    suspected = [one for one in found if one.size == MINOR and remains]
     faults = [one for one in found if one not in suspected]
     majors = [one for one in story.findings if one.kind != FAULT and one.size == MAJOR]
     damaged = _describe_damage(faults, also="also " if majors else "")
@@ -37,9 +38,6 @@ def _write_verdict(story: Story) -> str:
         gaps = _gaps(story)
         cause = "no known effect explains" if story.complete else "the search has not found so far"
         said = [f"The model is missing {known}something that {cause}.", gaps]
-        if suspected:
-            names = _join([one.effect for one in suspected])
-            said.append(f"It may be what sysid inspect sees in the log: {names}.")
     elif majors:
         missing = _join([_name_with_rivals(one) for one in majors])
         doubt = "; these logs cannot tell which" if story.verdict == AMBIGUOUS else ""
@@ -58,6 +56,9 @@ def _write_verdict(story: Story) -> str:
         said.append(damaged)
     if majors and story.remainder and story.complete and story.verdict != UNEXPLAINED:
         said.append("Something else remains that no known effect explains.")
+    if suspected:
+        names = _join([one.effect for one in suspected])
+        said.append(f"It may be what sysid inspect sees in the log: {names}.")
     return " ".join(said)
 
 

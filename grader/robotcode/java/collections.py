@@ -40,14 +40,15 @@ def counted(items: Iterable[Any]) -> Iterator[Any]:
 
 
 def sort(items: Iterable[Any], comparator: Any = None) -> list[Any]:
-    """Items in the order of a comparator; in their own where that is null.
-
-    Raises:
-        CannotRunError: nobody knows the comparator.
-    """
+    """Items in the order of a comparator, unknown with one; in their own where that is null."""
     if type(comparator) is Unknown:
-        refuse("sort() with such a comparator")
+        return shuffle(items)
     return sorted(counted(items), key=cmp_to_key(comparator or compare))
+
+
+def shuffle(items: Iterable[Any]) -> list[Any]:
+    """Items in an order that nobody knows."""
+    return [Unknown("an item in an unknown order") for _ in items]
 
 
 def make_stream(items: Any) -> Any:
@@ -212,9 +213,11 @@ class Map(JavaClass, dict[Any, Any], package=_UTIL, others="hashCode clone toStr
     computeIfAbsent = lambda self, key, make: get_or(
         self.get(key), lambda: [made := make(key), self.put(key, made)][0]
     )
-    compute = computeIfPresent = merge = replace = replaceAll = lambda self, *_args: refuse(
-        "such a change of a map"
-    )
+    compute = computeIfPresent = merge = replace = lambda self, key, *_how: [
+        self.put(key, Unknown("a changed value of a map")),
+        self[key],
+    ][1]
+    replaceAll = lambda self, _change: self.update(dict.fromkeys(self, Unknown("a changed value")))
     forEach = lambda self, action: [action(key, self[key]) for key in list(self)] and None
     keySet = lambda self: Set(list(self))
     values = lambda self: ArrayList([self[key] for key in self])
@@ -330,7 +333,9 @@ make_statics(
         "addAll": lambda items, *added: items.addAll(spread(added)),
         "emptyList": lambda: ArrayList(),
         "unmodifiableList": lambda items: items,
-        **dict.fromkeys(("shuffle", "swap", "rotate"), lambda *_args: refuse("such a shuffle")),
+        **dict.fromkeys(
+            ("shuffle", "swap", "rotate"), lambda items, *_how: _assign(items, shuffle(items))
+        ),
     },
     partial=True,
     sort=staticmethod(lambda items, order=None: items.sort(order)),

@@ -22,8 +22,8 @@ from grader.robotcode.java.scope import (
     text,
 )
 from grader.robotcode.java.statement_compiler import StatementCompiler, falls_through
-from grader.robotcode.java.steps import refuse
 from grader.robotcode.java.values import PRIMITIVES
+from grader.robotcode.library.base import Unknown
 
 
 def declare_members(owner: JavaClass) -> None:
@@ -348,7 +348,8 @@ def _enum_constant(owner: JavaClass, name: str, node: Node, number: int) -> Call
 
     def make(_env: Env) -> None:
         if own_body:
-            refuse(f"{name}, a constant with a body of its own")
+            owner.statics[f".{name}"] = Unknown(f"{name}, a constant with a body of its own")
+            return
         made = owner.cls.__new__(owner.cls)
         made._name, made._ordinal = name, number
         owner.prepare(made, None)
