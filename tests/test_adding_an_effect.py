@@ -56,10 +56,10 @@ EFFECT = Effect(
 WRONG = {
     "argument": ("def force(v, churn)", "def force(speed, churn)", "force asks for 'speed'"),
     "look-alike": ('apart={"drag"', 'apart={"friction"', "told apart from 'friction', which is no"),
-    "sign": ("return churn *", "return -churn *", "test_a_term_never_pushes_harder_than"),
+    "sign": ("return churn *", "return -churn *", "test_an_effect_never_accelerates"),
 }  # fmt: skip
 
-CHEAP = "churn and (never_pushes or contract_asks)"  # what needs no compiled engine
+CHEAP = "churn and (never_accelerates or contract_asks)"  # what needs no compiled engine
 TESTS = ("--ramp", "1.5", "--step", "4", "--timeout", "2.5", "--seed", "3")
 
 
