@@ -95,6 +95,10 @@ class opened:  # noqa: N801 - used as a function
         self.page.asked, self.page.complaints = [], []
         self.page.on("request", lambda one: self.page.asked.append(one.url))
         self.page.on("pageerror", lambda one: self.page.complaints.append(str(one)))
+        self.page.on(
+            "console",
+            lambda one: self.page.complaints.append(one.text) if one.type == "error" else None,
+        )
         self.page.goto(address)
 
     def __enter__(self):

@@ -147,6 +147,13 @@ def test_the_report_is_that_of_the_fit(tmp_path, drive):
     assert b'"name": "drive one.wpilog"' in content
 
 
+def test_a_question_is_an_answer_of_which_no_console_complains(tmp_path, drive):
+    with served(tmp_path, drive) as server:
+        status, said = ask_json(server, "logs/1/code?language=phoenix6")
+
+    assert (status, said["refusal"]["asks"]) == (200, "radius")
+
+
 def test_ten_broken_logs_do_not_end_it(tmp_path):
     (tmp_path / "session").mkdir()
     said = {}

@@ -37,6 +37,7 @@ from sim.plot.story import (
 )
 from sim.reconcile.story_text import (
     format_estimate,
+    write_gain_caution,
     write_headline,
 )
 from sim.report.story_terminal import show_story
@@ -106,6 +107,18 @@ def test_the_page_gets_every_part_of_the_story():
     assert describe_story(STORIES["ambiguous"])["next"] == [unsure.separating_test]
     assert REMAINS["remains"] in describe_story(STORIES["unexplained"])["remarks"]
     assert "may be off by more" in describe_story(STORIES["unexplained"])["caution"]
+
+
+def test_gains_that_move_far_while_the_gap_hardly_shrinks_are_doubted():
+    kv = EXPLAINED.gains_without["kV"]
+    far = replace(kv, value=kv.value + 10.0 * kv.error)
+    moved = replace(EXPLAINED, gains=EXPLAINED.gains | {"kV": far})
+
+    assert write_gain_caution(moved) == ""  # the gap shrinks with them
+    wide = replace(moved, gap_after=0.9 * moved.gap_before)
+    assert write_gain_caution(wide).startswith("The effects change kV by far more")
+    still = replace(wide, gains=EXPLAINED.gains_without)
+    assert write_gain_caution(still) == ""
 
 
 @pytest.mark.parametrize("name", ["nothing missing", "explained", "unexplained"])

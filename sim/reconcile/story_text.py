@@ -13,8 +13,9 @@ from sim.reconcile.story import (
     ParameterEstimate,
     Story,
 )
-from sim.reconcile.thresholds import PROBABLE, VISIBLE_FLOORS
+from sim.reconcile.thresholds import MAJOR_UNEXPLAINED, PROBABLE, VISIBLE_FLOORS
 
+FAR = 3.0  # [standard errors] by which two estimates of one gain hardly ever differ
 LEAST_ERROR = 1e-4  # [1] relative standard error below which only this limit is written
 FAULT, MAJOR, MINOR = "fault", "major", "minor"
 STOPPED = "The search was stopped before it had tried every effect."
@@ -145,10 +146,22 @@ def describe_gains(story: Story) -> str:
 
 
 def write_gain_caution(story: Story) -> str:
-    """A sentence about how far the gains can be trusted; empty if the model is complete."""
-    if story.verdict != UNEXPLAINED:
+    """A sentence about how far the gains can be trusted; empty if nothing speaks against them."""
+    if story.verdict == UNEXPLAINED:
+        return "The model lacks something, so these gains may be off by more than their errors."
+    moved = [name for name, one in story.gains.items() if _differ(one, story.gains_without[name])]
+    if not moved or story.gap_after < MAJOR_UNEXPLAINED * story.gap_before:
         return ""
-    return "The model lacks something, so these gains may be off by more than their errors."
+    return (
+        f"The effects change {_join(moved)} by far more than their errors allow, and narrow the gap only a "
+        "little. Before you use these gains, record another log, and compare."
+    )
+
+
+def _differ(one: ParameterEstimate, other: ParameterEstimate) -> bool:
+    """Whether two estimates differ by more than their errors allow."""
+    spread = math.hypot(one.error or math.inf, other.error or math.inf)
+    return abs(one.value - other.value) > FAR * spread
 
 
 def list_inspections(one: Finding) -> tuple[tuple[str, str], ...]:

@@ -39,6 +39,7 @@ HEADERS = {
 RAW = ("summary", "entries", "samples")  # requests allowed with --raw, which shows the data alone
 ROLES = ("validation", "held_out")  # of other logs in a search
 PIECE = 2**20  # [bytes] read at a time
+PROBLEM = "application/problem+json"  # content type of a refusal (RFC 9457)
 TIMEOUT = 30.0  # [s] to wait for the rest of a request
 
 
@@ -105,13 +106,15 @@ class PageRequest(BaseHTTPRequestHandler):
         except Refusal as refusal:
             folder = str(self.server.session.folder)
             error_data = page_data.describe_refusal(refusal, folder)
-            self._send_json({"refusal": error_data}, HTTPStatus.UNPROCESSABLE_ENTITY)
+            # what asks for something is an answer; a browser's console calls the rest errors
+            asks = HTTPStatus.OK if refusal.action else HTTPStatus.UNPROCESSABLE_ENTITY
+            self._send_refusal(error_data, asks)
         except (ConnectionError, TimeoutError):
             self.close_connection = True
         except Exception as error:  # noqa: BLE001 - one broken log must not end the others
             what = f"our mistake, not yours ({type(error).__name__}: {error})"
             error_data = {"what": what, "where": "", "advice": "Try sysid fit, which says more."}
-            self._send_json({"refusal": error_data}, HTTPStatus.INTERNAL_SERVER_ERROR)
+            self._send_refusal(error_data, HTTPStatus.INTERNAL_SERVER_ERROR)
 
     do_POST = do_DELETE = do_GET  # noqa: N815 - the names in http.server
 
@@ -236,9 +239,11 @@ class PageRequest(BaseHTTPRequestHandler):
         else:
             self._refuse(HTTPStatus.NOT_FOUND, "there is nothing here")
 
-    def _send_json(self, data: object, status: HTTPStatus = HTTPStatus.OK) -> None:
-        content = json.dumps(data, allow_nan=False).encode()
-        self._send(content, "application/json", status=status)
+    def _send_json(self, data: object) -> None:
+        self._send(json.dumps(data, allow_nan=False).encode(), "application/json")
+
+    def _send_refusal(self, data: object, status: HTTPStatus) -> None:
+        self._send(json.dumps({"refusal": data}).encode(), PROBLEM, status=status)
 
     def _refuse(self, status: HTTPStatus, what: str) -> None:
         self.close_connection = True  # the request's body, if any, is not read
@@ -247,7 +252,7 @@ class PageRequest(BaseHTTPRequestHandler):
             "where": "",
             "advice": "Open the address that sysid open printed.",
         }
-        self._send_json({"refusal": error_data}, status)
+        self._send_refusal(error_data, status)
 
     def _send(
         self, content: bytes, kind: str, *, status: HTTPStatus = HTTPStatus.OK, page: bool = False

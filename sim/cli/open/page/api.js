@@ -37,7 +37,7 @@ async function fetchOrRefuse(address, options) {
   if (saved) return readSaved(address);
   const ended = { what: "the program that serves this page has ended", advice: "Start it again: sysid open, or sysid watch" };
   const answer = await fetch(address, options).catch(() => { throw new Refused(ended); });
-  if (!answer.ok) throw new Refused((await answer.json()).refusal);
+  if (answer.headers.get("content-type") === "application/problem+json") throw new Refused((await answer.json()).refusal);
   return answer;
 }
 
