@@ -25,7 +25,7 @@ export function showFaults() {
   place.replaceChildren(...rows.length ? rows : [make("li", "well", none)]);
   const left = faults.filter((one) => !isLeftOut(log, one));
   const lines = left.slice(0, MOST_LINES).map((one) => {
-    const words = `${one.fault.replaceAll("-", " ")} (${one.sureness})${one.test ? `: ${testOf(log, one)}` : ""}`;
+    const words = `${one.fault.replaceAll("-", " ")} (${one.sureness})${one.test ? `: ${nameOfTest(log, one)}` : ""}`;
     return make("li", "grave", button("link", words, () => showFault(one)));
   });
   if (left.length > MOST_LINES) lines.push(make("li", "busy", `${left.length - MOST_LINES} more below`));
@@ -40,7 +40,7 @@ function showFault(one) {
   at(placed ? "plot" : "faults").scrollIntoView({ block: "center", behavior: "smooth" });
 }
 
-const testOf = (log, { run, test }) => `${log.runs[run]?.part ?? ""} ${test}`.trim();
+const nameOfTest = (log, { run, test }) => `${log.runs[run]?.part ?? ""} ${test}`.trim();
 const partOf = (one) => ({ test: one.test, start: one.start_s, end: one.end_s });
 
 function isLeftOut(log, one) {
@@ -48,7 +48,7 @@ function isLeftOut(log, one) {
 }
 
 function faultCard(log, one) {
-  const where = one.run === null ? one.test : `${testOf(log, one)}, ${one.start_s.toFixed(2)} to ${one.end_s.toFixed(2)} s`;
+  const where = one.run === null ? one.test : `${nameOfTest(log, one)}, ${one.start_s.toFixed(2)} to ${one.end_s.toFixed(2)} s`;
   return make("li", "fault",
     make("h3", "", one.fault.replaceAll("-", " "), make("span", "badge", one.sureness)),
     one.test && make("p", "where", where),
