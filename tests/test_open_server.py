@@ -78,7 +78,8 @@ def test_server_answers_nothing_without_the_secret_word_of_its_address(server, w
     ["../server.py", "%2e%2e/server.py", "server.py", "logs/1/summary", "logs/x/fit", "a/b/c/d"],
 )
 def test_nothing_but_the_page_is_served(server, path):
-    assert ask(server, path)[0] in {404, 422}
+    status, content = ask(server, path)
+    assert status == 404 or b'"refusal"' in content
 
 
 def test_a_dropped_log_is_read_inspected_and_fitted(server, drive):
@@ -163,13 +164,13 @@ def test_ten_broken_logs_do_not_end_it(tmp_path):
             assert status == 200
             said[name] = ask_json(server, f"logs/{opened['id']}/summary")
             for what in ("faults", "fit", "directions", "code", "report.html"):
-                assert ask(server, f"logs/{opened['id']}/{what}")[0] in {200, 422}
+                assert ask(server, f"logs/{opened['id']}/{what}")[0] == 200
         assert ask(server, "")[0] == 200
 
-    assert {status for status, _ in said.values()} <= {200, 422}
+    assert {status for status, _ in said.values()} == {200}
     assert said["empty.wpilog"][1]["refusal"]["where"] == "empty.wpilog"
-    for status, answer in said.values():
-        if status == 422:
+    for _, answer in said.values():
+        if "refusal" in answer:
             assert answer["refusal"]["advice"]
             assert str(tmp_path) not in json.dumps(answer)
 

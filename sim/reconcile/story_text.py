@@ -153,8 +153,8 @@ def write_gain_caution(story: Story) -> str:
     if not moved or story.gap_after < MAJOR_UNEXPLAINED * story.gap_before:
         return ""
     return (
-        f"The effects change {_join(moved)} by far more than their errors allow, and narrow the gap "
-        "only a little. Before you use these gains, record another log, and compare."
+        f"The effects change {_join(moved)} by far more than their errors allow, and narrow the "
+        "gap only a little. Before you use these gains, record another log, and compare."
     )
 
 

@@ -106,9 +106,8 @@ class PageRequest(BaseHTTPRequestHandler):
         except Refusal as refusal:
             folder = str(self.server.session.folder)
             error_data = page_data.describe_refusal(refusal, folder)
-            # what asks for something is an answer; a browser's console calls the rest errors
-            asks = HTTPStatus.OK if refusal.action else HTTPStatus.UNPROCESSABLE_ENTITY
-            self._send_refusal(error_data, asks)
+            # an answer like others; a browser's console would call another status an error
+            self._send_refusal(error_data, HTTPStatus.OK)
         except (ConnectionError, TimeoutError):
             self.close_connection = True
         except Exception as error:  # noqa: BLE001 - one broken log must not end the others
