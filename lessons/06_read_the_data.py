@@ -473,7 +473,7 @@ def kept(log: sim.Log, *, end: float, threshold: float) -> sim.Log:
     )
 
 
-def trimmed(median: str, threshold: float, end: float) -> Chart:
+def chart_trimmed_fit(median: str, threshold: float, end: float) -> Chart:
     """The gains of a choice, each over its true value."""
     part = kept(messy, end=end, threshold=threshold)
     found = fit(part, method="sysid", median=int(median)).gains
@@ -483,7 +483,7 @@ def trimmed(median: str, threshold: float, end: float) -> Chart:
 
 
 animate_charts(
-    trimmed,
+    chart_trimmed_fit,
     choices=(Choice("median", ("1", "5", "15")),),
     knobs=(
         Knob("from", "from [m/s]", low=0.0, high=1.0, step=0.2, value=0.0),

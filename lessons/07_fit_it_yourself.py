@@ -767,26 +767,26 @@ lesson_kv, lesson_ka = 2.68, 0.34
 QS = np.round(np.arange(0.5, 4.01, 0.25), 2)
 
 
-def suggested(q: float, r: float, delay: float) -> float:
+def suggest_kp(q: float, r: float, delay: float) -> float:
     """The kP that SysId suggests, with the source lesson's gains."""
     return design_velocity_loop(
         kv=lesson_kv, ka=lesson_ka, velocity_error=q, volts=r, delay=delay / 1000
     ).kp
 
 
-def kp_chart(q: float, r: float, delay: float) -> Chart:
+def chart_kp(q: float, r: float, delay: float) -> Chart:
     """The suggested kP for each allowed error."""
-    ends, kp = QS[[0, -1]], suggested(q, r, delay)
+    ends, kp = QS[[0, -1]], suggest_kp(q, r, delay)
     curves = (
         Curve("kP = 0.62", ends, [0.62, 0.62], "dashed"),
-        Curve("kP of each q", QS, [suggested(float(one), r, delay) for one in QS], "line", 0),
+        Curve("kP of each q", QS, [suggest_kp(float(one), r, delay) for one in QS], "line", 0),
         Curve("your q", [q], [kp], "dots", 1, [f"{kp:.2f}"]),
     )
     return Chart("q, the allowed velocity error [m/s]", "kP [V·s/m]", curves)
 
 
 animate_charts(
-    kp_chart,
+    chart_kp,
     knobs=(
         Knob("q", "q [m/s]", low=0.5, high=4.0, step=0.1, value=1.5),
         Knob("r", "r [V]", low=1.0, high=11.0, step=2.0, value=7.0),

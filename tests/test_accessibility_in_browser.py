@@ -64,12 +64,18 @@ def write_files(folder):
     return sorted(folder.rglob("*.html"))
 
 
+def is_error(message):
+    """Whether a console shows an error that is not of the network: formulas come from a server."""
+    return message.type == "error" and "net::ERR_" not in message.text
+
+
 @pytest.mark.parametrize("theme", ["light", "dark"])
 def test_every_saved_page_is_accessible(browser, tmp_path, theme):
     wrong, complaints = {}, []
     for file in write_files(tmp_path):
         page = browser.new_page(viewport=DESKTOP, color_scheme=theme)
         page.on("pageerror", lambda one: complaints.append(str(one)))
+        page.on("console", lambda one: complaints.append(one.text) if is_error(one) else None)
         page.goto(file.as_uri())
         if file.name in {"s.html", "story.html"}:
             page.locator("#gain-kV").wait_for()

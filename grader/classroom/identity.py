@@ -118,7 +118,7 @@ def _assign_numbers(
 
 
 def _grade_as_started(one: Submission, partners: Sequence[str]) -> Submission:
-    """The submission with the numbers of the name under which the course was started."""
+    """The submission, graded with the numbers of the name its student began the course with."""
     if make_folder_name(one.student) in one.data_folders:
         return one
     nobody = NOBODY if make_folder_name(NOBODY) in one.data_folders else one.student

@@ -84,14 +84,14 @@ class ExpressionCompiler(StaticTypes):
     def refuse(self, message: str, node: Node) -> Code:
         """Write an error down; the value is unknown, so that the rest can be looked at, too."""
         self.program.error(message, self.at(node))
-        return self.unknown(node)
+        return self.make_unknown(node)
 
     def compile(self, node: Node) -> Code:
         """Compile an expression."""
         method = getattr(self, f"_{node.type}", None)
-        return self.unknown(node) if method is None else method(node)
+        return self.make_unknown(node) if method is None else method(node)
 
-    def unknown(self, node: Node) -> Code:
+    def make_unknown(self, node: Node) -> Code:
         """Compile what is not run here: its value is unknown."""
         unknown = Unknown(text(node)[:LONGEST_TEXT])
         return Code(lambda _env: unknown)
@@ -123,7 +123,7 @@ class ExpressionCompiler(StaticTypes):
     def _string_literal(self, node: Node) -> Code:
         found = read_string(text(node))
         kind = "char" if node.type == "character_literal" else "String"
-        return self.unknown(node) if found is None else _constant(found, kind)
+        return self.make_unknown(node) if found is None else _constant(found, kind)
 
     _character_literal = _string_literal
 
@@ -406,7 +406,7 @@ class ExpressionCompiler(StaticTypes):
         exact, at = OPERATORS.get(sign), self.at(node)
         characters = "char" in kinds and "String" not in kinds and sign not in {"==", "!="}
         if exact is None or characters:
-            return self.unknown(node)
+            return self.make_unknown(node)
 
         def run(env: Env) -> Any:
             one, other = a(env), b(env)
@@ -435,7 +435,7 @@ class ExpressionCompiler(StaticTypes):
             return Code(negate, "boolean")
         if sign == "-":
             return self.operate("*", one, _constant(-1, "int"), node)
-        return one if sign == "+" else self.unknown(node)
+        return one if sign == "+" else self.make_unknown(node)
 
     def _ternary_expression(self, node: Node) -> Code:
         condition = self.condition(node.child_by_field_name("condition"))
@@ -839,7 +839,7 @@ class ExpressionCompiler(StaticTypes):
         kind = kind_of(node.child_by_field_name("type"))
         args = self.arguments(node.child_by_field_name("arguments"))
         if node.children[0].type != "new":  # of an inner class, of another object
-            return self.unknown(node)
+            return self.make_unknown(node)
         if child(node, "class_body") is not None:
             cls = JavaClass("", node, self.owner.unit, outer=self.owner, frame=self.frame)
             _ = cls.cls
@@ -919,7 +919,7 @@ class ExpressionCompiler(StaticTypes):
         first, last = node.children[0], node.children[-1]
         name, at = text(last), self.at(node)
         if first.type == "super":
-            return self.unknown(node)
+            return self.make_unknown(node)
         if first.type == "array_type":
             kind = kind_of(first)
             make = lambda count: type_names.make_array(kind, [count])
