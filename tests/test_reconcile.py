@@ -236,7 +236,9 @@ def test_a_search_that_is_cut_short_claims_nothing_and_says_so(stop):
 
     assert (story.verdict, story.remainder, story.findings) == ("unexplained", True, ())
     assert not story.complete
-    assert write_headline(story).startswith("The search was stopped before it had tried every")
+    assert write_headline(story).startswith(
+        "The search was stopped, or reached its limit, before it had tried every"
+    )
     assert "no known effect" not in write_headline(story)
     assert "--effort" in story.remains
 

@@ -15,6 +15,7 @@ from sim.feedback import (
     design_position_loop,
     design_velocity_loop,
 )
+from sim.feedback.regulator import POSITION_ERROR, VOLTS
 from sim.physics.model import Part
 
 
@@ -94,16 +95,47 @@ class Fit:
         """The fit converted to the unit of position of the log."""
         return self.in_units(self.log_units)
 
-    def feedback(self, preset: Preset = PRESETS["default"]) -> dict[str, Feedback]:
+    @classmethod
+    def from_gains(
+        cls,
+        gains: Mapping[str, float],
+        *,
+        type: str,  # noqa: A002 - the field's own word
+        units: str,
+        position_delay: float = 0.0,
+        velocity_delay: float = 0.0,
+    ) -> "Fit":
+        """Gains that no log gave, such as those of theory; what only a log tells is nan."""
+        return cls(
+            type, "none", units, units, gains, errors={}, samples_used={},
+            acceleration_r2=math.nan, acceleration_rmse=math.nan, simulated_velocity_r2=math.nan,
+            simulated_velocity_rmse=math.nan, velocity_threshold=math.nan, step_duration=math.nan,
+            position_delay=position_delay, velocity_delay=velocity_delay,
+        )  # fmt: skip
+
+    def feedback(
+        self,
+        preset: Preset = PRESETS["default"],
+        *,
+        position_error: float = POSITION_ERROR,
+        velocity_error: float | None = None,
+        volts: float = VOLTS,
+    ) -> dict[str, Feedback]:
         """Loop -> suggested feedback gains; empty if kV or kA has the wrong sign.
 
         With the default preset the measurement's delay is that of the log, as in SysId. Other
         presets have a delay of their own.
+
+        Args:
+            preset: the motor controller.
+            position_error: [unit] the error that ``volts`` correct.
+            velocity_error: [unit/s] the same; None takes SysId's default.
+            volts: [V] for these errors.
         """
         kv, ka = self.gains["kV"], self.gains["kA"]
         if not (kv >= 0.0 and ka > 0.0):
             return {}
-        allowed = compute_allowed_velocity_error(ks=self.gains["kS"], kv=kv)
+        allowed = velocity_error or compute_allowed_velocity_error(ks=self.gains["kS"], kv=kv)
         if not allowed > 0.0:
             return {}
         of_log = preset is PRESETS["default"]
@@ -113,13 +145,16 @@ class Fit:
                 ka=ka,
                 preset=preset,
                 velocity_error=allowed,
+                volts=volts,
                 delay=self.velocity_delay if of_log else None,
             ),
             "position": design_position_loop(
                 kv=kv,
                 ka=ka,
                 preset=preset,
+                position_error=position_error,
                 velocity_error=allowed,
+                volts=volts,
                 delay=self.position_delay if of_log else None,
             ),
         }

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 
+from sim.core.doubt import Doubt
 from sim.core.units import find_unit
 from sim.physics.effects import EFFECTS
 from sim.reconcile.story import (
@@ -18,7 +19,7 @@ from sim.reconcile.thresholds import MAJOR_UNEXPLAINED, PROBABLE, VISIBLE_FLOORS
 FAR = 3.0  # [standard errors] by which two estimates of one gain hardly ever differ
 LEAST_ERROR = 1e-4  # [1] relative standard error below which only this limit is written
 FAULT, MAJOR, MINOR = "fault", "major", "minor"
-STOPPED = "The search was stopped before it had tried every effect."
+STOPPED = "The search was stopped, or reached its limit, before it had tried every effect."
 
 
 def write_headline(story: Story) -> str:
@@ -59,7 +60,7 @@ def _write_verdict(story: Story) -> str:
         said.append("Something else remains that no known effect explains.")
     if suspected:
         names = _join([one.effect for one in suspected])
-        said.append(f"It may be what sysid inspect sees in the log: {names}.")
+        said.append(f"It may be what an inspection of the log finds: {names}.")
     return " ".join(said)
 
 
@@ -145,17 +146,24 @@ def describe_gains(story: Story) -> str:
     return f"Gains with {_join(added)}" if added else "Gains of the model without effects"
 
 
-def write_gain_caution(story: Story) -> str:
-    """A sentence about how far the gains can be trusted; empty if nothing speaks against them."""
+def list_gain_doubts(story: Story) -> tuple[Doubt, ...]:
+    """Doubts about the gains with the effects; none if nothing speaks against them."""
     if story.verdict == UNEXPLAINED:
-        return "The model lacks something, so these gains may be off by more than their errors."
+        text = "The model lacks something, so these gains may be off by more than their errors."
+        return (Doubt("model-lacks", text, gains=tuple(story.gains)),)
     moved = [name for name, one in story.gains.items() if _differ(one, story.gains_without[name])]
-    if not moved or story.gap_after < MAJOR_UNEXPLAINED * story.gap_before:
-        return ""
-    return (
+    if not moved or narrows_gap(story):
+        return ()
+    text = (
         f"The effects change {_join(moved)} by far more than their errors allow, and narrow the "
         "gap only a little. Before you use these gains, record another log, and compare."
     )
+    return (Doubt("gains-move", text, gains=tuple(moved)),)
+
+
+def narrows_gap(story: Story) -> bool:
+    """Whether the effects narrow the gap so much that their gains are taken unasked."""
+    return story.gap_after < MAJOR_UNEXPLAINED * story.gap_before
 
 
 def _differ(one: ParameterEstimate, other: ParameterEstimate) -> bool:

@@ -19,6 +19,7 @@ wpimath.controller. Neither was tested, because 2027 is not released.
 
 import math
 import re
+import textwrap
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import NamedTuple
@@ -33,6 +34,7 @@ from sim.report.page_file import load_templates
 
 MOST_DIGITS = 5  # significant digits: errors of the model are larger than the next digit
 LEAST_DIGITS = 3  # significant digits: a kA rounded to zero would be another model
+LINE = 92  # [characters] of a comment
 LEAST_ERROR = 1e-3  # [1] relative error; no gain is really known better than this
 
 ORDER = {  # order of the constructor's arguments
@@ -191,7 +193,7 @@ def write_robot_code(
     text = template.render(
         heading=f"Measured gains of {'an' if found.type[0] in 'ae' else 'a'} {found.type} "
         f"mechanism, for {chosen.name.format(season=season)}; ± is one standard error.",
-        warnings=len(found.doubts),
+        warnings=list(_list_warnings(found)),
         class_name=make_class_name(name or found.type),
         type=found.type,
         gains=ORDER[found.type],
@@ -212,10 +214,19 @@ def write_robot_code(
     return f"{text}\n"
 
 
+def _list_warnings(found: Fit) -> Iterator[str]:
+    """The lines of a list with the first sentence of each doubt."""
+    for doubt in found.doubts:
+        first = re.split(r"(?<=[.!?])\s+(?=[A-Z`])", doubt.message, maxsplit=1)[0]
+        yield from textwrap.wrap(
+            first, LINE, initial_indent="- ", subsequent_indent="  ", break_long_words=False
+        )
+
+
 def _list_gains(found: Fit, converted: Conversion) -> Iterator[Constant]:
     """The conversion, if one is needed, and the gains with their units and standard errors."""
     if converted.times:
-        yield Constant(converted.name, repr(converted.factor), f"[{converted.unit}]")
+        yield Constant(converted.name, f"{converted.factor:.6g}", f"[{converted.unit}]")
     units = {"kV": f"V·s/{converted.per}", "kA": f"V·s²/{converted.per}"}
     for gain in ORDER[found.type]:
         value, error = found.gains[gain], found.errors.get(gain, math.nan)

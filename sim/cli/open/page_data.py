@@ -12,26 +12,30 @@ from typing import Any
 import numpy as np
 
 from sim.cli.entries import describe_entry
-from sim.cli.fit.plausibility import compare_directions_alone
 from sim.cli.inspect import name_confidence
 from sim.cli.open.session import OpenLog, Reading, Session
 from sim.core.doubt import Doubt
-from sim.core.errors import BadRequest, Refusal
-from sim.core.leave_out import LeftOutPart, leave_out
+from sim.core.errors import BadRequest, Refusal, refuse_unknown
 from sim.core.log import Array, Log
 from sim.core.units import find_unit
 from sim.estimation.measurements import MIN_SAMPLES
+from sim.feedback import PRESETS
 from sim.fit import Fit
+from sim.fit.feedback_trial import try_feedback_gains, warn_of_bad_suggestions
+from sim.fit.fit_doubts import MISFIT
+from sim.fit.physics import Parts
+from sim.fit.physics.parts import check_radius_unit
 from sim.fit.replay import replay_fit
 from sim.inspect.detect_faults import Inspection
-from sim.io.entries.entry import NUMBERS, STRING, Entry
+from sim.io.entries.entry import NUMBERS, SECOND, STRING, Entry
 from sim.physics.engine import engine_can_compile, engine_is_cached
 from sim.physics.model import Part
+from sim.physics.motors import MOTORS, find_motor
 from sim.reconcile.model_variant import ModelVariant
 from sim.reconcile.story import ParameterEstimate
 from sim.report.fit_terminal import format_gains
 from sim.report.gain_verdicts import judge_gains, write_gain_verdict
-from sim.report.robot_code_snippet import write_robot_code
+from sim.report.robot_code_snippet import ORDER, write_robot_code
 
 SIGNALS = ("time", "voltage", "position", "velocity")
 MOST_ENTRIES = 400  # entries listed to choose from
@@ -44,6 +48,7 @@ MEANS = {
     "kG": "gravity: the volts that hold it where gravity pulls most",
     "offset_rad": "what to add to the sensor's angle, to count from horizontal",
 }
+ALLOWED = ("position_error", "velocity_error", "volts")  # weights of the regulator
 LAGS = 1e-5  # [s] a shorter lag is shown as 0
 
 
@@ -105,7 +110,8 @@ def describe_session(session: Session) -> dict[str, Any]:
     """The open logs, what the page shows of them, and the source that is followed."""
     return {
         "logs": [name_log(one) for one in session.logs],
-        "view": asdict(session.view),
+        "view": asdict(session.view)
+        | {"motors": list(MOTORS), "presets": {key: one.name for key, one in PRESETS.items()}},
         "live": _describe_live(session),
     }
 
@@ -137,6 +143,21 @@ def pack_samples(log: Log) -> bytes:
     """
     signals = [getattr(run, signal) for run in log.runs for signal in SIGNALS]
     return b"".join(np.asarray(one, dtype="<f8").tobytes() for one in signals)
+
+
+def pack_entry(one: OpenLog, log: Log, name: str) -> bytes:
+    """The last value of an entry at each sample of every run, one after another, as doubles.
+
+    Raises:
+        BadRequest: the log has no such entry with numbers.
+    """
+    named = (entry for entry in one.list_entries() if entry.name == name and len(entry))
+    entry = next((entry for entry in named if entry.type in NUMBERS), None)
+    if entry is None:
+        raise BadRequest(f"the log has no numbers named {name!r}", advice="Choose from the list.")
+    at = np.concatenate([run.time for run in log.runs]) * SECOND
+    last = np.searchsorted(entry.time, np.rint(at), side="right") - 1
+    return entry.numbers()[np.maximum(last, 0)].astype("<f8").tobytes()
 
 
 def describe_faults(found: Inspection, one: OpenLog) -> dict[str, Any]:
@@ -179,16 +200,16 @@ def describe_fit(
     return {
         "type": found.type,
         "gains": gains,
-        "word": judge_gains(found),
-        "verdict": write_gain_verdict(found, log),
+        **_judge(found, log),
         "doubts": _doubts(found.list_doubts(), one),
         "notes": [] if chosen else list(pooled.notes),
         "tracks": _list_tracks(chosen, log) if chosen else None,
         "parts": [] if chosen else sorted(part.effect for part in found.parts),
         "lag": found.position_delay if found.position_delay > LAGS else 0.0,
         "window": max(2.0 * (found.velocity_delay - found.position_delay), 0.0),
-        "feedback": {
-            loop: {"kP": gains.kp, "kD": gains.kd} for loop, gains in found.feedback().items()
+        "delays": {
+            "position_delay": found.position_delay,
+            "velocity_delay": found.velocity_delay,
         },
         **({} if chosen else _describe_starts(found, log)),
     }
@@ -201,20 +222,25 @@ def _list_tracks(chosen: ModelVariant, log: Log) -> list[list[float]]:
 
 
 def _apply_model(found: Fit, chosen: ModelVariant | None) -> Fit:
-    return found if chosen is None else replace_gains(found, chosen.gains, chosen.parts)
+    if chosen is None:
+        return found
+    return replace_gains(found, chosen.gains, chosen.parts, chosen.doubts)
+
+
+def _judge(found: Fit, log: Log) -> dict[str, str]:
+    return {"word": judge_gains(found), "verdict": write_gain_verdict(found, log)}
 
 
 def describe_directions(one: OpenLog, reading: Reading) -> dict[str, Any]:
-    """The gains of forward and reverse runs, each fitted alone, where they disagree with the fit.
+    """Where forward and reverse runs, each fitted alone, disagree; and the verdict that knows it.
 
     Raises:
         Refusal: the log cannot be read or fitted.
     """
-    found, log = one.fit(reading).found, one.combine_runs(reading)
-    log = leave_out({"": log}, map(LeftOutPart.parse, reading.left_out))[""]
-    doubted, notes = compare_directions_alone(found, log, include_long=False)
+    found, (doubted, notes) = one.fit(reading).found, one.compare_directions(reading)
     more = [doubt for doubt in doubted.doubts if doubt not in found.doubts]
-    return {"doubts": _doubts(more, one), "notes": list(notes)}
+    verdict = _judge(doubted.in_log_units(), one.combine_runs(reading))
+    return verdict | {"doubts": _doubts(more, one), "notes": list(notes)}
 
 
 def _describe_starts(found: Fit, log: Log) -> dict[str, Any]:
@@ -263,11 +289,13 @@ def write_code(
     language, season = query.get("language", "java"), query.get("season", "2026")
     if not season.isdecimal():
         raise BadRequest("there is no such season", advice="Choose 2026.")
-    found = _apply_model(one.fit(reading).found.in_log_units(), chosen)
+    compared = one.fit(reading).found if chosen else one.compare_directions(reading)[0]
+    found = _apply_model(compared.in_log_units(), chosen)
     moved = {name: float(query[name]) for name in found.gains if _is_number(query.get(name, ""))}
     errors = {name: error for name, error in found.errors.items() if name not in moved}
     # A value set by hand has no standard error
-    found = replace(found, gains={**found.gains, **moved}, errors=errors)
+    doubts = tuple(replace(some, message=_without_path(some.message, one)) for some in found.doubts)
+    found = replace(found, gains={**found.gains, **moved}, errors=errors, doubts=doubts)
     radius = float(query["radius"]) if _is_number(query.get("radius", "")) else None
     code = write_robot_code(found, target=language, season=int(season), radius=radius)
     if moved:
@@ -282,6 +310,42 @@ def _is_number(text: str) -> bool:
         return math.isfinite(float(text))
     except ValueError:
         return False
+
+
+def describe_feedback(query: Mapping[str, str]) -> dict[str, Any]:
+    """Feedback gains for gains that the user typed, or that theory gives for a motor.
+
+    Args:
+        query: kS, kV, kA, type, units, preset, delays, the regulator's allowed errors and volts;
+            a motor with count, ratio, radius and load takes the place of kV and kA.
+
+    Raises:
+        Refusal: there are no feedback gains for these numbers.
+    """
+    numbers = {name: float(text) for name, text in query.items() if _is_number(text)}
+    type_, chosen = query.get("type", "simple"), query.get("preset", "default")
+    refuse_unknown("preset", chosen, PRESETS)
+    delays = {name: numbers.get(name, 0.0) for name in ("position_delay", "velocity_delay")}
+    gains = {name: numbers.get(name, 0.0) for name in (*ORDER.get(type_, ()), "offset_rad")}
+    found = Fit.from_gains(gains, type=type_, units=query.get("units", "meters"), **delays)
+    per = find_unit(found.units)
+    if query.get("motor"):
+        count, ratio, radius = (numbers.get(name, 1.0) for name in ("count", "ratio", "radius"))
+        motor = find_motor(query["motor"])
+        parts = Parts(motor, int(count), ratio, radius=radius, load=numbers.get("load"))
+        check_radius_unit(parts, found)
+        theory = {"kV": parts.kv * per.si, "kA": (parts.ka or 0.0) * per.si}
+        found = replace(found, gains=gains | theory)
+    allowed = {name: numbers[name] for name in ALLOWED if numbers.get(name, 0.0) > 0.0}
+    tried = try_feedback_gains(found, PRESETS[chosen], allowed=allowed)
+    rows = []
+    for trial in tried:
+        units = PRESETS[chosen].format_units(trial.loop, per.symbol)
+        pairs = zip(("kP", "kD"), (trial.gains.kp, trial.gains.kd), units, strict=True)
+        shown = [f"{name} {value:.4g} {unit}" for name, value, unit in pairs if value]
+        rows.append({"loop": trial.loop, "gains": shown, "step": trial.verdict.description})
+    doubts = [one.message for one in warn_of_bad_suggestions(found, tried)]
+    return {"gains": found.gains, "rows": rows, "doubts": doubts, "symbol": per.symbol}
 
 
 def describe_entries(entries: Sequence[Entry]) -> list[dict[str, Any]]:
@@ -353,16 +417,21 @@ def _finite(value: float) -> float | None:
 
 
 def replace_gains(
-    plain: Fit, gains: Mapping[str, ParameterEstimate], parts: tuple[Part, ...]
+    plain: Fit,
+    gains: Mapping[str, ParameterEstimate],
+    parts: tuple[Part, ...],
+    doubts: tuple[Doubt, ...],
 ) -> Fit:
-    """A fit with the gains and effects of another model, in the same unit.
+    """A fit with the gains, effects and doubts of a model with effects, in the same unit.
 
-    Warnings about the model without effects do not concern these gains, unless they are grave.
+    That the model without effects misses the log says nothing about these gains, unless it is
+    grave; everything else that is doubted of the log still holds.
     """
+    kept = (one for one in plain.doubts if one.grave or one.code not in MISFIT)
     return replace(
         plain,
         gains={name: one.value for name, one in gains.items()},
         errors={name: one.error for name, one in gains.items() if one.error is not None},
         parts=parts,
-        doubts=tuple(doubt for doubt in plain.doubts if doubt.grave),
+        doubts=(*kept, *doubts),
     )

@@ -3,6 +3,7 @@
 import math
 import threading
 from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from sim.core.errors import BadRequest, Refusal
@@ -16,10 +17,11 @@ from sim.reconcile.model_variant import ModelVariant
 from sim.reconcile.story_text import (
     format_gap,
     format_parameter,
+    list_gain_doubts,
     list_inspections,
     list_next_tests,
     list_remarks,
-    write_gain_caution,
+    narrows_gap,
     write_headline,
 )
 
@@ -77,9 +79,9 @@ class ReconcileJob:
         Raises:
             BadRequest: the search has not ended.
         """
-        if self.story is None or self.story.variants is None:
+        if self.story is None:
             raise BadRequest("the search has not ended", advice="Wait for it, or stop it.")
-        return self.story.variants.refit(effects)
+        return refit_story(self.story, effects)
 
     def _run(self) -> None:
         """Run the search; an error is reported when the page asks for its progress."""
@@ -101,6 +103,17 @@ class ReconcileJob:
 
     def _note(self, words: str, share: float) -> None:
         self._words, self._share = words, share
+
+
+def refit_story(story: Story, effects: Collection[str]) -> ModelVariant:
+    """The model of a story with some of its effects, and with the doubts about its gains.
+
+    Raises:
+        BadRequest: the story has no model with effects.
+    """
+    if story.variants is None:
+        raise BadRequest("no effect was found", advice="Take the gains of the fit.")
+    return replace(story.variants.refit(effects), doubts=list_gain_doubts(story))
 
 
 def describe_story(story: Story, said: Collection[str] = ()) -> dict[str, Any]:
@@ -146,7 +159,8 @@ def describe_story(story: Story, said: Collection[str] = ()) -> dict[str, Any]:
         "gaps": gaps,
         "places": [place.sentence for place in story.where[:PLACES]],
         "next": list(list_next_tests(story)),
-        "caution": write_gain_caution(story),
+        "caution": " ".join(one.text for one in list_gain_doubts(story)),
+        "narrows": narrows_gap(story),
         "remarks": [one for one in remarks if one not in said],
         "how": story.how,
     }

@@ -36,7 +36,7 @@ HEADERS = {
     "Referrer-Policy": "no-referrer",
     "X-Content-Type-Options": "nosniff",
 }
-RAW = ("summary", "entries", "samples")  # requests allowed with --raw, which shows the data alone
+RAW = ("summary", "entries", "samples", "entry")  # requests that --raw allows: the data alone
 ROLES = ("validation", "held_out")  # of other logs in a search
 PIECE = 2**20  # [bytes] read at a time
 PROBLEM = "application/problem+json"  # content type of a refusal (RFC 9457)
@@ -136,6 +136,8 @@ class PageRequest(BaseHTTPRequestHandler):
                 self._send_file("index.html")
             case "GET", ["logs" | "view" | "live" as what]:
                 self._send_json(page_data.describe_session(session)[what])
+            case "GET", ["feedback"]:
+                self._send_json(page_data.describe_feedback(query))
             case "GET", ["logs", number, what]:
                 self._send_of_log(self._log(number), what, query)
             case "GET", [name]:
@@ -175,6 +177,9 @@ class PageRequest(BaseHTTPRequestHandler):
         search = self._search(one, query) if what == "reconcile" or query.get("effects") else None
         if what == "samples":
             content = page_data.pack_samples(one.combine_runs(reading))
+            self._send(content, "application/octet-stream")
+        elif what == "entry":
+            content = page_data.pack_entry(one, one.combine_runs(reading), query.get("name", ""))
             self._send(content, "application/octet-stream")
         elif what == "report.html":
             text = render_saved_page(one, reading, search.story if search else None)

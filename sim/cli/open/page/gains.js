@@ -1,7 +1,7 @@
 // The gains: sliders, simulation error, feedback, robot code.
 
 import { addressOf, askLog } from "./api.js";
-import { figure, make, prose, sentence } from "./elements.js";
+import { figure, make, sentence } from "./elements.js";
 import { modelQuery, shownLog } from "./logs.js";
 import { at, copy } from "./page.js";
 import { simulate } from "./simulation.js";
@@ -14,14 +14,14 @@ export const sliders = new Sliders(at("sliders"), moveGains);
 export function showFit() {
   const log = shownLog();
   const { fit, fitRefused } = log;
-  at("paste").disabled = !fit;
+  at("paste").disabled = at("feedback").disabled = !fit;
   at("reset").hidden = true;
   const report = at("report");
   report.toggleAttribute("href", false);
   report.setAttribute("aria-disabled", String(!fit));
   showDoubts();
   if (!fit) {
-    for (const id of ["sliders", "meter", "feedback"]) at(id).replaceChildren();
+    for (const id of ["sliders", "meter"]) at(id).replaceChildren();
     at("verdict").textContent = fitRefused ? sentence(fitRefused) : log.summary.compiles
       ? "The simulation is compiled first. That is done once, and takes about twenty seconds." : "";
     return;
@@ -30,17 +30,8 @@ export function showFit() {
   report.download = `${log.name}.html`;
   sliders.show(fit.gains, log.gains, { fixed: Boolean(fit.tracks) });
   log.moved = sliders.isMoved;
-  at("verdict").replaceChildren(...prose(fit.verdict));
-  showFeedback(fit);
   showSimulation(log);
   chart.redraw();
-}
-
-/** Feedback gains to start with, as SysId suggests them. */
-function showFeedback({ feedback }) {
-  const rows = Object.entries(feedback).map(([loop, { kP, kD }]) =>
-    make("div", "", make("dt", "", `${loop} loop`), make("dd", "", `kP ${figure(kP)}${kD ? `  kD ${figure(kD)}` : ""}`)));
-  at("feedback").replaceChildren(...rows);
 }
 
 function moveGains(values) {

@@ -140,6 +140,14 @@ function take(log, summary, samples) {
   log.top = log.runs.reduce((top, run) => run.velocity.reduce((most, one) => Math.max(most, Math.abs(one)), top), 0);
 }
 
+/** Take the values of one more entry of a log; without a name, none. */
+export async function takeEntry(log, name) {
+  const values = name ? await askSamples(log.id, { ...log.query, name }, "entry") : null;
+  let from = 0;
+  for (const run of log.runs) run.entry = values?.subarray(from, (from += run.time.length));
+  log.entry = name;
+}
+
 async function askFaults(log, asked) {
   const found = await askLog(log.id, "faults", log.query).catch((problem) => ({
     faults: [], clean: false, doubts: [{ code: "", message: sentence(problem), grave: true }],
@@ -165,8 +173,8 @@ async function askFit(log, asked) {
   if (!log.fit) return;
   const more = await askLog(log.id, "directions", modelQuery(log)).catch(() => null);
   if (more === null || log.asked !== asked) return;
-  log.plain.doubts.push(...more.doubts);
-  log.plain.notes.push(...more.notes);
+  const { doubts, notes } = log.plain;
+  Object.assign(log.plain, more, { doubts: [...doubts, ...more.doubts], notes: [...notes, ...more.notes] });
   changed(log, "doubts");
 }
 
@@ -218,7 +226,7 @@ export async function reconcile(log, settings, effects) {
       changed(log, "story");
       if (!search.story) await new Promise((done) => setTimeout(done, POLL));
     }
-    const chosen = effects ?? search.story.effects;
+    const chosen = effects ?? (search.story.narrows ? search.story.effects : []);
     if (chosen.length && log.plain) await chooseEffects(log, chosen);
   } catch (problem) {
     if (log.asked !== asked) return;
