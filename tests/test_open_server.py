@@ -290,9 +290,8 @@ def test_a_search_excludes_the_part_that_was_left_out(server, drive):
     assert names == [["encoder-slip"], []]
 
 
-@pytest.mark.parametrize("mechanism", ["intake", "arm"])
-def test_page_doubts_what_the_command_doubts_and_its_code_lists_it(tmp_path, capsys, mechanism):
-    path = write_log(drive_log(3, mechanism, step=2.0), tmp_path / "log.wpilog")
+def test_page_doubts_what_the_command_doubts_and_its_code_lists_it(tmp_path, capsys):
+    path = write_log(drive_log(3, "arm", step=2.0), tmp_path / "log.wpilog")
     run_command(sysid, name="sysid", arguments=["fit", str(path), "--json"])
     told = json.loads(capsys.readouterr().out)
     with served(tmp_path, path) as server:
