@@ -157,7 +157,7 @@ def test_what_inspect_saw_is_told_only_where_no_effect_explains_the_log():
     assert named(explained) == ["constant-load"]
     assert [one.effect for one in explained.findings if one.kind == "fault"] == []
     assert [(one.effect, one.size) for one in unexplained.findings] == [("wheel-slip", "minor")]
-    assert "inspect sees in the log: wheel-slip" in write_headline(unexplained)
+    assert "inspection of the log finds: wheel-slip" in write_headline(unexplained)
 
 
 def test_a_gap_that_does_not_shrink_on_the_held_out_log_is_said():
