@@ -92,13 +92,13 @@ class Action:
 
     def __str__(self) -> str:
         """The advice on the command line."""
-        return self._word(0)
+        return self._write_words(0)
 
     @property
     def on_page(self) -> str:
         """The advice on the page of ``sysid open``."""
-        return self._word(1)
+        return self._write_words(1)
 
-    def _word(self, surface: int) -> str:
+    def _write_words(self, surface: int) -> str:
         named = (self.argument,) if isinstance(self.argument, str) else self.argument
         return f"{self.before} {WORDS[self.name][surface].format(*named)}".strip()

@@ -36,6 +36,7 @@ from sim.reconcile.story import ParameterEstimate
 from sim.report.fit_terminal import format_gains
 from sim.report.gain_verdicts import judge_gains, write_gain_verdict
 from sim.report.robot_code_snippet import ORDER, write_robot_code
+from sim.support.printable import finite_or_none
 
 SIGNALS = ("time", "voltage", "position", "velocity")
 MOST_ENTRIES = 400  # entries listed to choose from
@@ -166,7 +167,11 @@ def describe_faults(found: Inspection, one: OpenLog) -> dict[str, Any]:
     for fault in data["faults"]:
         fault["evidence"] = _without_path(fault["evidence"], one)
         fault["sureness"] = name_confidence(fault["confidence"])
-    return {"faults": data["faults"], "doubts": _doubts(found.doubts, one), "clean": data["clean"]}
+    return {
+        "faults": data["faults"],
+        "doubts": _describe_doubts(found.doubts, one),
+        "clean": data["clean"],
+    }
 
 
 def describe_fit(
@@ -190,7 +195,7 @@ def describe_fit(
             "label": label,
             "value": found.gains[name],
             "text": text.replace("-", "−"),
-            "error": _finite(found.errors.get(name, math.nan)),
+            "error": finite_or_none(found.errors.get(name, math.nan)),
             "error_text": error,
             "unit": unit,
             "means": MEANS[name],
@@ -200,8 +205,8 @@ def describe_fit(
     return {
         "type": found.type,
         "gains": gains,
-        **_judge(found, log),
-        "doubts": _doubts(found.list_doubts(), one),
+        **_describe_verdict(found, log),
+        "doubts": _describe_doubts(found.list_doubts(), one),
         "notes": [] if chosen else list(pooled.notes),
         "tracks": _list_tracks(chosen, log) if chosen else None,
         "parts": [] if chosen else sorted(part.effect for part in found.parts),
@@ -227,7 +232,7 @@ def _apply_model(found: Fit, chosen: ModelVariant | None) -> Fit:
     return replace_gains(found, chosen.gains, chosen.parts, chosen.doubts)
 
 
-def _judge(found: Fit, log: Log) -> dict[str, str]:
+def _describe_verdict(found: Fit, log: Log) -> dict[str, str]:
     return {"word": judge_gains(found), "verdict": write_gain_verdict(found, log)}
 
 
@@ -239,8 +244,8 @@ def describe_directions(one: OpenLog, reading: Reading) -> dict[str, Any]:
     """
     found, (doubted, notes) = one.fit(reading).found, one.compare_directions(reading)
     more = [doubt for doubt in doubted.doubts if doubt not in found.doubts]
-    verdict = _judge(doubted.in_log_units(), one.combine_runs(reading))
-    return verdict | {"doubts": _doubts(more, one), "notes": list(notes)}
+    verdict = _describe_verdict(doubted.in_log_units(), one.combine_runs(reading))
+    return verdict | {"doubts": _describe_doubts(more, one), "notes": list(notes)}
 
 
 def _describe_starts(found: Fit, log: Log) -> dict[str, Any]:
@@ -389,7 +394,7 @@ def describe_refusal(refusal: Refusal, folder: str) -> dict[str, Any]:
     }
 
 
-def _doubts(doubts: Sequence[Doubt], one: OpenLog) -> list[dict[str, Any]]:
+def _describe_doubts(doubts: Sequence[Doubt], one: OpenLog) -> list[dict[str, Any]]:
     return [
         {
             "code": doubt.code,
@@ -409,11 +414,6 @@ def _without_path(text: str, one: OpenLog) -> str:
     short = re.sub(f"{re.escape(str(one.path))}[:,] ", "", text)
     start = short[:1].upper() if short != text else short[:1]
     return f"{start}{short[1:]}".replace(str(one.path), one.name)
-
-
-def _finite(value: float) -> float | None:
-    """The value, or None if it is not finite, which JSON cannot hold."""
-    return value if math.isfinite(value) else None
 
 
 def replace_gains(

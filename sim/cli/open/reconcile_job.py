@@ -89,7 +89,7 @@ class ReconcileJob:
             logs = self._read()
             self._said = {doubt.text for log in logs.values() for doubt in log.doubts}
             self.story = search_effects(
-                logs, type=self._type, effort=self._effort, progress=self._note,
+                logs, type=self._type, effort=self._effort, progress=self._store_progress,
                 is_stopped=self._stopped.is_set, left_out=self._left_out,
             )  # fmt: skip
         except Refusal as refusal:
@@ -101,7 +101,7 @@ class ReconcileJob:
                 advice="Try sysid reconcile, which says more.",
             )
 
-    def _note(self, words: str, share: float) -> None:
+    def _store_progress(self, words: str, share: float) -> None:
         self._words, self._share = words, share
 
 
