@@ -57,6 +57,10 @@ WORDS = {
         f"Name the columns {{}} in the first line, or say what they are called: {NAMES}.",
         "Choose which column holds which signal.",
     ),
+    "drive-type": (
+        "Fit the log of the drive motors with --type simple.",
+        "Open the log of the drive motors, of the type simple.",
+    ),
     "radius": (
         "Add --radius: the radius of the wheel or drum, in meters.",
         "Type the radius of the wheel or drum, in meters, above.",

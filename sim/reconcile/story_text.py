@@ -5,6 +5,7 @@ from collections.abc import Sequence
 
 from sim.core.doubt import Doubt
 from sim.core.units import find_unit
+from sim.fit.replay import SENSOR_LAGS
 from sim.physics.effects import EFFECTS
 from sim.reconcile.story import (
     AMBIGUOUS,
@@ -167,8 +168,12 @@ def list_gain_doubts(story: Story) -> tuple[Doubt, ...]:
 
 
 def narrows_gap(story: Story) -> bool:
-    """Whether the effects narrow the gap so much that their gains are taken unasked."""
-    return story.gap_after < MAJOR_UNEXPLAINED * story.gap_before
+    """Whether the effects narrow the gap so much that their gains are taken unasked.
+
+    Lags of the sensor do not count: the fit has estimated them, too.
+    """
+    added = {one.added for one in story.chapters[1:]}
+    return bool(added - SENSOR_LAGS) and story.gap_after < MAJOR_UNEXPLAINED * story.gap_before
 
 
 def _differ(one: ParameterEstimate, other: ParameterEstimate) -> bool:

@@ -58,13 +58,14 @@ def judge_gains(found: Fit) -> str:
         for name, value in found.gains.items()
         if _is_usable(name, value, found.errors.get(name, math.nan))
     ]
+    doubted = {name for doubt in found.doubts for name in doubt.gains}
     if any(doubt.grave for doubt in found.doubts):
         return "Do not use"
-    if any(name in doubt.gains for doubt in found.doubts for name in sure):
+    if doubted >= set(sure):
+        return "Not usable"
+    if doubted & set(sure):
         return "Check first"
-    return (
-        "Not usable" if not sure else "Usable" if len(sure) == len(found.gains) else "Partly usable"
-    )
+    return "Usable" if len(sure) == len(found.gains) else "Partly usable"
 
 
 def list_gain_advice(found: Fit, log: Log) -> tuple[str, ...]:
