@@ -190,14 +190,14 @@ def search_effects(
     """
     progress("looking for damage", 0.0)
     log, *_ = logs.values()
-    damages = {name: inspect_damage(some) for name, some in logs.items()}
+    damages = {name: inspect_damage(some) for name, some in logs.items() if name != "log"}
     gone = [
         DamagedInterval(k, float(time[0]), float(time[-1]), LEFT_OUT, 1.0, "", "")
         for part in left_out
         for k, run in enumerate(log.runs)
         if (time := run.time[part.find(run)]).size
     ]
-    rest = [one for one in damages["log"] if not any(map(one.is_within, gone))]
+    rest = inspect_damage(log, left_out=left_out)
     return reconcile(
         log,
         validation=logs.get("validation"),
@@ -210,11 +210,20 @@ def search_effects(
     )
 
 
-def inspect_damage(log: Log) -> tuple[DamagedInterval, ...]:
-    """The damaged intervals that an inspection finds in a log, as ``reconcile`` takes them."""
+def inspect_damage(
+    log: Log, *, left_out: Sequence[LeftOutPart] = ()
+) -> tuple[DamagedInterval, ...]:
+    """The damaged intervals that an inspection finds in a log, as ``reconcile`` takes them.
+
+    Args:
+        log: the log.
+        left_out: parts whose damage does not count.
+    """
     found = []
     for one in inspect(log).damages:
         where = one.where
+        if any(part.covers(where.test, where.start, where.end) for part in left_out):
+            continue
         intervals: tuple[tuple[float, float], ...] = ((where.start, where.end),)
         if one.fault == DROPOUT and where.run is not None:
             intervals = find_dropout_intervals(
