@@ -17,6 +17,7 @@ from sim.cli.open.reconcile_job import inspect_damage
 from sim.core.units import find_unit
 from sim.estimation.initial_guess import guess_gains
 from sim.inspect.contaminate import contaminate
+from sim.inspect.detect_faults import inspect
 from sim.physics.effects import EFFECTS
 from sim.reconcile import reconcile
 from sim.reconcile.damage import DamagedInterval
@@ -325,6 +326,14 @@ def test_damage_is_reported_as_damage_and_physics_beside_it_is_still_named():
         ("encoder-slip", "fault"), ("gravity-cosine", "effect"),
     ]  # fmt: skip
     assert story.verdict == "explained"
+
+
+def test_frames_that_are_ordinary_are_no_damage():
+    log = simulate(MECHANISMS["drivetrain"], Routine(), rng=np.random.default_rng(1), period=0.005)
+    framed = contaminate(log, "stale-samples", severity=1.0, rng=np.random.default_rng(2)).log
+
+    assert any(one.ordinary for one in inspect(framed).damages)
+    assert inspect_damage(framed) == ()
 
 
 def test_a_run_of_which_nothing_is_believed_is_told_and_left_out():

@@ -215,6 +215,8 @@ def inspect_damage(
 ) -> tuple[DamagedInterval, ...]:
     """The damaged intervals that an inspection finds in a log, as ``reconcile`` takes them.
 
+    What is ordinary, such as frames of 20 ms, is no damage.
+
     Args:
         log: the log.
         left_out: parts whose damage does not count.
@@ -222,7 +224,9 @@ def inspect_damage(
     found = []
     for one in inspect(log).damages:
         where = one.where
-        if any(part.covers(where.test, where.start, where.end) for part in left_out):
+        if one.ordinary or any(
+            part.covers(where.test, where.start, where.end) for part in left_out
+        ):
             continue
         intervals: tuple[tuple[float, float], ...] = ((where.start, where.end),)
         if one.fault == DROPOUT and where.run is not None:
