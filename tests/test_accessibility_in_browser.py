@@ -39,6 +39,10 @@ def test_the_page_of_open_in_each_of_its_views(browser, tmp_path, viewport, them
             page.locator("#code-text", has_text="kV").wait_for()
             found["code"] = list_violations(page)
             page.get_by_role("button", name="Close", exact=True).click()
+            page.locator("#feedback").click()
+            page.locator("#loop-gains dd", has_text="kP").first.wait_for()
+            found["feedback"] = list_violations(page)
+            page.get_by_role("button", name="Close", exact=True).click()
             assert page.complaints == []
             drop(page, write_strange(tmp_path))
             page.get_by_text("Which entries are the signals?").wait_for()
