@@ -104,8 +104,8 @@ def _explain_slow_ramp(slow: Test, end: str) -> BrokenRule:
     run = slow.place(slow.when(slow.speed, QUARTER * machine.free))
     if machine.travel is None or run <= machine.travel:
         if slow.by_mark:
-            says += f". To reach that, your ramp needs {run:.1f} {machine.symbol}; your mark is at "
+            says += f". To reach that, your ramp needs {run:.2f} {machine.symbol}; your mark is at "
             says += f"{slow.release:g} {machine.symbol}"
         return BrokenRule(says)
-    says += f". To reach that, your ramp needs {run:.1f} {machine.symbol}; you have "
+    says += f". To reach that, your ramp needs {run:.2f} {machine.symbol}; you have "
     return BrokenRule(f"{says}{machine.travel:g} {machine.symbol}", SLOW)

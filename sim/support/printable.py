@@ -37,6 +37,11 @@ def list_first(names: Sequence[str], *, most: int = SHOWN, separator: str = ", "
     return separator.join(names[:most]) + more
 
 
+def enumerate_names(names: Sequence[str]) -> str:
+    """The names as a list in a sentence: ``a, b and c``."""
+    return " and ".join(filter(None, [", ".join(names[:-1]), names[-1]]))
+
+
 def _is_control(character: str) -> bool:
     if character in KEPT:
         return False
