@@ -124,8 +124,8 @@ def _list_faults(one: Press, facts: ButtonFacts) -> Iterator[tuple[bool, str, st
         Whether it starts at all, what is seen, and the advice.
     """
     test, at = list_tests([one.test]), f" ({one.text} in line {one.line})" if one.line else ""
-    if _is_sequence(one, facts):
-        yield False, *_describe_sequence(one)
+    if sequence := _describe_sequence(one, facts):
+        yield False, *sequence
     elif one.together:
         lines = sorted({p.line for p in facts.presses if p.inputs == one.inputs})
         yield (
@@ -175,18 +175,13 @@ def _list_faults(one: Press, facts: ButtonFacts) -> Iterator[tuple[bool, str, st
         )
 
 
-def _is_sequence(one: Press, facts: ButtonFacts) -> bool:
-    """Whether one binding runs several tests."""
-    return bool(one.together) and not any(
-        p.test in one.together and p.line != one.line for p in facts.presses
-    )
-
-
-def _describe_sequence(one: Press) -> tuple[str, str]:
-    """Words for a binding that runs several tests, and the advice."""
-    both = list_tests([one.test, *one.together])
+def _describe_sequence(one: Press, facts: ButtonFacts) -> tuple[str, str] | None:
+    """What is seen of a binding that runs several tests, and the advice."""
+    bound_apart = {p.test for p in facts.presses if p.line != one.line}
+    if not one.together or bound_apart & set(one.together):
+        return None
     hint = "Such a command runs the tests one after the other. Give each its own button."
-    return f"line {one.line} runs {both}", hint
+    return f"line {one.line} runs {list_tests([one.test, *one.together])}", hint
 
 
 def _describe_stay(one: Press, seen: str) -> tuple[bool, str, str]:
@@ -254,9 +249,8 @@ def each_once(runs: Runs) -> str | None:
 def _each_once(facts: ButtonFacts) -> None:
     _reached(facts)
     for one in facts.presses:
-        if _is_sequence(one, facts):
-            seen, hint = _describe_sequence(one)
-            raise WrongAnswer(seen, hint=hint)
+        if sequence := _describe_sequence(one, facts):
+            raise WrongAnswer(sequence[0], hint=sequence[1])
     bound = {line for _, line in facts.made}
     for test in TESTS:
         lines = sorted({line for made, line in facts.made if made == test and line in bound})
