@@ -127,8 +127,9 @@ Table(
 )
 
 # %% [markdown]
-# So "7 V at 2 m/s" has two possible explanations: the speed is not steady, or the robot has a
-# different kV. To decide, check whether the velocity is still changing.
+# So "7 V at 2 m/s" has two possible explanations. Either kA·a takes the volts that are left: then
+# the robot is getting faster. Or the speed is steady: then the robot has a larger kV. To decide,
+# check whether the velocity is still changing.
 
 # %% [markdown]
 # ## 3 Doing it: the voltage budget
