@@ -90,6 +90,7 @@ def find_offset_slip(value: float, variant: Variant) -> WrongNumber | None:
         ("rotations", 360.0 * value),
         ("vertical", value + 90.0),
         ("vertical", value - 90.0),
+        ("half-turn", value + 180.0),
         ("tangent", 90.0 - value),
         ("tangent", -90.0 - value),
     )
