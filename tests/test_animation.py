@@ -23,7 +23,10 @@ from sim.plot.animation.charts import (
     Chart,
     Curve,
     animate_charts,
+    chart_bands,
     chart_gain_errors,
+    chart_hold_angles,
+    chart_hold_window,
     compare_values,
 )
 
@@ -137,3 +140,28 @@ def test_a_gain_whose_error_is_its_size_is_unknown():
     chart = chart_gain_errors({"kS": float("inf"), "kV": 0.004})
     assert [curve.notes[1] for curve in chart.curves] == ["unknown", "± 0.400 %"]
     assert [curve.x for curve in chart.curves] == [[0.0, 100.0], [0.0, pytest.approx(0.4)]]
+
+
+def test_each_number_lies_on_its_band_and_the_last_band_is_open():
+    bands = {"low": 0.0, "fine": 8.0, "stop": 20.0}
+    chart = chart_bands({"a": -50.0, "b": 33.0}, bands, xlabel="kV above theory [%]")
+    *curves, dots = chart.curves
+    named = {one.name: one.x for one in curves if one.name}
+    assert named == {"low": [-50.0, 0.0], "fine": [0.0, 8.0], "stop": [8.0, 33.0]}
+    assert list(zip(chart.rows, dots.x, strict=True)) == [("a", -50.0), ("b", 33.0)]
+
+
+def test_marks_lie_on_the_window_that_holds_an_elevator():
+    chart = chart_hold_window([1.0, 3.0], [-0.2, 0.1], window=(1.76, 2.26), marks={"mine": 1.77})
+    stays, speed, mark = chart.curves
+    assert (min(stays.x), max(stays.x)) == (1.76, 2.26)
+    assert (list(speed.y), mark.x, mark.notes) == ([-0.2, 0.1], [1.77], ["1.77 V"])
+
+
+def test_window_that_holds_an_arm_is_as_wide_at_every_angle():
+    chart = chart_hold_angles([(0.0, 1.26, 1.76)], kg=1.51, ks=0.25)
+    area, cosine, falls, rises = chart.curves
+    count = len(cosine.x)
+    np.testing.assert_allclose(area.y[:count] - area.y[count:][::-1], 0.5)
+    assert max(cosine.y) == pytest.approx(1.51, abs=1e-3)
+    assert (falls.y, rises.y) == ((1.26,), (1.76,))

@@ -11,8 +11,6 @@ from xml.etree import ElementTree as ET
 import numpy as np
 import pytest
 from html_tags import Tags
-from test_plot_gravity import PICTURES as GRAVITY
-from test_plot_motor import PICTURES as MOTOR
 
 import sim
 from sim.bench.simulate import simulate
@@ -58,7 +56,6 @@ PICTURES = {
         [1, 2], [2, 5], intercept=0, slope=2, xlabel="x [m]", ylabel="y [V]"
     ),
 }
-PICTURES |= GRAVITY | MOTOR
 each_picture = pytest.mark.parametrize("name", PICTURES)
 
 

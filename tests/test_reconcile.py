@@ -157,7 +157,7 @@ def test_what_inspect_saw_is_told_only_where_no_effect_explains_the_log():
     assert named(explained) == ["constant-load"]
     assert [one.effect for one in explained.findings if one.kind == "fault"] == []
     assert [(one.effect, one.size) for one in unexplained.findings] == [("wheel-slip", "minor")]
-    assert "inspect sees in the log: wheel-slip" in write_headline(unexplained)
+    assert "inspection of the log finds: wheel-slip" in write_headline(unexplained)
 
 
 def test_a_gap_that_does_not_shrink_on_the_held_out_log_is_said():
@@ -236,7 +236,9 @@ def test_a_search_that_is_cut_short_claims_nothing_and_says_so(stop):
 
     assert (story.verdict, story.remainder, story.findings) == ("unexplained", True, ())
     assert not story.complete
-    assert write_headline(story).startswith("The search was stopped before it had tried every")
+    assert write_headline(story).startswith(
+        "The search was stopped, or reached its limit, before it had tried every"
+    )
     assert "no known effect" not in write_headline(story)
     assert "--effort" in story.remains
 

@@ -8,7 +8,7 @@ from grader.robotcode.bench.button_run import ButtonFacts, Press
 from grader.robotcode.bench.facts import TESTS
 from grader.robotcode.checks.causes import ask_for_files, check_compiles, check_stop, list_tests
 from grader.robotcode.running import Runs, judge_runs, run_buttons
-from sim.support.printable import enumerate_names
+from sim.support.printable import join_names
 
 from .explained import check_comment
 
@@ -235,7 +235,7 @@ def _explain_missing(facts: ButtonFacts, lacking: list[str], earned: float) -> N
         f"no button runs {list_tests(lacking) if facts.presses else 'a test'}",
         hint="Four tests, four buttons: two kinds, each forward and reverse. Every button was "
         "pressed alone and together with a second one, in test mode and in teleop. Is the guard "
-        f"true there{f' (lines {enumerate_names(bound)})' if bound else ''}?",
+        f"true there{f' (lines {join_names(bound)})' if bound else ''}?",
         earned=earned,
     )
 

@@ -10,7 +10,7 @@ import math
 from collections.abc import Mapping
 
 from sim.fit.result import Fit
-from sim.support.printable import enumerate_names
+from sim.support.printable import join_names
 
 SHARES: Mapping[str, float] = {"kS": 0.06, "kV": 0.03, "kA": 0.16, "kG": 0.11}
 """Gain -> median difference of two recordings, as a share of it."""
@@ -35,9 +35,9 @@ def describe_next_recording(found: Fit) -> tuple[str, ...]:
     if not known:
         return ()
     told = [f"{gain} by about {100.0 * share:.0f} %" for gain, share in known.items()]
+    listed = join_names(told)
     said = (
-        "These errors are of this log alone. The next recording will differ: "
-        f"{enumerate_names(told)}, as on most robots. To see yours, record twice and fit "
-        "both: sysid fit ONE TWO"
+        f"These errors are of this log alone. The next recording will differ: {listed}, as on most "
+        "robots. To see yours, record twice and fit both: sysid fit ONE TWO"
     )
     return (said,)

@@ -79,7 +79,7 @@ def plot_curves(
     if marked is not None:
         sentences.append(f"A star marks “{mark}”, {to_text(marked[1])} at {marked[0]:g}.")
     rows = tuple(
-        _row(f"{x[i]:g}", [float(y[i]) for y in lines.values()]) for i in range(0, len(x), few)
+        _make_row(f"{x[i]:g}", [float(y[i]) for y in lines.values()]) for i in range(0, len(x), few)
     )
     return Picture(figure, " ".join(sentences), Table((xlabel, *lines), rows, caption=ylabel))
 
@@ -113,8 +113,8 @@ def plot_misses(
     axes.set_xlabel(xlabel, color=INK)
     axes.set_ylabel(ylabel, color=INK)
     axes.legend(fontsize=8)
-    total = f"{to_text(float(np.sum((up - predicted) ** 2)))}{_squared(ylabel)}"
-    _corner(axes, f"sum of squared errors: {total}")
+    total = f"{to_text(float(np.sum((up - predicted) ** 2)))}{_square_unit(ylabel)}"
+    _write_in_corner(axes, f"sum of squared errors: {total}")
     alt = (
         f"The picture shows {across.size} samples, with {ylabel} against {xlabel}. The line is "
         f"{to_text(intercept)} + {to_text(slope)} × {xlabel.partition(' ')[0]}. Vertical bars show "
@@ -124,27 +124,27 @@ def plot_misses(
         (to_text(float(a)), float(b), float(c), float(b - c))
         for a, b, c in zip(across, up, predicted, strict=True)
     )
-    unit = f" {bracket}" if (bracket := _bracket(ylabel)) else ""
+    unit = f" {bracket}" if (bracket := _find_unit(ylabel)) else ""
     header = (xlabel, ylabel, f"the line says{unit}", f"error{unit}")
     return Picture(figure, alt, Table(header, rows))
 
 
-def _row(name: str, numbers: Sequence[float]) -> tuple[Cell, ...]:
+def _make_row(name: str, numbers: Sequence[float]) -> tuple[Cell, ...]:
     return (name, *numbers)
 
 
-def _bracket(label: str) -> str:
+def _find_unit(label: str) -> str:
     """The unit of a label with its brackets; empty if it has none."""
     return f"[{label.partition('[')[2]}" if "[" in label else ""
 
 
-def _squared(label: str) -> str:
+def _square_unit(label: str) -> str:
     """The square of a label's unit, to append to a number."""
-    unit = _bracket(label).strip("[]")
+    unit = _find_unit(label).strip("[]")
     if not unit:
         return ""
     return f" {unit}²" if unit.isalpha() else f" ({unit})²"
 
 
-def _corner(axes: "Axes", text: str) -> None:
+def _write_in_corner(axes: "Axes", text: str) -> None:
     axes.text(0.98, 0.04, text, transform=axes.transAxes, ha="right", fontsize=9, color=INK)
