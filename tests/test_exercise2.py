@@ -48,6 +48,17 @@ def student_who(wanted):
     return next(name for name in CLASS if wanted(OWN.module.draw(name)))
 
 
+def test_who_divides_the_voltage_of_the_battery_is_told(copy):
+    student = student_who(lambda variant: variant.planted == ("logged-voltage",))
+    variant = OWN.module.draw(student)
+    battery = float(variant.told["noticed"]["battery"].strip('"').split()[0])
+    share = variant.parts.theoretical_kv * battery / 12
+
+    hint = grade_answer(copy, student=student, kV_theory=share)["kv-theory"].hint
+
+    assert "the voltage of the battery" in hint
+
+
 def test_either_formula_will_do_for_everybody(copy):
     for student in CLASS:
         variant = OWN.module.draw(student)

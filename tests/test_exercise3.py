@@ -52,6 +52,16 @@ def test_the_mean_of_all_middles_is_told_as_such_and_not_as_an_edge(copy, studen
     assert "an edge" not in hint
 
 
+def test_the_sum_of_both_shares_and_an_edge_for_ks_are_told_as_such(copy):
+    rows = {row.reading: row for row in OWN.module.draw("kim").arm}
+    shares = rows[0.0].middle + abs(rows[-90.0].middle)
+
+    results = grade_answer(copy, student="kim", arm_kG=shares, arm_kS=rows[0.0].upper)
+
+    assert "that is A + B" in results["arm-kg"].hint
+    assert "an edge of the band" in results["arm-ks"].hint
+
+
 @pytest.mark.parametrize(
     ("name", "written", "right"),
     [
