@@ -3,20 +3,18 @@
 import base64
 import json
 import tomllib
-from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
+from places import ROOT
 from small_course import lay_out
 
 from grader.answers.answer_names import find_similar_name, find_unknown_names
 from grader.cli import grade as command
 from grader.cli import run_command
-from grader.course import find_course
 from grader.exercise import find_exercise, list_exercises
 from grader.notebook import submit
 
-ROOT = find_course(Path(__file__).resolve().parent)
 ANSWERED_IN_TOML = [one for one in list_exercises(ROOT) if one.files == ("answers.toml",)]
 GAINS = ("kS", "kV", "kA")
 MISSPELLED = 'size = 3\ncolour = "green"\n'

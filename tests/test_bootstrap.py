@@ -10,10 +10,10 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+from places import ROOT
 
 from grader import __main__ as bootstrap
 
-ROOT = Path(__file__).resolve().parents[1]
 STANDALONE = ("__init__.py", "__main__.py", "exec_process.py")  # all that runs before the install
 OLD = (3, 8)
 

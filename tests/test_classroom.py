@@ -9,9 +9,9 @@ import sys
 import tempfile
 import time
 import zipfile
-from pathlib import Path
 
 import pytest
+from places import ROOT
 from small_course import HALF, RIGHT, lay_out
 
 from grader.classroom.class_grading import GradedClass, grade_class, plan_grading
@@ -22,7 +22,6 @@ from grader.cli import run_command
 from grader.exercise import list_exercises
 from sim.core.errors import BadRequest
 
-ROOT = Path(__file__).resolve().parents[1]
 BOOM = 'size = "boom"\n'  # the small course's check breaks on it
 WAITS = '''
 """An exercise whose check takes its time."""

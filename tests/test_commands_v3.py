@@ -6,13 +6,11 @@ Config.useDataLog(rampRate, stepVoltage, timeout); Config.defaults(); SysIdMecha
 mechanism[, name]), where null is allowed for log and name.
 """
 
-from pathlib import Path
-
 import pytest
+from places import ROOT
 
 from grader.exercise import Exercise
 
-ROOT = Path(__file__).resolve().parents[1]
 EXERCISE4 = Exercise("exercise4", ROOT / "exercises" / "exercise4")
 EXERCISE5 = Exercise("exercise5", ROOT / "exercises" / "exercise5")
 

@@ -9,12 +9,12 @@ from pathlib import Path
 
 import pytest
 from page_flaws import page_flaws
+from places import ROOT
 
 from grader import submit
 from grader.cli import run_command
 from grader.exercise import list_exercises
 
-ROOT = Path(__file__).resolve().parents[1]
 EXERCISES = {one.name: one for one in list_exercises(ROOT)}
 TELLING = ("exercise1", "exercise3", "exercise6", "exercise9", "exercise10")
 PAGE = "<!DOCTYPE html><html lang='en'><head><title>t</title></head><body>{}</body></html>"

@@ -4,11 +4,11 @@ import os
 import subprocess
 import sys
 import tomllib
-from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from places import ROOT
 from small_course import HALF, RIGHT, answer
 
 from grader.cli import run_command
@@ -17,8 +17,6 @@ from grader.student_data.variant import derive_student_seed, make_student_rng
 from sim.core.errors import BadRequest
 from sim.support.atomic_file import make_private_folder, write_atomically
 from sim.support.student_names import check_student_name, make_folder_name
-
-ROOT = Path(__file__).resolve().parents[1]
 
 
 def test_the_best_score_is_kept(course, capsys):

@@ -1,13 +1,11 @@
 """Exercise 1: everybody gets a voltage budget of their own, and no answer by accident."""
 
-from pathlib import Path
-
 import pytest
 from answer_grades import grade_answer
+from places import ROOT
 
 from grader.exercise import Exercise
 
-ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise1", ROOT / "exercises" / "exercise1")
 CLASS = [f"student {number}" for number in range(50)]
 

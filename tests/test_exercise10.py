@@ -3,15 +3,14 @@
 import math
 import re
 import tomllib
-from pathlib import Path
 
 import pytest
 from gain_styles import BODY, IMPORTS, PYTHON_BODY, PYTHON_STYLES, STYLES
+from places import ROOT
 
 from grader.exercise import Exercise
 from grader.robotcode.running import run_gains
 
-ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise10", ROOT / "exercises" / "exercise10")
 CLASS = [f"student {number}" for number in range(50)]
 JAVA, PYTHON = "ExampleMechanism.java", "example_mechanism.py"

@@ -5,10 +5,10 @@ import runpy
 import sys
 from dataclasses import replace
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 import pytest
+from places import ROOT
 
 from grader.exercise import Exercise
 from sim.bench.mechanisms import MECHANISMS
@@ -18,7 +18,6 @@ from sim.reconcile import reconcile
 
 pytestmark = pytest.mark.slow
 
-ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise12", ROOT / "exercises" / "exercise12")
 ROOM = OWN.module
 DRAWN = sys.modules[f"{ROOM.__name__}.drawn"]

@@ -3,10 +3,10 @@
 import csv
 import math
 import tomllib
-from pathlib import Path
 
 import pytest
 from answer_grades import grade_answer
+from places import ROOT
 
 from grader.exercise import Exercise
 from sim.bench.slip import compute_slip_voltage
@@ -15,7 +15,6 @@ from sim.inspect.detect_faults import inspect
 from sim.io import list_entries, read, read_motors
 from sim.support.student_names import make_folder_name
 
-ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise13", ROOT / "exercises" / "exercise13")
 CLASS = [f"student {number}" for number in range(50)]
 GYRO = {

@@ -4,11 +4,11 @@ import math
 import tomllib
 from dataclasses import replace
 from itertools import combinations, permutations
-from pathlib import Path
 
 import numpy as np
 import pytest
 from answer_grades import grade_answer
+from places import ROOT
 
 from grader.answers.answer_key import load_answer_key
 from grader.check import WrongAnswer
@@ -21,7 +21,6 @@ from sim.physics.battery import Battery
 from sim.physics.motors import compute_theoretical_kv, find_motor
 from sim.support.student_names import make_folder_name
 
-ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise2", ROOT / "exercises" / "exercise2")
 KEY = load_answer_key(OWN.module.__name__)
 CLASS = [f"student {number}" for number in range(50)]

@@ -1,13 +1,11 @@
 """Exercise 3: an elevator and an arm of one's own, held up against gravity."""
 
-from pathlib import Path
-
 import pytest
 from answer_grades import grade_answer
+from places import ROOT
 
 from grader.exercise import Exercise
 
-ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise3", ROOT / "exercises" / "exercise3")
 WORDS = {
     "elevator_type": "Elevator",

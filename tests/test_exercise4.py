@@ -5,17 +5,16 @@ import os
 import shutil
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from places import ROOT
 from robot_corpus import whole_corpus
 
 from grader.cli import run_command
 from grader.exercise import Exercise
 
-ROOT = Path(__file__).resolve().parents[1]
 JAVA, PYTHON = "ExampleSubsystem.java", "example_subsystem.py"
 EXERCISE = Exercise("exercise4", ROOT / "exercises" / "exercise4")
 

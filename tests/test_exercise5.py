@@ -1,15 +1,14 @@
 """Exercise 5: what each guard, decorator, button and comment does is seen by pressing it."""
 
 from functools import cache
-from pathlib import Path
 
 import pytest
+from places import ROOT
 
 from grader.exercise import Exercise
 
 pytestmark = pytest.mark.slow
 
-ROOT = Path(__file__).resolve().parents[1]
 EXERCISE = Exercise("exercise5", ROOT / "exercises" / "exercise5")
 JAVA, PYTHON = "RobotContainer.java", "robotcontainer.py"
 IMPORTS = """import edu.wpi.first.wpilibj.*;

@@ -5,11 +5,11 @@ import re
 import sys
 from dataclasses import replace
 from itertools import product
-from pathlib import Path
 
 import numpy as np
 import pytest
 from answer_grades import grade_answer
+from places import ROOT
 
 from grader.answers.answer_key import load_answer_key
 from grader.cli import run_command
@@ -22,7 +22,6 @@ from sim.physics.battery import Battery
 from sim.physics.engine import State, simulate_run
 from sim.physics.model import Model
 
-ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise6", ROOT / "exercises" / "exercise6")
 KEY = load_answer_key(OWN.module.__name__)
 DRAWN = sys.modules[OWN.module.draw.__module__]

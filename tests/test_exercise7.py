@@ -7,10 +7,10 @@ import sys
 from collections import Counter
 from dataclasses import replace
 from itertools import product
-from pathlib import Path
 
 import numpy as np
 import pytest
+from places import ROOT
 
 from grader.check import WrongAnswer
 from grader.exercise import Exercise
@@ -25,7 +25,6 @@ from sim.io import read, write
 
 pytestmark = pytest.mark.slow
 
-ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise7", ROOT / "exercises" / "exercise7")
 CHECKS = OWN.module
 DRAWN, LINE, SCORING, FEEDBACK = (

@@ -3,10 +3,10 @@
 import sys
 from dataclasses import replace
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 import pytest
+from places import ROOT
 
 from grader.check import WrongAnswer
 from grader.exercise import Exercise
@@ -14,7 +14,6 @@ from sim.core.log import FOUR_TESTS
 from sim.core.units import find_unit
 from sim.fit import fit
 
-ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise8", ROOT / "exercises" / "exercise8")
 CHECKS = OWN.module
 DRAWN, PREPARATION, COVERAGE = (

@@ -2,14 +2,13 @@
 
 import shutil
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
+from places import ROOT
 
 from grader.exercise import Exercise, load_module
 
-ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise9", ROOT / "exercises" / "exercise9")
 
 

@@ -1,14 +1,13 @@
 """Nothing that a learner reads holds a right number: task, hints, own numbers and feedback."""
 
 import re
-from pathlib import Path
 
 import pytest
+from places import ROOT
 
 from grader.course_check import list_mistakes, prepare_solved
 from grader.exercise import find_exercise
 
-ROOT = Path(__file__).resolve().parents[1]
 ANSWERS = {  # exercise -> the numbers that are right for a variant
     "exercise1": lambda variant: [variant.asked(name).expected for name in variant.moments],
     "exercise2": lambda variant: [

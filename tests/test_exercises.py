@@ -2,12 +2,11 @@
 
 import shutil
 from functools import cache
-from pathlib import Path
 
 import pytest
+from places import ROOT
 
 from grader.cli import run_command
-from grader.course import find_course
 from grader.course_check import (
     STUDENTS,
     find_draw_flaws,
@@ -22,7 +21,6 @@ from grader.starter import remove_answers
 
 pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("robot_code_once")]
 
-ROOT = find_course(Path(__file__).resolve().parent)
 EXERCISES = {one.name: one for one in list_exercises(ROOT)}
 GRADED = [
     pytest.param(one.name, student, mistake, id=f"{one.name}: {mistake.name}-{student}")

@@ -4,17 +4,15 @@ import json
 import os
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
+from places import ROOT
 from small_course import HALF, RIGHT, answer
 
 from grader.cli import run_command
 from grader.course import Standing
 from grader.exercise import find_exercise
 from grader.report import SPOKEN, find_next_step, format_checks
-
-ROOT = Path(__file__).resolve().parents[1]
 
 
 @pytest.mark.parametrize(

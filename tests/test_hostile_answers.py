@@ -4,9 +4,9 @@ import re
 import time
 import tomllib
 from functools import cache
-from pathlib import Path
 
 import pytest
+from places import ROOT
 
 from grader.answers.submission import read_answers
 from grader.course_check import prepare_solved
@@ -15,7 +15,6 @@ from sim.core.errors import UnreadableFile
 
 pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("robot_code_once")]
 
-ROOT = Path(__file__).resolve().parents[1]
 STUDENT = "ann"
 ANSWERED_IN_TOML = [one for one in list_exercises(ROOT) if "answers.toml" in one.files]
 PATIENCE = 5.0  # [s] of the processor for one answer, the first one of a process left out

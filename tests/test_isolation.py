@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 import psutil
 import pytest
+from places import ROOT
 
 from grader.isolation import (
     FunctionCall,
@@ -25,8 +26,6 @@ from grader.isolation import (
 )
 from grader.isolation.scratch import remove_tree
 from grader.student_data.variant import use_class_secret
-
-ROOT = Path(__file__).resolve().parents[1]
 
 SHORT = Limits(seconds=0.6)  # where the end of it is waited for
 LONG = Limits(seconds=10.0)  # where it is not, however busy the machine

@@ -9,13 +9,13 @@ import sys
 from dataclasses import replace
 from html import unescape
 from html.parser import HTMLParser
-from pathlib import Path
 
 import nbformat
 import numpy as np
 import pytest
 from ci_scripts import load_script
 from jupyter_client.kernelspec import KernelSpecManager
+from places import ROOT
 
 import grader
 import sim
@@ -28,7 +28,6 @@ from sim.plot.animation.charts import Chart, Curve
 from sim.teaching.answers import read_answer
 from sim.teaching.r2_cases import GOOD, make_cases
 
-ROOT = Path(__file__).resolve().parents[1]
 TEXTS = sorted((ROOT / "lessons").glob("*.py"))
 PLUMBING = (  # what a cell in sight does not do
     r"^(?:import|from) |\b(?:ask_question|animate_charts|animate_mechanism)\("

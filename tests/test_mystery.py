@@ -1,10 +1,10 @@
 """``grade mystery``: fresh logs with a hidden trouble, graded as exercises 7 and 12 do."""
 
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 import pytest
+from places import ROOT
 
 from grader.cli import run_command
 from grader.mystery import (
@@ -18,7 +18,6 @@ from grader.mystery import (
 from grader.student_data.variant import use_class_secret
 from sim.io import read
 
-ROOT = Path(__file__).resolve().parents[1]
 FAULTS, EFFECTS = 1, 2  # the numbers of mysteries whose turn it is
 SEEDS = {FAULTS: range(20), EFFECTS: range(HIGHEST)}  # to draw effects takes seconds
 

@@ -7,14 +7,13 @@ import subprocess
 import sys
 import tomllib
 from functools import cache
-from pathlib import Path
 
 import pytest
+from places import ROOT
 from test_release import lay_out, read
 
 from grader.answers.answer_key import load_answer_key
 from grader.classroom.bundle import pack_course
-from grader.course import find_course
 from grader.course_check import solve
 from grader.exercise import Exercise, list_exercises
 from grader.package_files import select_package_files
@@ -23,7 +22,6 @@ from grader.student_data.variant import use_class_secret
 
 pytestmark = pytest.mark.slow
 
-ROOT = find_course(Path(__file__).resolve().parent)
 SECRET = b"0123456789abcdef-keys"
 STUDENT = "ann"
 EXERCISES = {one.name: one for one in list_exercises(ROOT)}

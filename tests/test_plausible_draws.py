@@ -4,16 +4,15 @@ The gate looks at a few students of each exercise. ``SYSID_STUDENTS=300`` looks 
 """
 
 import os
-from pathlib import Path
 
 import pytest
+from places import ROOT
 
 from grader.course_check import find_solution_flaws, prepare_solved
 from grader.exercise import Exercise, find_exercise
 
 pytestmark = pytest.mark.slow
 
-ROOT = Path(__file__).resolve().parents[1]
 FEW = 20  # students in the gate
 FEWER = {  # where logs are simulated, fitted and reconciled, or Python is run
     "exercise7": 5,

@@ -1,10 +1,10 @@
 """Practice: five steps on one mechanism, with a robot of one's own or without."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
+from places import ROOT
 
 from grader.course_check import prepare_solved
 from grader.exercise import Exercise, load_module
@@ -17,7 +17,6 @@ from sim.io import read, write
 
 pytestmark = pytest.mark.usefixtures("robot_code_once")
 
-ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("practice", ROOT / "exercises" / "practice")
 
 

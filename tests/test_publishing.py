@@ -6,7 +6,6 @@ import shlex
 import subprocess
 import sys
 import tomllib
-from pathlib import Path
 
 import click
 import nbformat
@@ -16,12 +15,12 @@ from ci_scripts import load_script
 from nbclient import NotebookClient
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
+from places import ROOT
 
 from grader.__main__ import NEWEST
 from grader.cli import grade
 from sim.cli import sysid
 
-ROOT = Path(__file__).resolve().parents[1]
 WORKFLOWS = sorted((ROOT / ".github" / "workflows").glob("*.yml"))
 PINNED = {  # the actions we trust, each at the major version that its documentation names
     "actions/checkout": "v4",

@@ -2,9 +2,9 @@
 
 import shutil
 import zipfile
-from pathlib import Path
 
 import pytest
+from places import ROOT
 from small_course import HALF, RIGHT, lay_out
 
 from grader.classroom.roster import read_class_roster
@@ -14,7 +14,6 @@ from grader.cli import run_command
 from grader.exercise import list_exercises
 from sim.core.errors import BadRequest
 
-ROOT = Path(__file__).resolve().parents[1]
 CANVAS = """\
 Student,ID,SIS User ID,SIS Login ID,Section
     Points Possible,,,,
