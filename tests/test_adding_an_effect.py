@@ -69,7 +69,7 @@ def copy(root, tmp_path_factory):
     folder = tmp_path_factory.mktemp("project")
     shutil.copytree(root / "sim", folder / "sim", ignore=shutil.ignore_patterns("__pycache__"))
     (folder / "tests").mkdir()
-    for name in ("conftest.py", "small_course.py", "test_effects.py"):
+    for name in ("conftest.py", "places.py", "small_course.py", "test_effects.py"):
         shutil.copy(root / "tests" / name, folder / "tests" / name)
     shutil.copy(root / "pyproject.toml", folder)
     (folder / "sim" / "physics" / "effects" / "churn.py").write_text(GOOD, encoding="utf-8")

@@ -179,12 +179,6 @@ def test_in_an_exchanged_case_no_run_keeps_its_own_voltage(modules, seed):
     assert given != [1, 0, 3, 2]  # all signs turned: damage that has a name
 
 
-STRAY = {
-    "not JSON": ("print('kV is odd. Record again.')", "kV is odd. Record again.", 0),
-    "refused": ("import sys; sys.exit('too short. Record more.')", "too short. Record more.", 1),
-}
-
-
 @pytest.fixture
 def modules2(root, monkeypatch):
     """The benchmark's modules2, by name."""

@@ -363,17 +363,6 @@ def test_a_roster_that_does_not_say_who_is_who_is_refused(tmp_path, text, reads)
 
 
 @pytest.mark.usefixtures("course")
-def test_one_student_alone_is_graded_as_an_autograder_does_it(tmp_path):
-    there = hand_in(tmp_path / "in", submission=HALF) / "submission"
-    out = tmp_path / "out"
-    command = ["class", str(there), "--student", "ann", "-o", str(out), "--export", "gradescope"]
-
-    assert run_command(command) == 0
-    result = json.loads((out / "gradescope" / "ann" / "results.json").read_text("utf-8"))
-    assert sum(test["score"] for test in result["tests"]) == 2.5
-
-
-@pytest.mark.usefixtures("course")
 def test_a_secret_around_that_is_not_the_one_in_the_file_is_refused(tmp_path, monkeypatch, capsys):
     there = hand_in(tmp_path / "in", ann=RIGHT)
     (tmp_path / "class.secret").write_text("the secret of this class", encoding="utf-8")

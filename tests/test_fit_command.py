@@ -6,7 +6,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from old_tools import RUNS
 
 import sim
 from sim.bench.mechanisms import MECHANISMS
@@ -45,21 +44,6 @@ def here(tmp_path, monkeypatch):
     """An empty folder to be in."""
     monkeypatch.chdir(tmp_path)
     return tmp_path
-
-
-def two_sided(folder, *, right=DRIVE, name="drive.json"):
-    """A drivetrain as SysId wrote it until 2023, each side simulated by itself."""
-    sides = [simulate(one, SHORT, rng=np.random.default_rng(4)) for one in (DRIVE, right)]
-    document = {"test": "Drivetrain", "units": "Meters", "unitsPerRotation": 1.0, "sysid": True}
-    for key, test in RUNS.items():
-        (a,), (b,) = (side.list_runs_of_test(test) for side in sides)
-        n = min(len(a), len(b))
-        columns = (a.time, a.voltage, b.voltage, a.position, b.position, a.velocity, b.velocity)
-        still = np.zeros(n)
-        document[key] = np.transpose([*(one[:n] for one in columns), still, still]).tolist()
-    path = folder / name
-    path.write_text(json.dumps(document), encoding="utf-8")
-    return path
 
 
 def test_ones_own_gains_are_in_the_json_too(fit, drive):
@@ -120,16 +104,6 @@ def test_request_that_cannot_be_met_is_refused_in_one_line(fit, drive, here, ask
     assert (code, out) == (2, "")
     assert err.count("\n") == 1
     assert list(here.iterdir()) == []
-
-
-def test_sides_that_differ_are_a_doubt_with_numbers(fit, tmp_path):
-    dragging = replace(DRIVE, drag=DRIVE.drag + 0.15)
-
-    _, said, _ = fit(two_sided(tmp_path, right=dragging))
-
-    (doubt,) = [line for line in said.splitlines() if "left and" in line and "kV" in line]
-    assert doubt.startswith("warning: kV is 2.52 left and")
-    assert "agree" not in said
 
 
 def test_a_direction_that_differs_is_said_with_numbers(fit, tmp_path):
