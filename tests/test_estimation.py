@@ -31,8 +31,6 @@ from sim.physics.engine import NO_CORRECTION, RunBatch, filter_runs
 from sim.physics.model import Model, Part
 from sim.physics.velocity_lag import estimate_velocity_lag
 
-NOISE = 1e-3  # [m]
-
 
 def even(count=400, period=0.02):
     return np.arange(count) * period

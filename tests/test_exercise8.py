@@ -16,9 +16,7 @@ from sim.fit import fit
 
 OWN = Exercise("exercise8", ROOT / "exercises" / "exercise8")
 CHECKS = OWN.module
-DRAWN, PREPARATION, COVERAGE = (
-    sys.modules[f"{CHECKS.__name__}.{name}"] for name in ("drawn", "preparation", "coverage")
-)
+DRAWN, PREPARATION = (sys.modules[f"{CHECKS.__name__}.{name}"] for name in ("drawn", "preparation"))
 STUDENTS = tuple(f"student {number}" for number in range(20))
 RAMPS, STEPS = FOUR_TESTS[:2], FOUR_TESTS[2:]
 

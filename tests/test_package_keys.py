@@ -27,7 +27,6 @@ STUDENT = "ann"
 EXERCISES = {one.name: one for one in list_exercises(ROOT)}
 FILLED_IN = [name for name, one in EXERCISES.items() if "answers.toml" in one.files]
 DATA = (".csv", ".wpilog")
-FOUR_DIGITS = re.compile(r"[0.]*[1-9](\.?\d){3}")
 LITTLE = 1 / 3  # [share] of an exercise: what guessing may earn, see test_guessing
 
 SOLVER = """

@@ -11,10 +11,6 @@ from sim.io import read
 pytestmark = [pytest.mark.slow, pytest.mark.shared]
 
 
-MADE_UP = {"encoder-slip", "brownout", "loop-overrun", "mislabelled-test", "stuck-sensor"}
-COMPLETE = ("simple-clean-20ms", "simple-light-5ms", "arm-rad-20ms", "arm-rot-20ms")
-
-
 def told(shared, name):
     """Fault -> the runs it is reported in."""
     found = inspect(read(shared / "data" / "real" / f"{name}.json"))
@@ -134,7 +130,7 @@ LOOKED_AT = {
     ),
     "frc4646+2022-robot~sysid~sysid_data20220306-111930": Seen(SLIPS, lag=140),
 }
-FOUND, FALSE = 0.9, 0.1  # [share] of what was seen, and of the logs in which nothing was
+FOUND = 0.9  # [share] of what was seen
 
 
 @pytest.fixture(scope="session")

@@ -277,11 +277,7 @@ def test_what_is_had_back_at_another_pace_was_no_inertia(joined, size, record, a
     assert not is_contradicted("drag", problem, point, left)
 
 
-BASE = ModelStructure("simple")
 SLACK = 0.02  # [rad]
-STEPS = 3  # downhill
-SOFT = BASE + "compliance"
-BELT = {"softness": 0.02, "share": 0.3, "damping": 0.05, "motor_friction": 0.3}
 
 
 def built(effect="", **values):

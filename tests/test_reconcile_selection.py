@@ -83,10 +83,6 @@ def test_the_likelier_candidate_is_added_or_one_that_closes_far_more(one, other,
     assert choose_next(tried).candidate.effect == taken
 
 
-LIMIT = weighed("current-limit", 491.0, limit=4.3)
-SAG = weighed("battery-sag", 283.0, share=0.6)
-
-
 # -- pairs ----------------------------------------------------------------------------------------
 
 QUICK = recorded(

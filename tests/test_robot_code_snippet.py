@@ -217,7 +217,6 @@ def test_a_rounded_number_is_code_in_both_languages_and_near_the_value(value, er
 
 
 GRAVE = Doubt("negative-gain", "kG = -1 is negative: is forward up in this log?", grave=True)
-MILD = Doubt("late", "The velocity lags by 40 ms.")
 
 
 @pytest.mark.parametrize(

@@ -47,7 +47,6 @@ pytestmark = pytest.mark.slow
 
 BEFORE, AFTER = 16.2, 1.01  # [noises] of the story's log, worked out in the first test
 EXPLAINED = STORIES["explained"]
-PAGES = ("nothing missing", "explained", "damage and drag", "ambiguous", "unexplained")
 
 
 def told(one):

@@ -135,19 +135,6 @@ def test_help_is_there_and_loads_nothing_heavy(name, heavy):
     assert "Usage:" in shown.stdout
 
 
-REAL = [
-    ("frc4646-2022-drivetrain.json", ["--motor", "left"]),
-    ("frc4646-2022-drivetrain.json", ["--motor", "right"]),
-    ("frc4646-2022-drivetrain.json", []),
-    ("frc501-2020-drivetrain.json", ["--motor", "left"]),
-    ("frc501-2020-drivetrain.json", ["--motor", "right"]),
-    ("frc501-2020-drivetrain.json", []),
-    ("sciborgs-2023-elbow-arm.json", []),
-    ("sciborgs-2023-elevator.json", []),
-    ("sciborgs-2023-wrist-arm.json", []),
-]
-
-
 def test_a_fit_is_held_against_the_motor_that_drives_it(drive):
     right = ["--driven-by", "krakenX60", "--count", 4, "--ratio", 6.75, "--load", 60]
     there = sysid("fit", drive, *right, "--radius", 0.0508, folder=drive.parent)
