@@ -43,18 +43,6 @@ def test_students_have_folders_of_their_own_and_each_format_is_written(tmp_path)
     ]
 
 
-def test_both_formats_of_a_log_hold_the_same_numbers(tmp_path):
-    folder = make_dataset(spec(tmp_path, DAMAGED))
-
-    for entry in key(folder)["logs"]:
-        csv, wpilog = (
-            sim.read(folder / file, units=entry["units"]) for file in sorted(entry["files"])
-        )
-        for one, other in zip(csv.runs, wpilog.runs, strict=True):
-            assert one.test == other.test
-            assert np.array_equal(one.velocity, other.velocity)
-
-
 def test_the_same_spec_and_secret_give_the_same_bytes(tmp_path):
     path = spec(tmp_path, DAMAGED)
 

@@ -3,7 +3,6 @@
 import json
 import os
 import shutil
-import subprocess
 from itertools import count
 
 import pytest
@@ -266,31 +265,6 @@ def test_the_key_and_the_secret_are_for_their_owner_only(tmp_path):
     for name in ("data.key.json", "class.secret"):
         path = tmp_path / name
         assert path.stat().st_mode & 0o077 == 0 or path.drive  # a drive letter: Windows
-
-
-@pytest.fixture
-def small_disk(tmp_path):
-    """A disk that a few of PLAIN's logs fill."""
-    disk = tmp_path / "disk"
-    disk.mkdir()
-    mount, umount = (shutil.which(name) or "" for name in ("mount", "umount"))
-    command = [mount, "-t", "tmpfs", "-o", "size=128k", "tmpfs", str(disk)]
-    if not mount or subprocess.run(command, check=False, capture_output=True).returncode:
-        pytest.skip("no disk can be mounted here")
-    yield disk
-    subprocess.run([umount, str(disk)], check=True)
-
-
-def test_a_disk_that_is_really_full_keeps_whole_files_only(tmp_path, small_disk, capsys):
-    path = spec(tmp_path, PLAIN.replace("count = 2", "count = 10"))
-
-    said = refused(capsys, path, "-o", small_disk / "data", "--key", tmp_path / "key.json")
-
-    assert "cannot be written (No space left on device). Make room there" in said
-    there = files(small_disk / "data")
-    whole = files(make_dataset(path, "whole"))
-    assert there
-    assert there.items() < whole.items()
 
 
 @pytest.mark.parametrize("calls", [0, 2])

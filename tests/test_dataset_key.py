@@ -1,6 +1,5 @@
 """The key of a dataset and its secret: what they tell, to whom, and what the data do not tell."""
 
-import hashlib
 from dataclasses import replace
 
 import numpy as np
@@ -95,15 +94,6 @@ def test_the_key_names_the_effects_that_are_hidden_and_they_act(tmp_path):
     assert not [name for name, data in files(folder).items() if clean[name] == data]
 
 
-def test_the_hash_in_the_key_is_that_of_the_file(tmp_path):
-    folder = make_dataset(spec(tmp_path, DAMAGED))
-
-    made = files(folder)
-    hashes = {file: found for log in key(folder)["logs"] for file, found in log["files"].items()}
-
-    assert hashes == {file: hashlib.sha256(data).hexdigest() for file, data in made.items()}
-
-
 def test_nothing_in_the_folder_gives_the_truth_away(tmp_path):
     folder = make_dataset(spec(tmp_path, DAMAGED))
 
@@ -139,16 +129,6 @@ def test_a_secret_is_made_on_first_use_and_kept(tmp_path, capsys):
     assert capsys.readouterr().err == ""
     assert first == again
     assert len((tmp_path / "class.secret").read_text(encoding="utf-8").strip()) == 64
-
-
-def test_two_secrets_that_are_made_differ(tmp_path):
-    made = []
-    for name in ("one", "two"):
-        (tmp_path / name).mkdir()
-        make_dataset(spec(tmp_path / name, DAMAGED, secret=""))
-        made.append((tmp_path / name / "class.secret").read_bytes())
-
-    assert made[0] != made[1]
 
 
 def test_the_environment_may_hold_the_secret(tmp_path, monkeypatch):
