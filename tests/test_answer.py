@@ -281,15 +281,15 @@ def test_a_slip_two_numbers_share_is_named_alone():
         -17.0,
     ],
 )
-def test_without_a_slip_only_the_band_is_told(value, reads):
+def test_a_wrong_number_without_a_known_slip_gets_the_band_only(value, reads):
     reads(wrong("kV", {"kV": value}).hint)
 
 
-def test_a_band_in_volts_is_told_in_volts():
+def test_the_hint_shows_a_band_of_volts_in_volts():
     assert "±0.03 V" in wrong("kS", {"kS": 0.4}).hint
 
 
-def test_a_converted_answer_says_so():
+def test_a_converted_answer_gets_a_note():
     note = judge_number("kV", {"kV": "0.73152 V·s/ft"}, KEY, points=2)
 
     assert note == "0.73152 V·s/ft is 2.4 V·s/m"

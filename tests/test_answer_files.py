@@ -377,7 +377,7 @@ def test_marks_may_come_from_a_spreadsheet_with_semicolons(classroom):
     ["zed,exercise1,1,x", "ann,exercise9,1,x", "ann,exercise1/none,1,x", "ann,exercise1,7,x",
      "ann,exercise1,many,x", "ann,exercise1,1,"],
 )  # fmt: skip
-def test_a_mark_that_means_nothing_is_refused(classroom, capsys, reads, line):
+def test_a_mark_set_by_hand_that_makes_no_sense_is_refused(classroom, capsys, reads, line):
     put(classroom, {"marks.csv": f"student,check,points,why\n{line}\n"})
     command = ["class", str(classroom / "in"), "--exercise", "1"]
 
@@ -449,7 +449,7 @@ def test_a_folder_that_may_be_a_students_leaves_that_student_without_a_mark(clas
     assert rows[1] == "ben,,,3,2 days,unused files"
 
 
-def test_answers_that_hardly_anybody_could_share_are_told(course, tmp_path):
+def test_answers_that_share_rare_lines_are_reported(course, tmp_path):
     from grader.classroom.likeness import find_likenesses  # noqa: PLC0415 - only here
 
     common = "".join(f"common{n} = {n}\n" for n in range(20))
@@ -483,7 +483,7 @@ def test_equal_answers_that_are_right_for_both_students_are_not_reported(course,
     assert len(find_likenesses(there, exercises, graded("ann"))) == 1  # copied, and wrong for ben
 
 
-def test_a_log_that_the_class_made_for_somebody_else_is_told(root, tmp_path):
+def test_another_students_log_is_reported(root, tmp_path):
     """Under another name, too; the log of one's own package is not."""
     from grader.classroom.likeness import find_foreign_logs  # noqa: PLC0415 - only here
 

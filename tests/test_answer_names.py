@@ -126,7 +126,7 @@ def course(tmp_path):
     return tmp_path / "course"
 
 
-def test_the_command_says_it_under_the_verdict_and_in_its_json(course, monkeypatch):
+def test_the_command_prints_an_unknown_name_under_the_verdict_and_in_its_json(course, monkeypatch):
     monkeypatch.chdir(course)
     shown = CliRunner().invoke(command, ["exercise1"]).output.splitlines()
     told = json.loads(CliRunner().invoke(command, ["exercise1", "--json"]).output)
@@ -141,7 +141,9 @@ def test_a_notebook_shows_the_warning_and_proposes_a_name(course):
     assert "Did you mean color?" in str(submit("exercise1", course=course, colour="green"))
 
 
-def test_a_class_gets_it_on_the_students_page_and_in_exports(course, tmp_path, monkeypatch):
+def test_a_class_gets_an_unknown_name_on_the_students_page_and_in_exports(
+    course, tmp_path, monkeypatch
+):
     (tmp_path / "in" / "ann").mkdir(parents=True)
     (tmp_path / "in" / "ann" / "answers.toml").write_text(MISSPELLED, encoding="utf-8")
     monkeypatch.chdir(course)

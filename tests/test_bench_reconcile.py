@@ -111,7 +111,7 @@ def test_a_case_says_what_a_team_knows_and_names_nothing_hidden(finished_run, mo
 
 
 @pytest.mark.slow
-def test_the_solver_is_told_no_more_and_the_key_comes_after_the_answers(finished_run):
+def test_the_solver_gets_no_key_before_its_answers(finished_run):
     where, _ = finished_run
     answers = json.loads((where / "kept" / "answers.json").read_text(encoding="utf-8"))
     key = json.loads((where / "kept" / "key.json").read_text(encoding="utf-8"))

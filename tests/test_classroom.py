@@ -220,7 +220,7 @@ def test_an_answer_is_found_however_it_was_packed(course, tmp_path):
 
 
 @pytest.mark.usefixtures("course")
-def test_a_folder_whose_name_is_no_students_is_said_and_stops_nobody(tmp_path):
+def test_a_folder_whose_name_is_no_students_is_reported_and_stops_nobody(tmp_path):
     there = hand_in(tmp_path / "in", ann=RIGHT, **{"x" * 100: RIGHT})
 
     assert run_command(["class", str(there)]) == 1
@@ -230,7 +230,7 @@ def test_a_folder_whose_name_is_no_students_is_said_and_stops_nobody(tmp_path):
 
 
 @pytest.mark.skipif(not hasattr(os, "symlink") or os.name == "nt", reason="links need a right")
-def test_a_link_is_nobodys_answer(course, tmp_path):
+def test_a_link_is_not_graded_as_an_answer(course, tmp_path):
     place = tmp_path / "in" / "ann" / "exercise1"
     place.mkdir(parents=True)
     (tmp_path / "key.toml").write_text(RIGHT, encoding="utf-8")

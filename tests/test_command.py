@@ -142,7 +142,7 @@ def change_runs(**change):
     return replace(log, runs=tuple(runs))
 
 
-def test_times_in_milliseconds_are_told_to_be_given_in_seconds_and_nothing_else(tmp_path, capsys):
+def test_times_in_milliseconds_get_the_advice_of_seconds_and_no_other(tmp_path, capsys):
     path = tmp_path / "log.csv"
     sim.write(change_runs(time=1000.0), path)
 

@@ -130,7 +130,7 @@ def grade_answer(exercise, text, tmp_path, *, name="ExampleSubsystem.java"):
 
 
 @pytest.mark.parametrize("mistake", WRONG)
-def test_a_wrong_answer_is_told_what_is_wrong(mistake, tmp_path):
+def test_feedback_on_a_wrong_answer_says_what_is_wrong(mistake, tmp_path):
     text, check, said = WRONG[mistake]
 
     found = grade_answer(EXERCISE4, text, tmp_path)[check]

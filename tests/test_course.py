@@ -120,7 +120,7 @@ def test_eight_that_grade_at_once_all_keep_their_scores(course):
     ["", "\n", "student = [", "not toml", "student = 3\n[progress.me]\nexercise1 = 5",
      "progress = 1", "\0", 'student = "/"'],
 )  # fmt: skip
-def test_damaged_progress_is_said_and_each_is_set_aside(course, content, capsys):
+def test_damaged_progress_is_reported_and_each_file_set_aside(course, content, capsys):
     answer(course, RIGHT)
     path = course / PLACE
     path.parent.mkdir()
@@ -161,7 +161,7 @@ def test_a_private_file_and_folder_are_its_owners_from_the_beginning(tmp_path):
     assert (tmp_path / "class" / "page.html").stat().st_mode & 0o600 == 0o600
 
 
-def test_outside_a_course_it_uses_the_one_it_belongs_to(tmp_path):
+def test_outside_a_course_the_installed_one_is_used(tmp_path):
     assert find_course(tmp_path) == ROOT
 
 

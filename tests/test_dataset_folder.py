@@ -168,7 +168,7 @@ def check(path, folder, capsys):
     return code, (shown.out or shown.err).splitlines()
 
 
-def test_what_is_as_it_was_made_passes_the_check(tmp_path, capsys):
+def test_an_unchanged_dataset_passes_the_check(tmp_path, capsys):
     path = spec(tmp_path, DAMAGED)
     folder = make_dataset(path)
 

@@ -181,7 +181,7 @@ def test_no_run_is_too_badly_hurt_to_be_inspected(name, hurts, gone):
 
 
 @pytest.mark.parametrize("step", [1e-9, 1e-6, 5.0, 20.0])
-def test_a_clock_no_robot_has_is_said_and_nothing_is_made_up_from_it(step, drive):
+def test_an_impossible_clock_is_reported_and_no_fault_made_up_from_it(step, drive):
     odd = replace(
         drive,
         runs=tuple(replace(run, time=np.arange(len(run)) * step) for run in drive.runs),

@@ -209,7 +209,7 @@ def test_errors_are_those_of_repeated_fits():
     )
 
 
-def test_an_elevator_that_only_goes_up_tells_friction_from_weight_never():
+def test_an_elevator_that_only_goes_up_never_separates_friction_from_weight():
     errors = compute_information(UP, type="elevator", noise=0.05).errors
     assert math.isinf(errors["kS"])
     assert math.isinf(errors["kG"])
@@ -226,7 +226,7 @@ def test_an_elevator_that_only_goes_up_tells_friction_from_weight_never():
     ],
     ids=["no rows", "no such type", "no noise"],
 )
-def test_what_cannot_be_told_is_refused_with_advice(ask, advice):
+def test_what_cannot_be_identified_is_refused_with_advice(ask, advice):
     with pytest.raises(BadRequest, match=advice):
         ask()
 

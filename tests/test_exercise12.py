@@ -102,7 +102,7 @@ def test_the_second_effect_named_first_costs_three_points(tmp_path):
     assert {results[one].status for one in ("all-effects", "held-out", "justified")} == {"passed"}
 
 
-def test_one_of_three_alone_is_part_of_the_way(tmp_path):
+def test_one_named_effect_of_three_earns_a_part(tmp_path):
     student = hiding(3)
     some = ROOM.draw(student).hidden[:1]
     results = grade_answer(truth(student, names=some), student, tmp_path)

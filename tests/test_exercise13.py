@@ -85,7 +85,7 @@ def test_gains_of_the_wrong_log_are_named(copy, student):
 
 
 @pytest.mark.parametrize("student", TWO)
-def test_the_spin_tells_the_radius_of_each_wheel(copy, student):
+def test_the_radius_of_each_wheel_follows_from_the_spin(copy, student):
     data, variant = data_of(copy, student), OWN.module.draw(student)
     given = tomllib.loads((data / "given.toml").read_text("utf-8"))
     angle = math.radians(given["spin"]["gyro"])

@@ -83,7 +83,7 @@ def test_theory_is_what_the_bench_says_of_the_same_parts():
     )
 
 
-def test_the_file_tells_of_every_planted_trouble_and_of_no_other(copy):
+def test_the_file_shows_every_planted_trouble_and_no_other(copy):
     """Ratio, radius, what was logged and what is hot: two lines disagree where something is off."""
     for student in CLASS:
         copy.prepare(student, say=lambda _: None)
@@ -113,7 +113,7 @@ def test_a_difference_that_follows_from_a_wrong_theory_earns_half(copy, times):
 
 
 @pytest.mark.parametrize("given", ["bookkeeping", "ok", "watch", "inspect"])
-def test_a_wrong_verdict_is_not_told_the_right_one(copy, given):
+def test_the_hint_on_a_wrong_verdict_does_not_name_the_right_one(copy, given):
     for student in CLASS[:12]:
         verdict = OWN.module.draw(student).verdict
         found = grade_answer(copy, student=student, verdict=given)["verdict"]
@@ -208,7 +208,7 @@ def test_volts_for_each_radian_and_a_counted_motor_are_named(copy):
             assert ("do not turn faster than one" in half.hint) == (parts.motors == 2), student
 
 
-def test_a_verdict_that_follows_from_a_wrong_difference_is_told_to_correct_that_first(copy):
+def test_the_hint_on_a_verdict_from_a_wrong_difference_asks_to_correct_that_first(copy):
     student = student_who(lambda one: one.verdict == "bookkeeping")
     variant = OWN.module.draw(student)
     theory = variant.measured / 1.5  # a theory that is much too small

@@ -40,7 +40,7 @@ def test_twenty_students_can_solve_theirs_and_no_row_passes_for_horizontal(copy)
 
 
 @pytest.mark.parametrize("student", ["ann", "ben", "zoë"])
-def test_the_mean_of_all_middles_is_told_as_such_and_not_as_an_edge(copy, student):
+def test_the_mean_of_all_middles_is_named_and_not_taken_for_an_edge(copy, student):
     rows = OWN.module.draw(student).arm
     mean = sum(row.middle for row in rows) / len(rows)
 

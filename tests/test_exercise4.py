@@ -272,7 +272,7 @@ WRONG = {  # the change, the check that has to fail, and what its author is told
 
 
 @pytest.mark.parametrize("case", WRONG)
-def test_wrong_code_is_told_by_what_the_robot_did(case, tmp_path):
+def test_wrong_code_is_explained_by_what_the_robot_did(case, tmp_path):
     change, check, said = WRONG[case]
     found = {one.id: one for one in graded(tmp_path, change).checks}[check]
 
@@ -342,7 +342,7 @@ def test_steering_that_a_loop_holds_straight_is_no_mistake(tmp_path):
     assert found["drive"].status == found["open-loop"].status == "passed"
 
 
-def test_torque_current_is_told_as_no_voltage(tmp_path):
+def test_torque_current_is_reported_as_no_voltage(tmp_path):
     found = graded_program(tmp_path, "advantagekit_template_torque", "Drive.java")
 
     assert found["drive"].status == found["open-loop"].status == "failed"

@@ -120,7 +120,7 @@ def test_test_that_nobody_holds_loses_points(case, tmp_path):
     assert {found["held"].status, found["guard"].status} != {"passed"}
 
 
-def test_autonomous_command_that_is_a_test_is_told(tmp_path):
+def test_autonomous_command_that_is_a_test_is_reported(tmp_path):
     method = (
         "  public Command getAutonomousCommand() {\n"
         "    return m_subsystem.sysIdDynamic(SysIdRoutine.Direction.kForward);\n  }\n"

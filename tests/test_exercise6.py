@@ -144,7 +144,7 @@ def test_the_bench_stands_where_the_plan_says(kind):
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_a_log_made_by_a_plan_that_keeps_the_rules_tells_the_gains(kind):
+def test_a_log_made_by_a_plan_that_keeps_the_rules_determines_the_gains(kind):
     """With the bench's own noise and SysId's recipe: kV within 3, kA 20, kG 4 %."""
     for number, student in enumerate(CLASS[:4]):
         variant = OWN.module.draw(student)

@@ -98,9 +98,7 @@ def test_twenty_students_get_twelve_solvable_logs_and_all_of_the_faults_come_up(
     ],
 )
 @pytest.mark.parametrize("student", ["ann", "ben", "zoë"])
-def test_repeated_readings_that_are_taken_for_something_else_are_told(
-    student, taken_for, reads, tmp_path
-):
+def test_repeated_readings_taken_for_another_fault_get_a_hint(student, taken_for, reads, tmp_path):
     cases = CHECKS.draw(student)
     (place,) = (
         n for n, one in enumerate(cases) if [d.fault for d in one.damage] == ["stale-samples"]
@@ -203,7 +201,7 @@ def test_half_a_sample_off_is_forgiven_where_damage_is_short():
         (" + ".join(LINE.FAULTS), "13 faults"),
     ],
 )
-def test_a_line_that_cannot_be_read_is_told_why(raw, says):
+def test_a_line_that_cannot_be_read_gets_the_reason(raw, says):
     with pytest.raises(WrongAnswer) as wrong:
         LINE.read_claims(raw)
 

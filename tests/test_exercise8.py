@@ -79,7 +79,7 @@ def test_the_standstill_may_be_trimmed_instead_of_dropped_by_a_threshold():
 
 
 @pytest.mark.parametrize("median", [1, 3, 5])
-def test_who_keeps_everything_earns_nothing_for_it(median):
+def test_keeping_every_sample_earns_nothing(median):
     for student in ("ann", "ben", "zoë"):
         earned = points(DRAWN.Preparation({}, 0.0, median), student=student)
 

@@ -100,7 +100,7 @@ def test_answers_are_taken_out_in_both_languages():
         ("solutions/exercise3/mistakes.py", ("elevator-kg", "elevator-k"), "names no check"),
     ],
 )  # fmt: skip
-def test_what_is_wrong_with_an_exercise_is_told(file, change, told, course, capsys):
+def test_check_course_says_what_is_wrong_with_an_exercise(file, change, told, course, capsys):
     text = (course / file).read_text(encoding="utf-8")
     assert change[0] in text
     (course / file).write_text(text.replace(*change), encoding="utf-8")

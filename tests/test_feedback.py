@@ -198,7 +198,7 @@ def test_a_suggestion_that_turns_the_wrong_way_comes_with_one_that_settles():
     assert judge_step_response(took).is_good
 
 
-def test_the_learners_own_gains_are_tried_and_told_but_not_doubted():
+def test_the_learners_own_gains_are_tried_and_reported_without_a_warning():
     tried = try_feedback_gains(
         found(), PRESETS["default"], own=OwnGains("position", Feedback(600.0, 0.0))
     )
@@ -210,7 +210,7 @@ def test_the_learners_own_gains_are_tried_and_told_but_not_doubted():
     assert warn_of_bad_suggestions(found(), tried) == ()
 
 
-def test_the_logs_delay_is_the_default_presets_and_no_others():
+def test_the_measured_delay_is_used_with_the_default_preset_only():
     late = found(velocity_delay=0.14, position_delay=0.02)
 
     assert choose_feedback_delay(late, PRESETS["default"], loop="velocity") == 0.14

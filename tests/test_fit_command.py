@@ -72,7 +72,7 @@ def test_a_suggestion_that_does_not_settle_is_a_warning(fit, tmp_path):
     assert "unsettled-feedback" in [one["code"] for one in json.loads(data)["warnings"]]
 
 
-def test_page_and_picture_are_written_beside_what_is_said(fit, drive, tmp_path):
+def test_page_and_picture_are_written_beside_the_printed_table(fit, drive, tmp_path):
     html, plot = tmp_path / "drive.html", tmp_path / "drive.svg"
 
     code, said, err = fit(drive, "--html", html, "--plot", plot, "--json")
@@ -106,7 +106,7 @@ def test_request_that_cannot_be_met_is_refused_in_one_line(fit, drive, here, ask
     assert list(here.iterdir()) == []
 
 
-def test_a_direction_that_differs_is_said_with_numbers(fit, tmp_path):
+def test_a_direction_that_differs_is_reported_with_numbers(fit, tmp_path):
     # a sensor that reads a tenth too little in reverse: kV and kA are a tenth too large there
     log = simulate(DRIVE, SHORT, rng=np.random.default_rng(2))
     runs = tuple(
@@ -136,7 +136,7 @@ def test_a_long_log_is_not_fitted_three_times_unless_for_a_page(fit, drive, tmp_
     assert "not compared" not in patient
 
 
-def test_units_that_contradict_the_file_are_the_first_thing_said(tmp_path, fit):
+def test_units_that_contradict_the_file_are_reported_first(tmp_path, fit):
     arm = simulate(MECHANISMS["arm"], Routine(), rng=np.random.default_rng(1))
     path = tmp_path / "arm.wpilog"
     sim.write(replace(arm, units="rotations"), path)

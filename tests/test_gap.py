@@ -160,7 +160,7 @@ def twice(plant, other):
     ],
     ids=["the same twice", "elsewhere", "the other way", "weaker", "only noise"],
 )
-def test_what_comes_again_is_told_from_what_does_not(plant, other, verdict):
+def test_repeatable_residuals_are_distinguished_from_random_ones(plant, other, verdict):
     (found,) = map_gap(twice(plant, other), noise=NOISE).repeats
 
     assert (found.verdict, found.runs) == (verdict, (0, 1))

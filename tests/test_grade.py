@@ -33,7 +33,9 @@ def test_the_verdict_comes_first_and_the_exit_code_says_the_same(
     assert capsys.readouterr().out.startswith(verdict)
 
 
-def test_a_wrong_answer_is_told_what_was_seen_why_and_what_to_try(course, capsys, reads):
+def test_feedback_on_a_wrong_answer_shows_the_value_the_reason_and_what_to_try(
+    course, capsys, reads
+):
     answer(course, "size = 1")
     run_command(["1"])
     out = capsys.readouterr().out
@@ -246,7 +248,7 @@ def test_hints_come_one_by_one_and_then_all_again(capsys, reads):
         reads(text)
 
 
-def test_without_a_name_it_shows_how_far_one_is_and_what_is_next(course, capsys, reads):
+def test_grade_without_a_name_shows_progress_and_the_next_step(course, capsys, reads):
     assert run_command([]) == 0
     reads(capsys.readouterr().out)
     answer(course, RIGHT)

@@ -218,7 +218,7 @@ def test_answers_given_before_an_end_are_kept(apart_run, end, reads):
 
 
 @pytest.mark.usefixtures("each_level")
-def test_a_flood_of_output_is_dropped_and_said(apart_run):
+def test_a_flood_of_output_is_dropped_and_reported(apart_run):
     text = "def fit(number):\n    for _ in range(50): print('x' * 1_000_000)\n    return {'n': 1}\n"
     outcome = apart_run(text, limits=Limits(seconds=30.0))
 

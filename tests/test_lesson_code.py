@@ -28,7 +28,7 @@ def check():
     )
 
 
-def test_each_answer_is_told_something(check):
+def test_each_answer_to_a_lessons_question_gets_feedback(check):
     assert check.feedback == ""
     assert check.answer("kS") == "Not yet. Friction is the same."
     assert check.answer("kA") == "Right. Mass."
@@ -73,7 +73,7 @@ def test_a_number_is_diagnosed(given, said):
     assert said in check.answer(given)
 
 
-def test_what_is_typed_is_told_the_same():
+def test_a_typed_answer_gets_the_same_feedback():
     check = NumberQuestion("Half of 3?", 1.5)
     _, typed, told = check._box.children
     typed.value = "3"

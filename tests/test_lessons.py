@@ -203,7 +203,7 @@ def test_a_lesson_has_the_anatomy_of_the_source_lesson(text):
 
 @pytest.mark.shared
 @each_lesson
-def test_what_the_lesson_is_said_to_say_it_says(text, shared):
+def test_quotes_of_the_source_lesson_stand_in_it(text, shared):
     source = _plain((shared / "source-lesson.md").read_text(encoding="utf-8"))
     for quote in re.findall(r"(?:^# >.*\n)+", text.read_text(encoding="utf-8"), re.MULTILINE):
         words = _plain(re.sub(r"^# > ?", "", quote, flags=re.MULTILINE))

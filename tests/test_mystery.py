@@ -53,7 +53,7 @@ def test_the_same_seed_draws_the_same_mystery_whatever_the_class():
         assert np.array_equal(one.velocity, other.velocity)
 
 
-def test_a_fault_in_the_wrong_place_earns_a_part_and_says_so():
+def test_a_fault_in_the_wrong_place_earns_a_part_and_gets_a_hint():
     every = (drawn(FAULTS, seed, 1) for seed in SEEDS[FAULTS])
     mystery = next(one for one in every if " to " in one.solution)
     fault, test, _, action = mystery.solution.split(", ")

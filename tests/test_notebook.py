@@ -147,7 +147,7 @@ def test_number_of_numpy_counts_as_an_answer(size):
         ({"size": np.array([3, 4])}, "cannot be written down"),
     ],
 )
-def test_what_cannot_be_an_answer_is_said_and_changes_nothing(course, answers, said):
+def test_what_cannot_be_an_answer_is_refused_and_changes_nothing(course, answers, said):
     shown = submit(1, **answers)
 
     assert said in str(shown)

@@ -189,7 +189,7 @@ def test_a_solver_that_only_reads_the_package_earns_what_guessing_earns(common, 
     )
 
 
-def test_at_home_a_class_practices_what_it_computes_and_is_told_who_checks_the_rest(common):
+def test_a_class_package_grades_numbers_at_home_and_names_who_checks_the_words(common):
     course, has_keys = common
     third, eleventh = (
         Exercise(name, course / "exercises" / name) for name in ("exercise3", "exercise11")

@@ -136,7 +136,7 @@ def test_a_wrong_unit_in_the_log_is_named(kind, factor):
         ("drivetrain", {"ratio": 8.14}, "ka-above-theory", "the inverse factor"),
     ],
 )
-def test_wrong_parts_are_caught_and_what_would_fit_is_said(kind, wrong, code, named):
+def test_wrong_parts_are_caught_and_fitting_ones_proposed(kind, wrong, code, named):
     parts = replace(true_parts(MECHANISMS[kind]), **wrong)
 
     assert named in about(check_plausibility(found_in(kind), parts=parts), code)
@@ -166,7 +166,7 @@ def test_an_ideal_motor_with_a_little_drag_is_within_theory(name):
     ("drag", "code"),
     [(0.05, None), (0.15, "kv-drag"), (0.3, "kv-above-theory")],
 )
-def test_drag_is_told_by_its_size(drag, code):
+def test_drag_is_reported_with_its_size(drag, code):
     mechanism = replace(MECHANISMS["drivetrain"], drag=drag)
     said = check_plausibility(fit(recorded(mechanism)), parts=true_parts(mechanism))
 

@@ -23,7 +23,7 @@ PICTURES = {
     [(1.76, "lower edge"), (2.265, "upper edge"), (2.01, "middle"), (2.1, "inside"),
      (1.5, "below it"), (2.4, "above it")],
 )  # fmt: skip
-def test_a_mark_is_told_where_in_the_window_it_lies(volts, said):
+def test_a_mark_has_its_place_in_the_window_in_the_table(volts, said):
     table = plot_hold_window(VOLTS, SPEEDS, window=(1.76, 2.26), marks={"mark": volts}).table
     assert table.rows == (("mark", volts, said),)
 

@@ -66,7 +66,7 @@ def test_damage_is_hatched_in_the_color_of_its_curve(run, panels):
     ],
     ids=["the log", "no run", "a test of another kind"],
 )
-def test_damage_that_no_panel_can_show_is_told(damage):
+def test_damage_that_no_panel_can_show_stands_in_the_alt_text(damage):
     log = replace(FOUR, runs=(*FOUR.runs, run_of("coast-forward")))
     picture = plot_time_series(log, damages=[damage])
     assert damage.fault in picture.alt

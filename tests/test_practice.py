@@ -145,7 +145,7 @@ def test_a_poor_fit_asks_what_is_suspected(tmp_path, solved):
         ({"language": '""'}, "constants-named", "language"),
     ],
 )
-def test_what_is_missing_is_told_and_no_crash(tmp_path, solved, changed, check, says):
+def test_a_missing_answer_gets_a_hint_and_no_crash(tmp_path, solved, changed, check, says):
     answers, found = robot(tmp_path)
     results = grade_answer(tmp_path, {**solved, **constants(found)}, **{**answers, **changed})
     first = next(one for one in results.values() if one.id.startswith(check.partition("-")[0]))

@@ -231,7 +231,7 @@ def test_a_command_says_its_version(name):
     assert done.stdout.strip().endswith(f"version {PROJECT['version']}")
 
 
-def test_the_newest_python_is_said_alike_everywhere():
+def test_the_newest_python_is_the_same_everywhere():
     newest = ".".join(map(str, NEWEST))
     classified = [one.rpartition(" ")[2] for one in PROJECT["classifiers"] if "3." in one]
 

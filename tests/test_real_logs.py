@@ -139,7 +139,7 @@ def inspected(real_logs):
     return {name: inspect(read(real_logs / f"{name}.json")) for name in LOOKED_AT}
 
 
-def test_what_is_seen_is_found(inspected):
+def test_inspect_finds_the_faults_seen_by_eye(inspected):
     wanted = {
         (name, fault, run)
         for name, seen in LOOKED_AT.items()
@@ -165,7 +165,7 @@ def test_nothing_is_made_up(inspected, name):
 
 
 @pytest.mark.parametrize("name", [name for name, seen in LOOKED_AT.items() if seen.lag is not None])
-def test_the_delay_of_the_velocity_is_told_and_none_made_up(inspected, name):
+def test_the_delay_of_the_velocity_is_found_and_none_made_up(inspected, name):
     lag = LOOKED_AT[name].lag
     said = [doubt for doubt in inspected[name].doubts if doubt.code == "velocity-lags"]
 

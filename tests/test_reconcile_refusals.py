@@ -79,7 +79,7 @@ def test_log_that_cannot_answer_is_refused_in_one_line(log, kind):
 
 @pytest.mark.parametrize("role", ["validation", "held_out"])
 @pytest.mark.parametrize("log", BESIDE.values(), ids=BESIDE)
-def test_log_of_something_else_is_refused_beside_a_good_one(role, log):
+def test_second_log_that_cannot_be_compared_is_refused_by_its_name(role, log):
     with pytest.raises(Refusal) as refused:
         reconcile(LOG, type="simple", **{role: log})
 
@@ -92,7 +92,7 @@ def test_log_of_something_else_is_refused_beside_a_good_one(role, log):
         {"type": "arm"}, {"type": "turret"}, *({"travel": one} for one in (0.5, -1.0, math.nan)),
     ],
 )  # fmt: skip
-def test_wrong_word_about_a_log_is_refused(words):
+def test_impossible_type_or_travel_is_refused(words):
     with pytest.raises(BadRequest):
         reconcile(LOG, **{"type": "simple", **words})
 

@@ -142,7 +142,7 @@ def test_a_swing_is_found_at_its_rate_though_it_passes_for_pushes_at_random(seed
     assert ResidualSummary.summarize(problem, point).is_periodic
 
 
-def test_a_wave_along_the_way_is_told_as_a_habit_of_places():
+def test_a_wave_along_the_position_is_reported_as_repeated_by_place():
     wave = Part("cogging", {"cosine": 0.25, "sine": 0.0, "turns": 3.0})
 
     left = ResidualSummary.summarize(*found_peak(rhythm_session(wave, seed=2))[:2])

@@ -40,7 +40,7 @@ def lifted(sunk):
 
 
 @pytest.mark.parametrize("way", [1.0, -1.0])
-def test_what_stays_where_it_began_lies_on_its_stop_there(way):
+def test_a_mechanism_that_stays_where_it_began_lies_on_its_stop(way):
     found = record(way * lifted(0.0))
 
     assert (found.low if way > 0.0 else found.high) == 0.16
@@ -65,7 +65,7 @@ def test_what_sinks_far_lies_on_nothing(way):
 
 @pytest.mark.parametrize("way", [1.0, -1.0])
 @pytest.mark.parametrize(("beyond", "stops"), [(0.02, False), (0.0, True)])
-def test_a_place_that_it_later_passes_is_no_stop(way, beyond, stops):
+def test_a_place_that_the_mechanism_later_passes_is_no_stop(way, beyond, stops):
     there = 3.0 * np.sin(np.clip((TIME - 0.5) / 2.5, 0.0, 1.0) * np.pi)
     found = record(way * (there - beyond * np.clip(TIME - 3.0, 0.0, 1.0)))
 

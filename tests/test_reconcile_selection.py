@@ -140,7 +140,7 @@ def test_two_effects_that_mask_each_other_are_tried_as_a_pair(monkeypatch, score
         ([("delay", 90.0, 0.9)], False, []),  # less than a quarter of what drag explains
     ],
 )
-def test_another_path_begins_where_an_admitted_candidate_came_near(others, by_gap, begun):
+def test_a_second_search_begins_with_a_candidate_that_scored_nearly_as_well(others, by_gap, begun):
     tried = tuple(
         weighed(name, score, gap=gap) for name, score, gap in (("drag", 400.0, 0.9), *others)
     )
@@ -279,7 +279,7 @@ def test_each_piece_of_evidence_counts_as_it_should(name, by, likelier):
 
 
 @given(times=st.floats(0.2, 10.0))
-def test_the_size_is_told_in_everyday_sizes(times):
+def test_the_size_of_an_effect_is_given_in_everyday_sizes(times):
     # The largest everyday lag, times a factor, is that factor in everyday sizes.
     (lag,) = EFFECTS["delay"].parameters
 

@@ -173,7 +173,7 @@ def test_arm_without_a_position_is_refused(tmp_path, capsys):
 
 @pytest.mark.parametrize("share", [0.03, 0.12])
 @pytest.mark.parametrize("name", ["drivetrain", "shooter", "elevator", "arm"])
-def test_truncated_velocity_is_told_as_such_and_fitted(name, share):
+def test_a_truncated_velocity_is_reported_and_fitted(name, share):
     log = simulate(MECHANISMS[name], Routine(), rng=np.random.default_rng(2))
     step = share * log.top_speed
     cut = change(log, velocity=lambda run: np.trunc(run.velocity / step) * step)

@@ -357,7 +357,7 @@ def test_kp_is_that_of_sysid_per_unit_and_second_of_the_target():
     assert spark["kP"] == pytest.approx(60.0 * per_minute, rel=0.005)
 
 
-def test_an_arm_of_phoenix_6_is_told_what_its_sensor_reads_when_level():
+def test_the_code_for_an_arm_of_phoenix_6_says_what_its_sensor_reads_when_level():
     known = values(write_robot_code(fit_in("arm", "radians"), target="phoenix6"))
 
     assert known["kLevelReading"] == pytest.approx(0.3728 / TURN, abs=1e-4)
@@ -386,7 +386,7 @@ def test_what_no_controller_should_get_is_refused(type_, target, changes, said):
 
 
 @pytest.mark.parametrize("target", sorted({*TARGETS} - {"python"}))
-def test_the_command_writes_it(target, tmp_path, capsys):
+def test_the_command_prints_robot_code(target, tmp_path, capsys):
     path = tmp_path / "drive.csv"
     routine = Routine(ramp=0.5, step=3.5, timeout=3.0)
     sim.write(simulate(sim.MECHANISMS["drivetrain"], routine, rng=np.random.default_rng(2)), path)

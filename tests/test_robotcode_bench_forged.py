@@ -236,7 +236,7 @@ def test_what_robot_programs_do_is_not_refused(tmp_path, text):
         ),
     ],
 )  # fmt: skip
-def test_a_crash_tells_its_line_and_where_it_was(tmp_path, changes, line, said, where):
+def test_a_crash_is_reported_with_its_line_and_its_callback(tmp_path, changes, line, said, where):
     stop = ran(tmp_path, changed(*changes)).stop
 
     assert stop.outcome is Outcome.CRASHED
@@ -274,7 +274,7 @@ def test_an_endless_loop_is_ended_and_its_line_named(tmp_path):
     assert stop.line in {39, 40}
 
 
-def test_an_endless_loop_that_lets_nothing_stop_it_is_ended(tmp_path):
+def test_an_endless_loop_that_catches_every_exception_is_ended(tmp_path):
     text = changed(("        self.right.setVoltage(voltage)", HIDING))
     run = ran(tmp_path, text, seconds=4)
 

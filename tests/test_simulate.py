@@ -122,7 +122,7 @@ def test_a_test_too_short_to_record_is_refused(routine, period, said):
     assert said in str(refused.value)
 
 
-def test_a_brownout_is_said_and_only_then():
+def test_a_brownout_is_reported_only_where_one_happened():
     weak = replace(MECHANISMS["drivetrain"], battery=Battery(11.0, 0.05))
     hard = Routine(ramp=1.0, step=7.0)
 

@@ -132,7 +132,7 @@ def test_a_script_or_a_second_start_asks_nothing(monkeypatch, arguments):
 
 
 @pytest.mark.parametrize("variable", starting.IN_JUPYTER)
-def test_inside_jupyter_it_changes_the_name_and_opens_nothing(
+def test_start_inside_jupyter_changes_the_name_and_opens_nothing(
     course, monkeypatch, capsys, variable
 ):
     monkeypatch.setenv(variable, "1")
@@ -206,7 +206,7 @@ def test_ctrl_c_before_jupyterlab_is_quiet_too(course, capsys):
 
 
 @pytest.mark.usefixtures("course")
-def test_without_jupyterlab_it_says_how_to_get_it(monkeypatch, capsys):
+def test_start_without_jupyterlab_says_how_to_install_it(monkeypatch, capsys):
     find = starting.importlib.util.find_spec
     monkeypatch.setattr(
         starting.importlib.util,
@@ -218,7 +218,7 @@ def test_without_jupyterlab_it_says_how_to_get_it(monkeypatch, capsys):
     assert "python -m pip install jupyterlab" in capsys.readouterr().err
 
 
-def test_without_lessons_it_opens_the_course_itself(course):
+def test_start_without_lessons_opens_the_course_itself(course):
     for lesson in (course / "lessons").glob("*.ipynb"):
         lesson.unlink()
 
@@ -227,7 +227,7 @@ def test_without_lessons_it_opens_the_course_itself(course):
 
 
 @pytest.mark.usefixtures("course")
-def test_where_grade_cannot_be_typed_it_says_what_to_type(monkeypatch, capsys):
+def test_start_says_what_to_type_where_grade_is_not_on_the_path(monkeypatch, capsys):
     monkeypatch.setattr(starting, "_is_on_path", lambda _command: False)
     monkeypatch.setattr(starting.sys, "prefix", str(Path.cwd() / ".venv"))
     run_command(["start", "--no-lab"])
@@ -237,7 +237,7 @@ def test_where_grade_cannot_be_typed_it_says_what_to_type(monkeypatch, capsys):
     assert "python -m grader exercise4" in out
 
 
-def test_each_system_is_told_its_own_way_to_activate():
+def test_each_system_gets_its_own_way_to_activate():
     place = Path("elsewhere") / ".venv"
 
     assert starting.describe_activation(place, windows=False) == f"source {place}/bin/activate"
@@ -422,7 +422,7 @@ def test_the_command_refuses_in_one_line(tmp_path, monkeypatch, capsys):
     assert said.count("\n") == 1
 
 
-def test_outside_of_a_course_it_says_how_to_make_one(tmp_path, monkeypatch, capsys):
+def test_start_outside_of_a_course_says_how_to_make_one(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr("grader.course.__file__", str(tmp_path / "grader" / "course.py"))
 

@@ -85,7 +85,7 @@ def test_the_student_on_the_roster_is_found(tmp_path, name, student):
     assert people(tmp_path, CANVAS).find(name) == student
 
 
-def test_a_name_that_two_students_have_is_nobodys(tmp_path):
+def test_a_name_that_two_students_have_is_given_to_neither(tmp_path):
     both = people(tmp_path, "student,name\na1,Kim Lee\na2,Lee Kim\n")
 
     assert both.find(SubmissionName("Kim Lee")) is None
@@ -223,7 +223,7 @@ def test_a_file_of_the_course_or_of_a_computer_is_not_named(tmp_path, four, path
     assert (one.files, one.unused, one.problems) == ({}, (), {})
 
 
-def test_the_authored_files_of_an_exercise_are_nobodys_answer(tmp_path):
+def test_the_authored_files_of_an_exercise_are_not_graded_as_an_answer(tmp_path):
     course = list_exercises(ROOT)
     for one in course:
         shutil.copytree(one.folder, tmp_path / "in" / "ann" / one.name)
@@ -286,7 +286,7 @@ def test_one_exercise_alone_is_found_in_a_whole_course_and_in_a_flat_folder(tmp_
     assert ben.files == {"exercise1": {"my answers.toml": HALF.encode()}}
 
 
-def test_a_stranger_is_told_with_the_likely_student_and_not_graded(tmp_path, course, reads):
+def test_a_stranger_is_reported_with_the_likely_student_and_not_graded(tmp_path, course, reads):
     place = tmp_path / "in" / "Jane Dow" / "exercise1"
     place.mkdir(parents=True)
     (place / "answers.toml").write_text(RIGHT, encoding="utf-8")

@@ -93,7 +93,7 @@ def test_a_row_of_ten_whose_right_side_is_unused_is_one_mechanism(
     assert log.doubts == ()
 
 
-def test_the_nine_columns_of_2019_are_told_from_those_of_sysid_by_the_battery(
+def test_the_nine_columns_of_2019_are_distinguished_from_sysids_by_the_battery(
     tmp_path: Path,
 ) -> None:
     made = {key: [row[:9] for row in rows] for key, rows in document(10).items()}

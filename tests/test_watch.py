@@ -274,7 +274,7 @@ def test_without_pyntcore_one_line_says_what_to_install(tmp_path):
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows sends Ctrl-C to all of a console")
-def test_ctrl_c_ends_it_with_the_gains_of_the_file(tmp_path, content):
+def test_ctrl_c_ends_the_watch_with_the_gains_of_the_file(tmp_path, content):
     path = tmp_path / "drive.wpilog"
     path.write_bytes(content)
     code = (  # whatever started these tests may have it ignore Ctrl-C
