@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from open_page import BROKEN, ask, ask_json, served, slipped_log, write_log
+from sysid_process import run_sysid
 
 from sim.cli.open.session import LiveView, Session
 from sim.fit import fit
@@ -205,10 +206,7 @@ def test_a_dropped_name_becomes_a_file_in_the_sessions_folder(tmp_path, given, n
 
 def test_a_taken_port_is_refused_in_one_line(server):
     port = str(server.server_address[1])
-    done = subprocess.run(
-        [sys.executable, "-c", "from sim.cli import main; main()", "open", "--port", port],
-        capture_output=True, encoding="utf-8", check=False, timeout=60,
-    )  # fmt: skip
+    done = run_sysid("open", "--port", port)
 
     assert done.returncode == 2
     assert f"port {port} cannot be used" in done.stderr

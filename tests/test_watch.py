@@ -12,6 +12,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from small_course import HALF, RIGHT, answer
+from sysid_process import START, run_sysid
 
 from grader import doctor
 from grader.cli import run_command
@@ -38,7 +39,6 @@ from sim.plot.consequence import Trace, make_profile_traces, plot_consequence
 from sim.report.next_test import ENOUGH, advise_next, find_settled_step, find_voltage_limit
 
 READ = LogReader().read_file
-SYSID = [sys.executable, "-c", "from sim.cli import main; main()"]
 
 
 def drive_log(seed=1, **routine):
@@ -251,10 +251,7 @@ def test_a_settled_step_has_95_percent_of_its_speed_at_the_end_of_the_way(kv, ka
     ],
 )
 def test_what_cannot_be_followed_is_refused_in_one_line(tmp_path, arguments, said):
-    done = subprocess.run(
-        [*SYSID, "watch", *arguments],
-        cwd=tmp_path, capture_output=True, encoding="utf-8", check=False, timeout=60,
-    )  # fmt: skip
+    done = run_sysid("watch", *arguments, folder=tmp_path)
 
     assert (done.returncode, done.stdout) == (2, "")
     assert said in done.stderr
@@ -262,11 +259,8 @@ def test_what_cannot_be_followed_is_refused_in_one_line(tmp_path, arguments, sai
 
 
 def test_without_pyntcore_one_line_says_what_to_install(tmp_path):
-    code = "import sys; sys.modules['ntcore'] = None; from sim.cli import main; main()"
-    done = subprocess.run(
-        [sys.executable, "-c", code, "watch", "--nt", "localhost"],
-        cwd=tmp_path, capture_output=True, encoding="utf-8", check=False, timeout=60,
-    )  # fmt: skip
+    hidden = "import sys; sys.modules['ntcore'] = None"
+    done = run_sysid("watch", "--nt", "localhost", folder=tmp_path, before=hidden)
 
     assert (done.returncode, done.stdout) == (2, "")
     assert 'needs pyntcore. Install it with: python -m pip install "pyntcore' in done.stderr
@@ -278,8 +272,7 @@ def test_ctrl_c_ends_the_watch_with_the_gains_of_the_file(tmp_path, content):
     path = tmp_path / "drive.wpilog"
     path.write_bytes(content)
     code = (  # whatever started these tests may have it ignore Ctrl-C
-        "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)\n"
-        "from sim.cli import main; main()"
+        f"import signal; signal.signal(signal.SIGINT, signal.default_int_handler)\n{START}"
     )
     running = subprocess.Popen(
         [sys.executable, "-c", code, "watch", str(path)],
@@ -291,10 +284,7 @@ def test_ctrl_c_ends_the_watch_with_the_gains_of_the_file(tmp_path, content):
         assert said[-1], running.stderr.read()
     running.send_signal(signal.SIGINT)
     rest, errors = running.communicate(timeout=60)
-    found = subprocess.run(
-        [*SYSID, "fit", str(path)],
-        capture_output=True, encoding="utf-8", check=False, timeout=60,
-    )  # fmt: skip
+    found = run_sysid("fit", path)
 
     assert (running.returncode, errors) == (0, "")
     assert rest[rest.index("Verdict") :].strip() == found.stdout.strip()
