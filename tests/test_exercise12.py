@@ -67,15 +67,15 @@ def hiding(count):
     )
 
 
-def test_five_students_have_an_answer_that_earns_everything(tmp_path):
+def test_students_with_one_two_and_three_effects_have_an_answer_that_earns_everything(tmp_path):
     drawn = set()
-    for number in range(5):
+    for number in (0, 2, 3):
         results = grade_answer(truth(f"student {number}"), f"student {number}", tmp_path)
-        drawn.add(ROOM.draw(f"student {number}").hidden)
+        drawn.add(len(ROOM.draw(f"student {number}").hidden))
 
         assert [one for one in results.values() if one.status != "passed"] == []
         assert sum(one.max_points for one in results.values()) == 10  # as the course lists it
-    assert len(drawn) > 2
+    assert drawn == {1, 2, 3}
 
 
 @pytest.mark.parametrize(("kind", "effects"), DRAWN.HIDDEN)
@@ -114,7 +114,7 @@ def test_one_named_effect_of_three_earns_a_part(tmp_path):
     assert "you are close. Is an effect missing" in results["held-out"].hint
 
 
-@pytest.mark.parametrize("student", ["ada", "ben", "zoë"])
+@pytest.mark.parametrize("student", ["ada", "student 0"])
 def test_names_count_only_with_parameters_that_narrow_the_held_out_gap(student, tmp_path):
     made_up = re.sub(
         r' = "([-+.\de]+) ', lambda one: f' = "{3.0 * float(one[1]):.6g} ', truth(student)
