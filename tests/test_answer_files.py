@@ -15,7 +15,7 @@ from xml.etree import ElementTree as ET
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from small_course import HALF, RIGHT, lay_out
+from small_course import HALF, RIGHT, lay_out, put
 
 from grader.check import Result, Status
 from grader.classroom.grading import GradedStudent, GradingJob, grade_student
@@ -53,13 +53,6 @@ def course(tmp_path_factory):
     (top / "exercises" / "starters.toml").write_text("\n".join(lines) + "\n", encoding="utf-8")
     read_listed_files.cache_clear()
     return top
-
-
-def put(folder, files):
-    for name, text in files.items():
-        path = folder / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8")
 
 
 def read(course, folder, files):
@@ -352,24 +345,21 @@ def test_partners_share_a_mark_lateness_is_shown_and_who_is_absent_has_no_mark(c
     ])  # fmt: skip
 
 
-def test_marks_set_by_hand_outlive_the_next_run_and_say_why(classroom):
-    put(
-        classroom, {"marks.csv": "student,check,points,why\nann,exercise1,3,told me at the robot\n"}
-    )
+@pytest.mark.parametrize(
+    ("text", "points"),
+    [
+        ("student,check,points,why\nann,exercise1,3,late\n", "3"),
+        ("\ufeffStudent;Check;Points;Why;by\nANN;exercise1;2,5;late;me\n", "2.5"),
+    ],
+    ids=["commas", "semicolons"],
+)
+def test_marks_set_by_hand_outlive_the_next_run_and_say_why(classroom, text, points):
+    put(classroom, {"marks.csv": text})
     for _ in range(2):
         code, rows = grade(classroom, "--overrides", str(classroom / "marks.csv"))
-        assert (code, rows[0]) == (0, "ann,3,3,3,,")
+        assert (code, rows[0]) == (0, f"ann,{points},{points},3,,")
     page = (classroom / "in-graded" / "students" / "ann.html").read_text(encoding="utf-8")
-    assert "Your instructor gave 3 points: told me at the robot" in page
-
-
-def test_marks_may_come_from_a_spreadsheet_with_semicolons(classroom):
-    put(classroom, {"marks.csv": "\ufeffStudent;Check;Points;Why;by\nANN;exercise1;2,5;late;me\n"})
-    code, rows = grade(classroom, "--overrides", str(classroom / "marks.csv"))
-
-    assert (code, rows[0]) == (0, "ann,2.5,2.5,3,,")
-    page = (classroom / "in-graded" / "students" / "ann.html").read_text(encoding="utf-8")
-    assert "Your instructor gave 2.5 points: late" in page
+    assert f"Your instructor gave {points} points: late" in page
 
 
 @pytest.mark.parametrize(

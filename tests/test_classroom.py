@@ -11,7 +11,7 @@ import time
 import zipfile
 
 import pytest
-from places import ROOT
+from places import ROOT, read_all
 from small_course import HALF, RIGHT, lay_out
 
 from grader.classroom.class_grading import GradedClass, grade_class, plan_grading
@@ -62,14 +62,6 @@ def graded(folder, name):
     return json.loads((folder / "results" / f"{name}.json").read_text(encoding="utf-8"))
 
 
-def contents(folder):
-    return {
-        path.relative_to(folder).as_posix(): path.read_bytes()
-        for path in sorted(folder.rglob("*"))
-        if path.is_file()
-    }
-
-
 def test_every_student_gets_their_points_and_one_that_breaks_stops_nobody(
     course, tmp_path, capsys, reads
 ):
@@ -106,7 +98,7 @@ def test_the_same_class_is_graded_the_same_by_one_and_by_four_workers(tmp_path):
         out = tmp_path / name
         command = ["class", str(there), "-o", str(out), "--processes", processes, *exports]
         assert run_command(command) == 0
-        found.append(contents(out))
+        found.append(read_all(out))
 
     assert len(found[0]) == 20 * 4 + 5  # results, pages, two exports; index, gradebook, …
     assert found[0] == found[1] == found[2]
@@ -163,7 +155,7 @@ def test_what_a_run_before_wrote_is_gone_and_nothing_else(tmp_path):
     (there / "bne").rename(there / "ben")
 
     assert run_command(command) == 0
-    assert {*contents(out)} == {
+    assert {*read_all(out)} == {
         "index.html", "gradebook.csv", "results/written.txt", *others,
         *(f"{place}{name}{end}" for name in ("ann", "ben") for place, end in (
             ("students/", ".html"), ("results/", ".json"), ("github/", ".txt"),

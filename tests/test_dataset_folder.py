@@ -6,7 +6,8 @@ import shutil
 from itertools import count
 
 import pytest
-from dataset_made import DAMAGED, PLAIN, SECRET, files, key, make_dataset, spec, sysid
+from dataset_made import DAMAGED, PLAIN, SECRET, key, make_dataset, spec, sysid
+from places import read_all
 
 from sim.bench.dataset import key as keys
 from sim.bench.dataset.folder import DatasetPlace
@@ -39,11 +40,11 @@ def test_what_is_finished_is_kept(tmp_path, capsys, reads):
 def test_a_file_that_went_missing_is_made_again(tmp_path):
     path = spec(tmp_path, DAMAGED)
     folder = make_dataset(path)
-    before = files(folder)
+    before = read_all(folder)
     (folder / "ann" / "log-02.csv").unlink()
     shutil.rmtree(folder / "bo")
 
-    assert files(make_dataset(path)) == before
+    assert read_all(make_dataset(path)) == before
 
 
 def test_a_foreign_file_is_never_overwritten_unasked(tmp_path, capsys, reads):
@@ -55,11 +56,14 @@ def test_a_foreign_file_is_never_overwritten_unasked(tmp_path, capsys, reads):
     said = refused(capsys, path, "-o", tmp_path / "data")
 
     reads(said)
-    assert files(tmp_path / "data") == {"log-02.wpilog": b"a robot's own log", "notes.txt": b"mine"}
+    assert read_all(tmp_path / "data") == {
+        "log-02.wpilog": b"a robot's own log",
+        "notes.txt": b"mine",
+    }
     assert not (tmp_path / "data.key.json").exists()
-    made = files(make_dataset(path, "data", "--overwrite"))
+    made = read_all(make_dataset(path, "data", "--overwrite"))
     assert made.pop("notes.txt") == b"mine"
-    assert made == files(make_dataset(path, "other"))
+    assert made == read_all(make_dataset(path, "other"))
 
 
 @pytest.mark.parametrize(
@@ -70,12 +74,12 @@ def test_a_foreign_file_is_never_overwritten_unasked(tmp_path, capsys, reads):
     ],
 )
 def test_files_of_another_spec_are_foreign(tmp_path, capsys, other, reads):
-    before = files(make_dataset(spec(tmp_path)))
+    before = read_all(make_dataset(spec(tmp_path)))
 
     said = refused(capsys, spec(tmp_path, other), "-o", tmp_path / "data")
 
     reads(said)
-    assert files(tmp_path / "data") == before
+    assert read_all(tmp_path / "data") == before
 
 
 def test_a_file_that_comes_there_meanwhile_is_not_overwritten(tmp_path, reads):
@@ -88,7 +92,7 @@ def test_a_file_that_comes_there_meanwhile_is_not_overwritten(tmp_path, reads):
         place.write_file("log-02.csv", b"ours")
     reads(refused.value)
 
-    assert files(tmp_path / "data") == {"log-01.csv": b"ours", "log-02.csv": b"somebody else's"}
+    assert read_all(tmp_path / "data") == {"log-01.csv": b"ours", "log-02.csv": b"somebody else's"}
 
 
 def test_a_changed_file_is_foreign_too(tmp_path, capsys, reads):
@@ -132,7 +136,7 @@ def test_a_key_that_cannot_be_written_is_refused_before_a_log_is_made(tmp_path, 
     )
 
     assert "key.json: the key cannot be written (No such file or directory)." in said
-    assert files(tmp_path) == {"spec.toml": PLAIN.encode()}
+    assert read_all(tmp_path) == {"spec.toml": PLAIN.encode()}
 
 
 @pytest.mark.parametrize(
@@ -269,7 +273,7 @@ def test_the_key_and_the_secret_are_for_their_owner_only(tmp_path):
 
 @pytest.mark.parametrize("calls", [0, 2])
 def test_a_full_disk_is_one_line_and_the_next_run_goes_on(tmp_path, monkeypatch, capsys, calls):
-    whole = files(make_dataset(spec(tmp_path, DAMAGED), "whole"))
+    whole = read_all(make_dataset(spec(tmp_path, DAMAGED), "whole"))
     real, counted = os.utime, count()
 
     def full(path, times):
@@ -282,10 +286,10 @@ def test_a_full_disk_is_one_line_and_the_next_run_goes_on(tmp_path, monkeypatch,
         said = refused(capsys, tmp_path / "spec.toml", "-o", tmp_path / "data")
 
     assert "No space left on device" in said
-    there = files(tmp_path / "data")
+    there = read_all(tmp_path / "data")
     assert there.items() < whole.items()
     assert len(there) == calls
-    assert files(make_dataset(tmp_path / "spec.toml")) == whole
+    assert read_all(make_dataset(tmp_path / "spec.toml")) == whole
 
 
 def test_a_disk_too_full_for_the_key_keeps_the_files(tmp_path, monkeypatch, capsys):
@@ -302,6 +306,6 @@ def test_a_disk_too_full_for_the_key_keeps_the_files(tmp_path, monkeypatch, caps
         said = refused(capsys, path, "-o", tmp_path / "data")
 
     assert f"{tmp_path / 'data.key.json'}: the key cannot be written (No space left" in said
-    before = files(tmp_path / "data")
+    before = read_all(tmp_path / "data")
     assert len(before) == 4
-    assert files(make_dataset(path)) == before
+    assert read_all(make_dataset(path)) == before

@@ -9,8 +9,9 @@ import sys
 from collections import Counter
 
 import pytest
-from dataset_made import PLAIN, files, key, make_dataset, process, spec
+from dataset_made import PLAIN, key, make_dataset, process, spec
 from many_jobs import DIES, HANGS, square, square_in_child
+from places import read_all
 from small_course import HALF, RIGHT, lay_out
 
 from grader.cli import run_command
@@ -123,8 +124,8 @@ def test_a_dataset_and_its_key_are_the_same_from_both(tmp_path, executor):
         said = running.communicate(timeout=100)
 
     assert (running.returncode, said[1]) == (0, ""), said
-    assert len(files(one)) == 100
-    assert files(tmp_path / "two") == files(one)
+    assert len(read_all(one)) == 100
+    assert read_all(tmp_path / "two") == read_all(one)
     assert key(tmp_path / "two") == key(one)
 
 
@@ -137,7 +138,7 @@ def test_a_worker_of_many_threads_makes_the_same(tmp_path):
     ) as found:
         there = make_dataset(path, "there", "--cluster", found.scheduler_address)
 
-    assert files(there) == files(make_dataset(path, "here"))
+    assert read_all(there) == read_all(make_dataset(path, "here"))
 
 
 def test_a_class_is_graded_the_same_by_both(tmp_path, monkeypatch, executor):
@@ -153,7 +154,7 @@ def test_a_class_is_graded_the_same_by_both(tmp_path, monkeypatch, executor):
     assert run_command([*asked, "-o", str(tmp_path / "one"), "--processes", "1"]) == 1
     other = ["--cluster", executor] if executor else ["--processes", "2"]
     assert run_command([*asked, "-o", str(tmp_path / "two"), *other]) == 1
-    assert files(tmp_path / "two") == files(tmp_path / "one")
+    assert read_all(tmp_path / "two") == read_all(tmp_path / "one")
 
 
 def test_a_refusal_of_a_job_comes_back_as_one(tmp_path, executor):

@@ -9,7 +9,7 @@ import tomllib
 from functools import cache
 
 import pytest
-from places import ROOT
+from places import ROOT, read_all
 from test_release import lay_out, read
 
 from grader.answers.answer_key import load_answer_key
@@ -105,11 +105,7 @@ def _flatten(files):
 @cache
 def list_texts(course):
     """File -> its text; of a log, the names and metadata among its bytes."""
-    return {
-        path.relative_to(course).as_posix(): path.read_bytes().decode("latin-1")
-        for path in course.rglob("*")
-        if path.is_file()
-    }
+    return {name: content.decode("latin-1") for name, content in read_all(course).items()}
 
 
 def shows(text, name, answer):

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reconcile_made import NOWHERE, SESSIONS, bench, recorded, session, told
+from reconcile_made import NOWHERE, SESSIONS, based, bench, recorded, session, told
 
 from sim.core.log import Log
 from sim.estimation.likelihood import LARGEST, PredictionErrorProblem
@@ -43,23 +43,22 @@ def test_a_threshold_far_below_where_the_ramps_begin_is_found(band):
     assert first.parameters["band"].value == pytest.approx(band, rel=0.1)
 
 
+def begin_search(problem, point, effect, start):
+    """What the search tries from one start of an effect: how much each gains, and its point."""
+    jacobian = make_joint_jacobian(problem, point)
+    return rate_starts(problem, point, point.structure + effect, [start], jacobian=jacobian)
+
+
 def test_a_start_that_is_far_too_large_is_halved():
     built = bench("drivetrain", "compliance", size=SUBTLE)
     truth = built.hidden[0].parameters["softness"]
-    problem = PredictionErrorProblem.from_records(make_run_records(session(built, "log")))
-    base = ModelStructure("simple")
-    values = {name: built.gains[name] for name in base.names}
-    point = problem.evaluate(
-        base, values, RunNuisance.at_first_samples(len(problem.records)), problem.noise.velocity**2
-    )
+    problem, point = based(session(built, "log"), built.gains)
     far = {
         "compliance.softness": FAR * truth, "compliance.share": 0.25,
         "compliance.damping": 0.05, "compliance.motor_friction": 0.25,
     }  # fmt: skip
 
-    begun = rate_starts(
-        problem, point, base + "compliance", [far], jacobian=make_joint_jacobian(problem, point)
-    )
+    begun = begin_search(problem, point, "compliance", far)
 
     gained, at_once = begun[0]
     most, best = max(begun, key=lambda one: one[0])
@@ -87,23 +86,13 @@ def test_what_a_change_makes_fly_off_is_large_and_its_squares_are_numbers(far):
 def test_a_start_that_goes_the_wrong_way_or_too_far_is_turned(part):
     built = bench("drivetrain", "asymmetric-back-emf")
     truth = built.hidden[0].parameters["lean"]
-    problem = PredictionErrorProblem.from_records(make_run_records(session(built, "log")))
-    base, name = ModelStructure("simple"), "asymmetric-back-emf"
-    values = {name: built.gains[name] for name in base.names}
-    point = problem.evaluate(
-        base, values, RunNuisance.at_first_samples(len(problem.records)), problem.noise.velocity**2
-    )
+    problem, point = based(session(built, "log"), built.gains)
+    lean = "asymmetric-back-emf.lean"
 
-    begun = rate_starts(
-        problem,
-        point,
-        base + name,
-        [{f"{name}.lean": part * truth}],
-        jacobian=make_joint_jacobian(problem, point),
-    )
+    begun = begin_search(problem, point, "asymmetric-back-emf", {lean: part * truth})
 
     _, best = max(begun, key=lambda one: one[0])
-    assert best.values[f"{name}.lean"] == pytest.approx(truth, rel=0.5)
+    assert best.values[lean] == pytest.approx(truth, rel=0.5)
 
 
 # -- what is no alarm -----------------------------------------------------------------------------
@@ -224,11 +213,8 @@ def test_onset_is_where_the_innovations_change(dynamic, shared, after, lasts, of
     until = dynamic + lasts if lasts < LATER else LATER
     values = {"extra": 0.02, "onset": dynamic + after, "until": until, "shared": shared}
     log = log_with((Part("inertia-change", values),))
-    problem = PredictionErrorProblem.from_records(make_run_records(log))
-    begun = RunNuisance.at_first_samples(len(problem.records))
-    point = minimize(
-        problem, problem.evaluate(ModelStructure("simple"), GAINS, begun, problem.noise.velocity**2)
-    )
+    problem, base = based(log, GAINS)
+    point = minimize(problem, base)
 
     jacobian = make_joint_jacobian(problem, point)
     tried = list(scan_onsets(problem, point, EFFECTS["inertia-change"], jacobian=jacobian))

@@ -5,7 +5,7 @@ import zipfile
 
 import pytest
 from places import ROOT
-from small_course import HALF, RIGHT, lay_out
+from small_course import HALF, RIGHT, lay_out, put
 
 from grader.classroom.roster import read_class_roster
 from grader.classroom.submission_names import Identities, SubmissionName, parse_name
@@ -142,14 +142,6 @@ COULD_BELONG = (
 )
 
 
-def put(place, **files):
-    """Write files of one student: path -> content."""
-    for name, text in files.items():
-        path = place / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8")
-
-
 @pytest.mark.parametrize(
     ("path", "exercise", "name"),
     [
@@ -166,7 +158,7 @@ def put(place, **files):
 def test_an_answer_is_recognized_by_its_folders_or_its_own_name(
     tmp_path, four, path, exercise, name
 ):
-    put(tmp_path / "in" / "ann", **{path: RIGHT})
+    put(tmp_path / "in" / "ann", {path: RIGHT})
     (one,) = find_submissions(tmp_path / "in", four)
 
     assert one.files == {exercise: {name: RIGHT.encode()}}
@@ -174,8 +166,8 @@ def test_an_answer_is_recognized_by_its_folders_or_its_own_name(
 
 
 def test_code_outside_the_folders_counts_where_its_exercise_has_no_other(tmp_path, four):
-    put(tmp_path / "in" / "ann", **{"exercise1/answers.toml": RIGHT, "Code.java": HALF})
-    put(tmp_path / "in" / "ben", **{"exercise4/Code.java": RIGHT, "Code.java": HALF})
+    put(tmp_path / "in" / "ann", {"exercise1/answers.toml": RIGHT, "Code.java": HALF})
+    put(tmp_path / "in" / "ben", {"exercise4/Code.java": RIGHT, "Code.java": HALF})
     ann, ben = find_submissions(tmp_path / "in", four)
 
     assert ann.files["exercise4"] == {"Code.java": HALF.encode()}
@@ -201,7 +193,7 @@ def test_code_outside_the_folders_counts_where_its_exercise_has_no_other(tmp_pat
 def test_a_file_that_may_be_the_only_answer_to_an_exercise_is_named(
     tmp_path, four, files, unused, problems
 ):
-    put(tmp_path / "in" / "ann", **dict.fromkeys(files, RIGHT))
+    put(tmp_path / "in" / "ann", dict.fromkeys(files, RIGHT))
     (one,) = find_submissions(tmp_path / "in", four)
 
     assert (one.unused, one.problems) == (unused, problems)
@@ -217,7 +209,7 @@ def test_a_file_that_may_be_the_only_answer_to_an_exercise_is_named(
     ],
 )  # fmt: skip
 def test_a_file_of_the_course_or_of_a_computer_is_not_named(tmp_path, four, path):
-    put(tmp_path / "in" / "ann", **{path: "x"})
+    put(tmp_path / "in" / "ann", {path: "x"})
     (one,) = find_submissions(tmp_path / "in", four)
 
     assert (one.files, one.unused, one.problems) == ({}, (), {})
@@ -235,9 +227,9 @@ def test_the_authored_files_of_an_exercise_are_not_graded_as_an_answer(tmp_path)
 
 
 def test_a_class_with_unused_files_is_not_all_graded(tmp_path, four, monkeypatch, capsys):
-    put(tmp_path / "in" / "Jane Doe", **{"answers.toml": RIGHT})
-    put(tmp_path / "in" / "ana", **{"exercise1/answers.txt": RIGHT})
-    put(tmp_path / "in" / "zoe", **{"exercise1/answers.toml": RIGHT})
+    put(tmp_path / "in" / "Jane Doe", {"answers.toml": RIGHT})
+    put(tmp_path / "in" / "ana", {"exercise1/answers.txt": RIGHT})
+    put(tmp_path / "in" / "zoe", {"exercise1/answers.toml": RIGHT})
     (tmp_path / "roster.csv").write_text(CANVAS, encoding="utf-8")
     monkeypatch.chdir(four[0].folder)
 
