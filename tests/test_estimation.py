@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from handmade import each
 
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.recorder import RECORDERS
@@ -237,10 +238,6 @@ GENTLE = Routine(ramp=0.5, step=3.5)
 def bench(name="drivetrain", *, period=0.005, seed=1):
     rng = np.random.default_rng(seed)
     return simulate(MECHANISMS[name].draw(rng), GENTLE, rng=rng, period=period)
-
-
-def each(log, change):
-    return replace(log, runs=tuple(change(run) for run in log.runs))
 
 
 def late(run, *, by):

@@ -1,10 +1,10 @@
 """Recorders: each kind of logging leaves its own marks on a velocity."""
 
-from dataclasses import replace
 from functools import cache
 
 import numpy as np
 import pytest
+from handmade import change_signals
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -87,16 +87,6 @@ def drive() -> Log:
     return simulate(MECHANISMS["drivetrain"], Routine(), rng=np.random.default_rng(3))
 
 
-def change(log: Log, **signals) -> Log:
-    """The log with signals computed from its runs."""
-    return replace(
-        log,
-        runs=tuple(
-            replace(run, **{name: make(run) for name, make in signals.items()}) for run in log.runs
-        ),
-    )
-
-
 def write_columns(log: Log, path, header: str, *, scale: float = 1.0, restart: bool = False):
     """Write a log as another program would: with other names, units of time, and clocks."""
     rows = [header]
@@ -154,7 +144,7 @@ def test_missing_signal_is_computed_from_the_other(tmp_path, drive, missing):
 
 @pytest.mark.parametrize("signal", ["position", "velocity"])
 def test_signal_that_never_changes_is_replaced_and_named(drive, signal):
-    still = change(drive, **{signal: lambda run: np.zeros(len(run))})
+    still = change_signals(drive, **{signal: lambda run: np.zeros(len(run))})
 
     mended = mend_motion(still)
 
@@ -176,7 +166,7 @@ def test_arm_without_a_position_is_refused(tmp_path, capsys):
 def test_a_truncated_velocity_is_reported_and_fitted(name, share):
     log = simulate(MECHANISMS[name], Routine(), rng=np.random.default_rng(2))
     step = share * log.top_speed
-    cut = change(log, velocity=lambda run: np.trunc(run.velocity / step) * step)
+    cut = change_signals(log, velocity=lambda run: np.trunc(run.velocity / step) * step)
 
     mended = mend_motion(cut)
 
@@ -188,7 +178,7 @@ def test_a_truncated_velocity_is_reported_and_fitted(name, share):
 
 
 def test_wrong_scale_makes_no_gain_usable_and_prints_no_code(tmp_path, capsys, drive):
-    sim.write(change(drive, velocity=lambda run: run.velocity / 60.0), tmp_path / "log.csv")
+    sim.write(change_signals(drive, velocity=lambda run: run.velocity / 60.0), tmp_path / "log.csv")
     arguments = ["fit", str(tmp_path / "log.csv")]
 
     assert run_command(sysid, name="sysid", arguments=arguments) == 1
