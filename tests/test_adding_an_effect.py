@@ -128,7 +128,7 @@ def test_new_effect_is_a_candidate_and_is_named(copy):
 
 
 @pytest.mark.parametrize("name", WRONG)
-def test_a_wrong_one_fails_with_a_sentence_that_says_why(copy, name):
+def test_a_wrong_effect_file_fails_with_a_sentence_that_says_why(copy, name):
     right, wrong, said = WRONG[name]
     file = copy / "sim" / "physics" / "effects" / "churn.py"
     assert right in GOOD

@@ -183,7 +183,7 @@ needs_rights = pytest.mark.skipif(
 
 
 @needs_rights
-def test_a_folder_that_cannot_be_opened_is_no_empty_one(course, tmp_path):
+def test_a_folder_that_cannot_be_opened_is_not_taken_for_an_empty_one(course, tmp_path):
     put(tmp_path / "ann", {"exercise1/answers.toml": RIGHT})
     (tmp_path / "ann" / "exercise1").chmod(0)
     try:
@@ -214,7 +214,7 @@ def test_an_answer_of_ones_own_that_cannot_be_opened_is_not_graded(course, tmp_p
 
 @needs_rights
 @pytest.mark.parametrize("mode", [0, 0o400])
-def test_a_class_that_cannot_be_opened_is_one_line(course, tmp_path, monkeypatch, capsys, mode):
+def test_a_class_that_cannot_be_opened_gets_one_line(course, tmp_path, monkeypatch, capsys, mode):
     monkeypatch.chdir(course)
     put(tmp_path / "in", {"ann/exercise1/answers.toml": RIGHT})
     (tmp_path / "in").chmod(mode)

@@ -282,7 +282,7 @@ def test_a_class_of_five_hundred_gives_a_page_that_can_be_opened(tmp_path):
 
 
 @pytest.mark.parametrize("name", list_exports())
-def test_what_cannot_be_written_is_one_line(name, results, tmp_path):
+def test_a_place_that_cannot_be_written_gets_one_line(name, results, tmp_path):
     (tmp_path / "in the way").write_text("", encoding="utf-8")
 
     with pytest.raises(BadRequest):

@@ -241,7 +241,7 @@ def test_a_link_is_not_graded_as_an_answer(course, tmp_path):
     ids=["no-folder", "empty", "twins"],
 )
 @pytest.mark.usefixtures("course")
-def test_a_class_that_cannot_be_graded_is_one_line(tmp_path, capsys, make, reads):
+def test_a_class_that_cannot_be_graded_gets_one_line(tmp_path, capsys, make, reads):
     make(tmp_path / "in")
 
     assert run_command(["class", str(tmp_path / "in")]) == 2

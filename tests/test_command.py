@@ -52,7 +52,7 @@ def test_a_command_leaves_with_the_code_its_work_earned(outcome, code, capsys):
     ],
     ids=lambda value: type(value).__name__,
 )
-def test_whatever_goes_wrong_is_one_line_and_exit_code_2(error, said, capsys):
+def test_an_error_gets_one_line_and_exit_code_2(error, said, capsys):
     assert run_command(command(raiser(error)), name="try", arguments=[]) == 2
 
     shown = capsys.readouterr()

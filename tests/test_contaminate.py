@@ -81,7 +81,7 @@ def test_whatever_is_typed_is_read_or_refused(text):
     ],
     ids=lambda value: str(value)[:50],
 )
-def test_impossible_damage_is_one_line_with_advice(drive, name, how):
+def test_impossible_damage_gets_one_line_with_advice(drive, name, how):
     with pytest.raises(BadRequest) as refused:
         contaminate(drive, name, rng=rng(), **how)
 
@@ -172,7 +172,7 @@ def test_the_command_writes_what_can_be_read_and_says_where_the_damage_is(tmp_pa
     ],
     ids=" ".join,
 )
-def test_what_cannot_be_done_is_one_line_and_nothing_is_written(tmp_path, drive, arguments):
+def test_damage_that_cannot_be_done_gets_one_line_and_no_file(tmp_path, drive, arguments):
     write(drive, tmp_path / "drive.csv")
 
     refused = run_sysid("contaminate", *arguments, folder=tmp_path)

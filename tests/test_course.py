@@ -42,9 +42,7 @@ def test_a_name_is_read_out_of_damaged_progress(course, capsys):
     assert load_progress(course)[0].student == "zoë"
 
 
-def test_a_lost_name_is_asked_for_and_nobody_is_graded_on_the_numbers_of_nobody(
-    course, capsys, reads
-):
+def test_a_lost_name_is_asked_for_before_anything_is_graded(course, capsys, reads):
     (course / ".course").mkdir()
     (course / PLACE).write_text("\0", "utf-8")
     (course / "exercises" / "exercise1" / "data" / "zoe").mkdir(parents=True)

@@ -272,7 +272,7 @@ def test_the_key_and_the_secret_are_for_their_owner_only(tmp_path):
 
 
 @pytest.mark.parametrize("calls", [0, 2])
-def test_a_full_disk_is_one_line_and_the_next_run_goes_on(tmp_path, monkeypatch, capsys, calls):
+def test_a_full_disk_gets_one_line_and_the_next_run_goes_on(tmp_path, monkeypatch, capsys, calls):
     whole = read_all(make_dataset(spec(tmp_path, DAMAGED), "whole"))
     real, counted = os.utime, count()
 

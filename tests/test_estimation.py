@@ -143,7 +143,7 @@ def by_riccati(process_noise, voltage_error, *, before=3000):
 
 
 @pytest.mark.parametrize("process_noise", [1e-6, 1e-3])
-def test_the_steady_gain_is_where_the_recursion_ends(process_noise):
+def test_the_steady_kalman_gain_is_the_limit_of_the_recursion(process_noise):
     (gain,) = by_riccati(process_noise, [0.0])
 
     assert filtered(process_noise).steady.ravel() == pytest.approx(gain, rel=1e-3)
@@ -271,7 +271,7 @@ def test_an_average_is_a_delay_of_half_its_window():
     assert estimate_velocity_lag(log.runs).lag == pytest.approx(0.05, abs=0.005)
 
 
-def test_frames_that_repeat_do_not_bend_the_delay():
+def test_repeated_frames_do_not_change_the_estimated_delay():
     log = each(bench(), lambda run: held(late(run, by=0.06), 4))
 
     assert estimate_velocity_lag(log.runs).lag == pytest.approx(0.06, abs=0.006)

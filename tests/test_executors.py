@@ -167,7 +167,7 @@ def test_a_refusal_of_a_job_comes_back_as_one(tmp_path, executor):
 
 
 @needs_dask
-def test_a_cluster_that_is_lost_is_one_line(monkeypatch):
+def test_a_lost_cluster_gets_one_line(monkeypatch):
     monkeypatch.setattr(cluster, "PATIENCE", 1.0)  # [s] to take leave of who is gone
     distributed = pytest.importorskip("distributed")
     with distributed.LocalCluster(
@@ -190,7 +190,7 @@ def test_a_cluster_that_is_lost_is_one_line(monkeypatch):
         ("tcp://127.0.0.1:9", "no Dask scheduler answers at tcp://127.0.0.1:9 (OSError). Start"),
     ],
 )
-def test_a_scheduler_that_is_not_there_is_one_line(monkeypatch, given, said):
+def test_a_missing_scheduler_gets_one_line(monkeypatch, given, said):
     monkeypatch.setattr(cluster, "PATIENCE", 0.2)  # [s]
 
     with pytest.raises(BadRequest) as refused:

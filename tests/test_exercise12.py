@@ -169,7 +169,7 @@ def test_trying_an_effect_shows_the_gaps_but_not_the_held_out_one(copy, monkeypa
     assert "worst run" in page or "<img" in page
 
 
-def test_a_name_that_is_no_effect_is_one_line_with_a_proposal(copy, monkeypatch):
+def test_a_name_that_is_no_effect_gets_one_line_with_a_proposal(copy, monkeypatch):
     script = str(copy.folder / "try_it.py")
     monkeypatch.setattr(sys, "argv", [script, "filter", "--student", "ada"])
 

@@ -147,7 +147,9 @@ def test_an_exercise_that_breaks_is_our_fault_and_says_how_to_see_more(
     ],
 )
 @pytest.mark.usefixtures("course")
-def test_what_cannot_be_done_is_one_line_and_code_2(capsys, arguments, reads):
+def test_a_command_that_cannot_be_done_prints_one_line_and_leaves_with_code_2(
+    capsys, arguments, reads
+):
     assert run_command(arguments) == 2
     out, err = capsys.readouterr()
 

@@ -181,7 +181,7 @@ CRASHES = [
 
 
 @pytest.mark.parametrize(("text", "says"), CRASHES, ids=[says for _, says in CRASHES])
-def test_a_crash_is_one_line_that_names_file_and_line(apart_run, text, says):
+def test_a_crash_gets_one_line_that_names_file_and_line(apart_run, text, says):
     outcome = apart_run(text)
     reason = outcome.answers[0].reason
 

@@ -114,7 +114,7 @@ def test_a_damaged_file_begins_anew(tmp_path, text):
     assert load_state(tmp_path) == MysteryState()
 
 
-def test_an_answer_without_a_mystery_is_one_line(all_exercises, capsys):
+def test_an_answer_without_a_mystery_gets_one_line(all_exercises, capsys):
     assert all_exercises.is_dir()
     assert run_command(["mystery", "clean"]) == 2
     assert "Draw one: grade mystery" in capsys.readouterr().err

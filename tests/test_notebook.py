@@ -159,7 +159,7 @@ def test_what_cannot_be_an_answer_is_refused_and_changes_nothing(course, answers
 @pytest.mark.parametrize(
     ("exercise", "said"), [("exercise7", "there is no exercise"), ("1", "cannot be read")]
 )
-def test_what_cannot_be_graded_is_one_line(course, exercise, said):
+def test_what_cannot_be_graded_gets_one_line(course, exercise, said):
     answer(course, "size = [\n")
 
     assert said in str(submit(exercise))

@@ -297,7 +297,7 @@ def test_right_or_refused_whatever_tests_there_are(kind, tests):
         assert off < 0.25 * truth or off < 0.1, gain
 
 
-def test_an_elevator_that_rebounds_once_has_not_been_both_ways():
+def test_an_elevator_that_only_rebounds_lacks_the_other_direction():
     # two samples of a rebound, taken for a test down, make kS 5.3 ± 0.1 V where 0.16 is true
     log = simulate(drawn("elevator", 0), GENTLE, rng=rng(0))
     runs = []

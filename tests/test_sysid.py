@@ -96,7 +96,7 @@ def test_gains_that_cannot_be_right_give_exit_code_1(drive):
     ],
     ids=["empty", "binary", "header only", "not UTF-8", "a bracket", "a magic word"],
 )
-def test_a_file_of_nonsense_is_one_line_whatever_its_name(tmp_path, suffix, content):
+def test_a_file_of_nonsense_gets_one_line_whatever_its_name(tmp_path, suffix, content):
     (tmp_path / f"odd{suffix}").write_bytes(content)
 
     refused = run_sysid("fit", f"odd{suffix}", folder=tmp_path)
