@@ -75,7 +75,7 @@ from sim.bench.mechanism import Mechanism
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import move_gains_only, simulate
 from sim.fit import fit
-from sim.plot import Table, plot_misses, plot_time_series
+from sim.plot import Table, plot_time_series
 from sim.plot.animation import (
     Animation,
     Choice,
@@ -87,6 +87,7 @@ from sim.plot.animation import (
     Score,
     animate_mechanism,
 )
+from sim.plot.animation.charts import animate_charts, chart_line_errors
 
 # %% [markdown]
 # ## 2 Your robot
@@ -335,9 +336,8 @@ def steady_speed(volts: float) -> float:
 
 speeds = np.array([steady_speed(volts) for volts in VOLTS])
 slope, start = np.polyfit(speeds, VOLTS, 1)  # the ruler: the straight line that fits best
-plot_misses(
-    speeds, VOLTS, intercept=start, slope=slope, xlabel="velocity [m/s]", ylabel="voltage [V]"
-)
+labels = {"xlabel": "velocity [m/s]", "ylabel": "voltage [V]"}
+animate_charts(lambda: chart_line_errors(speeds, VOLTS, intercept=start, slope=slope, **labels))
 
 # %% [markdown]
 # (The *error* of a dot is its vertical distance from the line. Here the errors are too small to

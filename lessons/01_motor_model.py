@@ -49,13 +49,9 @@ from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import move_gains_only, simulate
 from sim.fit import fit
 from sim.physics.motors import MOTORS, compute_theoretical_kv
-from sim.plot import (
-    Table,
-    plot_gauge,
-    tabulate_gains,
-)
+from sim.plot import Table, tabulate_gains
 from sim.plot.animation import Choice, Gain, Knob, Motion, Panel, Scene, animate_mechanism
-from sim.plot.animation.charts import Chart, animate_charts, compare_values
+from sim.plot.animation.charts import Chart, animate_charts, chart_bands, compare_values
 from sim.teaching.logs import apply_mistake
 
 drivetrain = MECHANISMS["drivetrain"]
@@ -415,7 +411,7 @@ ABOVE = {story: 100 * (found["kV"] / THEORY - 1) for story, found in SETS.items(
 SHORT = {"no fault": "no fault", "thick grease in the gears": "grease"}
 SHORT |= {"diameter used as radius": "wrong wheel"}
 marks = {name: ABOVE[story] for story, name in SHORT.items()}
-plot_gauge(marks, VERDICTS, label="kV above theory [%]", good="ok")
+animate_charts(lambda: chart_bands(marks, VERDICTS, xlabel="kV above theory [%]"))
 
 # %%
 above = [f"{share:+.0f} %".replace("-", "−") for share in ABOVE.values()]

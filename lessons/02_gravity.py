@@ -52,14 +52,16 @@ from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import simulate
 from sim.fit import fit
 from sim.physics.engine import State, simulate_run
-from sim.plot import (
-    Table,
-    plot_hold_angles,
-    plot_hold_window,
-    plot_time_series,
-)
+from sim.plot import Table, plot_time_series
 from sim.plot.animation import Choice, Gain, Knob, Motion, Panel, Scene, animate_mechanism
-from sim.plot.animation.charts import Chart, Curve, animate_charts, chart_gain_errors
+from sim.plot.animation.charts import (
+    Chart,
+    Curve,
+    animate_charts,
+    chart_gain_errors,
+    chart_hold_angles,
+    chart_hold_window,
+)
 from sim.teaching.gain_errors import compute_gain_errors, simulate_rows
 
 elevator, arm = MECHANISMS["elevator"], MECHANISMS["arm"]
@@ -227,12 +229,8 @@ animate_mechanism(
 
 # %%
 shown = slice(round(100 * not_falling) % 10 + 110, 311, 10)  # both edges are among them
-plot_hold_window(
-    steps[shown],
-    speeds[shown],
-    window=(truth["kG"] - truth["kS"], truth["kG"] + truth["kS"]),
-    marks=recipes,
-)
+window = (truth["kG"] - truth["kS"], truth["kG"] + truth["kS"])
+animate_charts(lambda: chart_hold_window(steps[shown], speeds[shown], window=window, marks=recipes))
 
 # %% [markdown]
 # **Myth check.** "Raise the voltage until the elevator no longer drops: that is kG." *Not quite:*
@@ -353,7 +351,7 @@ animate_mechanism(
 # The next picture shows this window at seven angles. We tried a voltage every 10 mV:
 
 # %%
-plot_hold_angles(measured, kg=arm.gains["kG"], ks=arm.gains["kS"])
+animate_charts(lambda: chart_hold_angles(measured, kg=arm.gains["kG"], ks=arm.gains["kS"]))
 
 # %% [markdown]
 # ### An encoder with an offset

@@ -55,14 +55,19 @@ from sim.physics.replay import replay_log
 from sim.plot import (
     Line,
     Table,
-    plot_curves,
     plot_time_series,
     plot_voltage_velocity,
     tabulate_fits,
     tabulate_gains,
 )
 from sim.plot.animation import Choice, Knob
-from sim.plot.animation.charts import Chart, Curve, animate_charts, compare_values
+from sim.plot.animation.charts import (
+    Chart,
+    Curve,
+    animate_charts,
+    chart_curves,
+    compare_values,
+)
 from sim.plot.animation.of_logs import animate_model
 from sim.teaching.fit_gaps import fill_gaps
 from sim.teaching.logs import apply_mistake, read_own_log, select_rows
@@ -362,13 +367,8 @@ for level in NOISE:
     for name, fit_side in zip(by_side, SIDES.values(), strict=True):
         by_side[name].append(float(np.mean([fit_side(*signals(one))["kA"] for one in logs])))
 
-plot_curves(
-    NOISE,
-    by_side,
-    xlabel="noise of the velocity [m/s]",
-    ylabel="kA [V·s²/m]",
-    levels={"the truth": truth["kA"]},
-)
+labels = {"xlabel": "noise of the velocity [m/s]", "ylabel": "kA [V·s²/m]"}
+animate_charts(lambda: chart_curves(NOISE, by_side, levels={"the truth": truth["kA"]}, **labels))
 
 # %% [markdown]
 # The acceleration on the left side is the better choice, so SysId uses it. But it is not perfect:
@@ -704,12 +704,9 @@ for name, level in levels.items():
         by_window[name].append(float(np.mean(fits)))
 
 print(f"kA/kV = {1000 * timescale:.0f} ms, which is {timescale / 0.02:.1f} samples of 20 ms.")
-plot_curves(
-    WINDOWS,
-    by_window,
-    xlabel="window of the median filter [samples]",
-    ylabel="kA [V·s²/m]",
-    levels={"the truth": truth["kA"]},
+labels["xlabel"] = "window of the median filter [samples]"
+animate_charts(
+    lambda: chart_curves(WINDOWS, by_window, levels={"the truth": truth["kA"]}, **labels)
 )
 
 # %% [markdown]

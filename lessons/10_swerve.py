@@ -70,9 +70,9 @@ from sim.fit import fit
 from sim.fit.physics.inertia import compute_moment_of_inertia
 from sim.fit.pooled import pool_fits
 from sim.physics.motors import find_motor
-from sim.plot import Table, plot_curves
+from sim.plot import Table
 from sim.plot.animation import Choice, Knob, Motion, Panel, Scene, animate_mechanism
-from sim.plot.animation.charts import Chart, animate_charts, compare_values
+from sim.plot.animation.charts import Chart, animate_charts, chart_curves, compare_values
 from sim.teaching.answers import read_answer
 from sim.teaching.swerve_gaps import check_formulas
 
@@ -414,13 +414,15 @@ push = record_wall_push(robot, rng=np.random.default_rng(5))
 first = int(np.argmax(push.velocity > 0.0))
 slip_current = float(push.current[first - 1])
 print(f"Just before the wheels turn, the current of one motor is {slip_current:.0f} A.")
-plot_curves(
-    push.time,
-    {"current of a motor ÷ 10 [A]": push.current / 10, "speed of its wheel [m/s]": push.velocity},
-    xlabel="time [s]",
-    ylabel="current and speed",
-    marked=(float(push.time[first - 1]), slip_current / 10),
-    mark="just before the wheels slip",
+shown = {
+    "current of a motor ÷ 10 [A]": push.current / 10,
+    "speed of its wheel [m/s]": push.velocity,
+}
+before = {"just before the wheels slip": (float(push.time[first - 1]), slip_current / 10)}
+animate_charts(
+    lambda: chart_curves(
+        push.time, shown, xlabel="time [s]", ylabel="current and speed", marks=before
+    )
 )
 
 # %% [markdown]

@@ -23,7 +23,12 @@ from sim.plot.animation.charts import (
     Chart,
     Curve,
     animate_charts,
+    chart_bands,
+    chart_curves,
     chart_gain_errors,
+    chart_hold_angles,
+    chart_hold_window,
+    chart_line_errors,
     compare_values,
 )
 
@@ -137,3 +142,46 @@ def test_a_gain_whose_error_is_its_size_is_unknown():
     chart = chart_gain_errors({"kS": float("inf"), "kV": 0.004})
     assert [curve.notes[1] for curve in chart.curves] == ["unknown", "± 0.400 %"]
     assert [curve.x for curve in chart.curves] == [[0.0, 100.0], [0.0, pytest.approx(0.4)]]
+
+
+def test_each_number_lies_on_its_band_and_the_last_band_is_open():
+    bands = {"low": 0.0, "fine": 8.0, "stop": 20.0}
+    chart = chart_bands({"a": -50.0, "b": 33.0}, bands, xlabel="kV above theory [%]")
+    *curves, dots = chart.curves
+    named = {one.name: one.x for one in curves if one.name}
+    assert named == {"low": [-50.0, 0.0], "fine": [0.0, 8.0], "stop": [8.0, 33.0]}
+    assert list(zip(chart.rows, dots.x, strict=True)) == [("a", -50.0), ("b", 33.0)]
+
+
+def test_marks_lie_on_the_window_that_holds_an_elevator():
+    chart = chart_hold_window([1.0, 3.0], [-0.2, 0.1], window=(1.76, 2.26), marks={"mine": 1.77})
+    stays, speed, mark = chart.curves
+    assert (min(stays.x), max(stays.x)) == (1.76, 2.26)
+    assert (list(speed.y), mark.x, mark.notes) == ([-0.2, 0.1], [1.77], ["1.77 V"])
+
+
+def test_window_that_holds_an_arm_is_as_wide_at_every_angle():
+    chart = chart_hold_angles([(0.0, 1.26, 1.76)], kg=1.51, ks=0.25)
+    area, cosine, falls, rises = chart.curves
+    count = len(cosine.x)
+    np.testing.assert_allclose(area.y[:count] - area.y[count:][::-1], 0.5)
+    assert max(cosine.y) == pytest.approx(1.51, abs=1e-3)
+    assert (falls.y, rises.y) == ((1.26,), (1.76,))
+
+
+def test_curves_have_their_levels_and_marks():
+    chart = chart_curves(
+        [0, 2], {"up": [1, 3]}, xlabel="x", ylabel="y", levels={"most": 3.0}, marks={"here": (1, 2)}
+    )
+    up, most, here = chart.curves
+    assert (up.y, most.x, most.y) == ([1, 3], [0, 2], [3.0, 3.0])
+    assert (here.x, here.y, here.style) == ([1], [2], "dots")
+
+
+def test_error_of_a_line_is_drawn_at_each_point_and_its_squares_are_summed():
+    x, y = np.array([1.0, 2.0]), np.array([2.0, 5.0])
+    chart = chart_line_errors(x, y, intercept=0.0, slope=2.0, xlabel="x [m]", ylabel="y [V]")
+    _, errors, samples = chart.curves
+    np.testing.assert_array_equal(errors.y, [2.0, 2.0, np.nan, 4.0, 5.0, np.nan])
+    assert list(samples.y) == [2.0, 5.0]
+    assert "is 1.00." in chart.title

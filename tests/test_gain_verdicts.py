@@ -15,7 +15,7 @@ from sim.core.doubt import Doubt
 from sim.feedback import PRESETS
 from sim.fit import fit
 from sim.report.fit_terminal import show_fit
-from sim.report.gain_verdicts import write_gain_verdict
+from sim.report.gain_verdicts import judge_gains, write_gain_verdict
 
 LOG = simulate(MECHANISMS["drivetrain"], Routine(ramp=0.5, step=4.0), rng=np.random.default_rng(2))
 FOUND = replace(
@@ -82,6 +82,9 @@ def test_gain_that_a_warning_is_about_is_not_usable():
     said = write_gain_verdict(sure, LOG)
 
     assert said == f"{USABLE}; kA not usable (± 2 %): see the warnings."
+    assert judge_gains(sure) == "Check first"
+    every = replace(sure, doubts=(Doubt("x", "It is.", gains=("kS", "kV", "kA")),))
+    assert judge_gains(every) == "Not usable"
 
 
 @pytest.mark.parametrize("width", [80, 120])

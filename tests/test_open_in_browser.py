@@ -197,7 +197,7 @@ def test_faults_are_listed_and_marked_and_shown_on_demand(page, tmp_path):
     drop(page, write_log(slipped_log(), tmp_path / "slipped.csv"))
     page.locator("li.fault h3", has_text="encoder slip").wait_for()
     page.locator("#gain-kV").wait_for()
-    page.get_by_role("button", name="Leave out", exact=True).click()
+    page.locator("#faults").get_by_role("button", name="Leave out").click()
     page.get_by_text("Left out: quasistatic-forward, 5.56 to 5.92 s").wait_for()
     wait_until(page, "[...sysid.logs.values()][0].fit?.doubts.length === 0")
     page.get_by_role("button", name="Take in again").click()
@@ -255,6 +255,42 @@ def test_the_robot_code_has_the_gains_that_were_moved(page, tmp_path):
     assert (
         "±" not in page.locator("#code-text").inner_text().partition("2.75")[2].partition("\n")[0]
     )
+
+
+def test_the_feedback_gains_follow_controller_and_weights(page, tmp_path):
+    page.get_by_role("button", name="theory and feedback gains").click()
+    page.get_by_label("kV and kA of").select_option("neo")
+    page.locator("#loop-form [name=units]").select_option("radians")
+    page.get_by_label("mass, kg, or inertia").fill("0.01")
+    page.locator("#loop-gains dd", has_text="kP").first.wait_for()
+    page.locator("#loops").get_by_role("button", name="Close").click()
+    drop(page, write_log(drive_log(), tmp_path / "drive.wpilog"))
+    page.locator("#gain-kV").wait_for()
+    page.get_by_role("button", name="Feedback gains").click()
+    page.locator("#loop-gains dd", has_text="V/(m/s)").first.wait_for()
+    ours = page.locator("#loop-gains").inner_text()
+    page.get_by_label("Controller").select_option("rev-brushless")
+    page.locator("#loop-gains dd", has_text="duty cycle/(m/min)").first.wait_for()
+
+    assert page.locator("#loop-gains").inner_text() != ours
+    assert page.complaints == []
+
+
+def test_another_signal_of_the_log_is_plotted(page, tmp_path):
+    drop(page, write_strange(tmp_path))
+    choose_signals(page, voltage="/a/1", position="/a/2", velocity="/a/3", state="/b")
+    page.locator("#gain-kV").wait_for()
+    page.locator("#views").get_by_text("Signals").click()
+    page.get_by_label("Name of another signal").fill("/a/2")
+    page.get_by_label("Name of another signal").press("Enter")
+    wait_until(page, "sysid.chart.panels.entry !== undefined")
+    equal = "[...sysid.logs.values()][0].runs.every((run) => run.entry.length === run.time.length)"
+
+    assert page.evaluate(equal)
+    page.get_by_label("Name of another signal").fill("")
+    page.get_by_label("Name of another signal").press("Enter")
+    wait_until(page, "sysid.chart.panels.entry === undefined")
+    assert page.complaints == []
 
 
 def test_the_chart_is_moved_by_wheel_hand_and_keyboard(page, tmp_path):
@@ -429,7 +465,7 @@ def test_a_reload_keeps_what_was_chosen(page, tmp_path):
     page.locator("#gain-kV").wait_for()
     drop(page, write_log(slipped_log(), tmp_path / "slipped.csv"))
     page.locator(".tab.now .name", has_text="slipped.csv").wait_for()
-    page.get_by_role("button", name="Leave out", exact=True).click()
+    page.locator("#faults").get_by_role("button", name="Leave out").click()
     page.get_by_text("Left out: quasistatic-forward").wait_for()
     wait_until(page, "[...sysid.logs.values()][1].fit !== null")
     page.get_by_label("kV as a number").fill("2.75")

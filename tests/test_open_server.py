@@ -5,15 +5,24 @@ import json
 import subprocess
 import sys
 from dataclasses import replace
+from urllib.parse import urlencode
 
 import numpy as np
 import pytest
-from open_page import BROKEN, ask, ask_json, served, slipped_log, write_log
+from open_page import BROKEN, ask, ask_json, drive_log, served, slipped_log, write_log
 from sysid_process import run_sysid
 
+from sim.cli import sysid
+from sim.cli.open.page_data import replace_gains
 from sim.cli.open.session import LiveView, Session
-from sim.fit import fit
+from sim.core.doubt import Doubt
+from sim.core.units import TURN
+from sim.feedback import PRESETS
+from sim.fit import Fit, fit
+from sim.fit.physics import Parts
 from sim.io import read
+from sim.physics.motors import MOTORS
+from sim.support.command_line import run_command
 
 pytestmark = pytest.mark.slow
 
@@ -278,3 +287,108 @@ def test_a_search_excludes_the_part_that_was_left_out(server, drive):
         names.append([finding["name"] for finding in story["findings"]])
 
     assert names == [["encoder-slip"], []]
+
+
+def test_page_doubts_what_the_command_doubts_and_its_code_lists_it(tmp_path, capsys):
+    path = write_log(drive_log(3, "arm", step=2.0), tmp_path / "log.wpilog")
+    run_command(sysid, name="sysid", arguments=["fit", str(path), "--json"])
+    told = json.loads(capsys.readouterr().out)
+    with served(tmp_path, path) as server:
+        found = ask_json(server, "logs/1/fit")[1]
+        more = ask_json(server, "logs/1/directions")[1]
+        code = ask_json(server, "logs/1/code?language=python")[1]["code"]
+
+    known = {one["code"] for one in told["warnings"]}
+    shown = {one["code"] for one in found["doubts"]}
+    assert known
+    assert known <= shown
+    assert more["word"] in {"Check first", "Partly usable", "Usable", found["word"]}
+    assert code.count("\n# - ") == 1 + len(found["doubts"]) + len(more["doubts"])
+    assert "# - Verdict: kS" in code
+    assert str(tmp_path) not in code
+
+
+def test_code_names_a_sure_fault_until_it_is_left_out(tmp_path, drive):
+    with served(tmp_path, drive) as server:
+        code = ask_json(server, "logs/1/code")[1]["code"]
+        (slip,) = ask_json(server, "logs/1/faults")[1]["faults"]
+        part = f"{slip['test']}:{slip['start_s'] - 0.01}-{slip['end_s'] + 0.01}"
+        rest = ask_json(server, f"logs/1/code?{urlencode({'left_out': part})}")[1]["code"]
+
+    assert f"// - Encoder slip in {slip['test']}." in code
+    assert "Encoder slip" not in rest
+
+
+def test_another_unit_converts_typed_gains_and_wrong_numbers_are_refused(server):
+    gains = {"kS": 0.2, "kV": 2.5, "kA": 0.3}
+    turned = urlencode(gains | {"units": "rotations", "before": "radians"})
+    found = ask_json(server, f"feedback?{turned}")[1]["gains"]
+    refused = [
+        ask_json(server, f"feedback?{urlencode(gains | wrong)}")[1]["refusal"]["what"]
+        for wrong in ({"kV": "x"}, {"volts": 0}, {"velocity_error": -1})
+    ]
+
+    assert found["kV"] == pytest.approx(2.5 * TURN)
+    assert found["kS"] == 0.2
+    assert refused == ["'x' is no kV", "'0' is no volts", "'-1' is no velocity error"]
+
+
+def test_a_model_with_effects_keeps_what_is_doubted_of_the_log():
+    log = Doubt("unit-error", "The unit is wrong.", gains=("kV",))
+    misfit = Doubt("model-strays", "The model strays.")
+    moved = Doubt("gains-move", "They move.", gains=("kA",))
+    plain = Fit.from_gains({"kS": 0.1, "kV": 2.0, "kA": 0.1}, type="simple", units="meters")
+    plain = replace(plain, doubts=(log, misfit))
+
+    assert replace_gains(plain, {}, (), (moved,)).doubts == (log, moved)
+
+
+@pytest.mark.parametrize("preset", PRESETS)
+def test_typed_gains_get_the_feedback_gains_of_a_fit_in_the_controllers_units(server, preset):
+    gains = {"kS": 0.2, "kV": 2.5, "kA": 0.3}
+    query = urlencode(gains | {"units": "meters", "preset": preset})
+    rows = ask_json(server, f"feedback?{query}")[1]["rows"]
+
+    expected = Fit.from_gains(gains, type="simple", units="meters").feedback(PRESETS[preset])
+    per = {"velocity": PRESETS[preset].format_units("velocity", "m")[0]}
+    assert rows
+    assert {one["loop"] for one in rows} <= set(expected)
+    for one in rows:
+        kp = f"kP {expected[one['loop']].kp:.4g} "
+        assert one["gains"][0].startswith(kp)
+        assert one["gains"][0].endswith(per.get(one["loop"], "/m"))
+
+
+def test_smaller_allowed_errors_give_larger_feedback_gains(server):
+    query = {"kS": 0.2, "kV": 2.5, "kA": 0.3, "velocity_error": 0.5, "position_error": 0.05}
+    wide, tight = (
+        ask_json(server, f"feedback?{urlencode(query | allowed)}")[1]["rows"]
+        for allowed in ({"velocity_error": 2.0, "position_error": 0.2}, {})
+    )
+
+    for one, other in zip(wide, tight, strict=True):
+        assert float(one["gains"][0].split()[1]) < float(other["gains"][0].split()[1])
+
+
+def test_theory_gives_gains_without_a_log_and_asks_for_the_radius(server):
+    built = {"motor": "neo", "count": 2, "ratio": 10.71, "load": 50.0, "units": "meters", "kS": 0.1}
+    said = ask_json(server, f"feedback?{urlencode(built)}")[1]
+    found = ask_json(server, f"feedback?{urlencode(built | {'radius': 0.0762})}")[1]
+
+    assert "radius is missing" in said["refusal"]["what"]
+    parts = Parts(MOTORS["neo"], 2, 10.71, radius=0.0762, load=50.0)
+    assert found["gains"]["kV"] == pytest.approx(parts.kv)
+    assert found["gains"]["kA"] == pytest.approx(parts.ka)
+    assert found["rows"]
+
+
+def test_any_number_of_the_log_is_sampled_at_its_runs(tmp_path, drive):
+    with served(tmp_path, drive) as server:
+        entries = ask_json(server, "logs/1/entries")[1]
+        name = next(one["name"] for one in entries if one["signal"] == "voltage")
+        _, content = ask(server, f"logs/1/entry?{urlencode({'name': name})}")
+        refused = ask_json(server, "logs/1/entry?name=none")[1]
+
+    expected = np.concatenate([run.voltage for run in read(drive).runs])
+    np.testing.assert_array_equal(np.frombuffer(content, dtype="<f8"), expected)
+    assert "no numbers named 'none'" in refused["refusal"]["what"]

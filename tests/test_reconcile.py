@@ -17,6 +17,7 @@ from sim.cli.open.reconcile_job import inspect_damage
 from sim.core.units import find_unit
 from sim.estimation.initial_guess import guess_gains
 from sim.inspect.contaminate import contaminate
+from sim.inspect.detect_faults import inspect
 from sim.physics.effects import EFFECTS
 from sim.reconcile import reconcile
 from sim.reconcile.damage import DamagedInterval
@@ -157,7 +158,7 @@ def test_faults_of_inspect_are_reported_only_where_no_effect_explains_the_log():
     assert named(explained) == ["constant-load"]
     assert [one.effect for one in explained.findings if one.kind == "fault"] == []
     assert [(one.effect, one.size) for one in unexplained.findings] == [("wheel-slip", "minor")]
-    assert "inspect sees in the log: wheel-slip" in write_headline(unexplained)
+    assert "inspection of the log finds: wheel-slip" in write_headline(unexplained)
 
 
 def test_a_gap_that_does_not_shrink_on_the_held_out_log_is_reported():
@@ -236,7 +237,9 @@ def test_a_search_that_is_cut_short_says_so_and_claims_nothing(stop):
 
     assert (story.verdict, story.remainder, story.findings) == ("unexplained", True, ())
     assert not story.complete
-    assert write_headline(story).startswith("The search was stopped before it had tried every")
+    assert write_headline(story).startswith(
+        "The search was stopped, or reached its limit, before it had tried every"
+    )
     assert "no known effect" not in write_headline(story)
     assert "--effort" in story.remains
 
@@ -323,6 +326,14 @@ def test_damage_is_reported_as_damage_and_physics_beside_it_is_still_named():
         ("encoder-slip", "fault"), ("gravity-cosine", "effect"),
     ]  # fmt: skip
     assert story.verdict == "explained"
+
+
+def test_frames_that_are_ordinary_are_no_damage():
+    log = simulate(MECHANISMS["drivetrain"], Routine(), rng=np.random.default_rng(1), period=0.005)
+    framed = contaminate(log, "stale-samples", severity=1.0, rng=np.random.default_rng(2)).log
+
+    assert any(one.ordinary for one in inspect(framed).damages)
+    assert inspect_damage(framed) == ()
 
 
 def test_a_run_without_a_believable_sample_is_reported_and_left_out():

@@ -305,14 +305,14 @@ def test_phoenix_6_gets_volts_per_mechanism_rotation(type_, units, per):
     text = write_robot_code(fit_in(type_, units), target="phoenix6", radius=RADIUS)
     given, known = calls(text), values(text)
 
-    assert known[given["withKS"][0]] == pytest.approx(rounded("kS"), rel=1e-9)
+    assert known[given["withKS"][0]] == pytest.approx(rounded("kS"), rel=1e-5)
     for method, gain in (("withKV", "kV"), ("withKA", "kA")):
-        assert known[given[method][0]] / per == pytest.approx(rounded(gain), rel=1e-9)
+        assert known[given[method][0]] / per == pytest.approx(rounded(gain), rel=1e-5)
     assert given["withStaticFeedforwardSign"] == ["StaticFeedforwardSignValue.UseVelocitySign"]
     gravity = {"elevator": "Elevator_Static", "arm": "Arm_Cosine"}.get(type_)
     assert given.get("withGravityType") == ([f"GravityTypeValue.{gravity}"] if gravity else None)
     if gravity:
-        assert known[given["withKG"][0]] == pytest.approx(rounded("kG"), rel=1e-9)
+        assert known[given["withKG"][0]] == pytest.approx(rounded("kG"), rel=1e-5)
 
 
 @pytest.mark.parametrize(("type_", "units", "per"), PER_ROTATION)
@@ -321,12 +321,12 @@ def test_revlib_gets_volts_per_unit_of_the_log_and_an_arm_its_ratio(type_, units
     given, known = calls(text), values(text)
 
     for gain in ("kS", "kV", "kA"):
-        assert known[given[gain][0]] == pytest.approx(rounded(gain), rel=1e-9)
+        assert known[given[gain][0]] == pytest.approx(rounded(gain), rel=1e-5)
     assert ("kG" in given) == (type_ == "elevator")
     assert ("kCos" in given) == ("kCosRatio" in given) == (type_ == "arm")
     if type_ == "arm":
-        assert known[given["kCos"][0]] == pytest.approx(rounded("kG"), rel=1e-9)
-        assert known[given["kCosRatio"][0]] * per == pytest.approx(1.0, rel=1e-9)
+        assert known[given["kCos"][0]] == pytest.approx(rounded("kG"), rel=1e-5)
+        assert known[given["kCosRatio"][0]] * per == pytest.approx(1.0, rel=1e-5)
 
 
 @pytest.mark.parametrize(
@@ -340,8 +340,8 @@ def test_yagsl_gets_volts_per_meter_of_the_wheel(units, per):
 
     ks, kv, ka = (values(text)[name] for name in given)
 
-    assert ks == pytest.approx(rounded("kS"), rel=1e-9)
-    assert (kv / per, ka / per) == pytest.approx((rounded("kV"), rounded("kA")), rel=1e-9)
+    assert ks == pytest.approx(rounded("kS"), rel=1e-5)
+    assert (kv / per, ka / per) == pytest.approx((rounded("kV"), rounded("kA")), rel=1e-5)
     assert "replaceSwerveModuleFeedforward(FEEDFORWARD)" in text
 
 

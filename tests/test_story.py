@@ -37,7 +37,7 @@ from sim.plot.story import (
 )
 from sim.reconcile.story_text import (
     format_estimate,
-    write_gain_caution,
+    list_gain_doubts,
     write_headline,
 )
 from sim.report.story_terminal import show_story
@@ -113,11 +113,13 @@ def test_gains_that_move_far_while_the_gap_hardly_shrinks_are_doubted():
     far = replace(kv, value=kv.value + 10.0 * kv.error)
     moved = replace(EXPLAINED, gains=EXPLAINED.gains | {"kV": far})
 
-    assert write_gain_caution(moved) == ""  # the gap shrinks with them
+    assert list_gain_doubts(moved) == ()  # the gap shrinks with them
     wide = replace(moved, gap_after=0.9 * moved.gap_before)
-    assert write_gain_caution(wide).startswith("The effects change kV by far more")
+    (doubt,) = list_gain_doubts(wide)
+    assert doubt.gains == ("kV",)
+    assert not describe_story(wide)["narrows"]
     still = replace(wide, gains=EXPLAINED.gains_without)
-    assert write_gain_caution(still) == ""
+    assert list_gain_doubts(still) == ()
 
 
 @pytest.mark.parametrize("name", ["nothing missing", "explained", "unexplained"])
@@ -125,7 +127,9 @@ def test_a_stopped_search_says_so_first_and_denies_no_cause(name):
     stopped = replace(STORIES[name], complete=False)
     headline, page = write_headline(stopped), json.dumps(describe_story(stopped))
 
-    assert headline.startswith("The search was stopped before it had tried every effect. ")
+    assert headline.startswith(
+        "The search was stopped, or reached its limit, before it had tried every effect. "
+    )
     assert "known effect" not in headline
     assert "is missing." not in headline  # nothing is said to be complete
     assert "effect of the catalogue explains" not in page

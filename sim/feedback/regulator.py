@@ -38,7 +38,20 @@ class Preset:
     normalized: bool
     delay: float
 
+    def format_units(self, loop: str, per: str) -> tuple[str, str]:
+        """The units of kP and kD: output per error, and output per speed of the error.
 
+        Args:
+            loop: ``velocity`` or ``position``.
+            per: symbol of the unit of position.
+        """
+        output = "V" if self.output == 1.0 else "duty cycle" if self.output < 1.0 else "native"
+        speed = f"({per}/{TIMES[self.velocity_time]})"
+        rate = f"({per}/s)" if self.normalized else f"({per}/{self.period * 1e3:.0f} ms)"
+        return f"{output}/{speed if loop == 'velocity' else per}", f"{output}/{rate}"
+
+
+TIMES = {1.0: "s", 0.1: "100 ms", 60.0: "min"}  # [s] the time in a velocity -> its symbol
 PRESETS: dict[str, Preset] = {
     "default": Preset("WPILib", 1.0, 1.0, 0.020, normalized=True, delay=0.0),
     "ctre-phoenix5": Preset(

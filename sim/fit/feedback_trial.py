@@ -6,7 +6,7 @@ and so can kP. The suggestions are SysId's, unchanged. But gains of a wrong sign
 response does not settle, come with a warning and, if possible, with better gains.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from sim.core.doubt import Doubt
@@ -76,7 +76,11 @@ class FeedbackTrial:
 
 
 def try_feedback_gains(
-    found: Fit, preset: Preset, *, own: OwnGains | None = None
+    found: Fit,
+    preset: Preset,
+    *,
+    own: OwnGains | None = None,
+    allowed: Mapping[str, float] | None = None,
 ) -> tuple[FeedbackTrial, ...]:
     """Simulate a fit's suggested gains and the learner's own; none if nothing can be suggested.
 
@@ -84,8 +88,10 @@ def try_feedback_gains(
         found: the fit, in the unit of position of the gains.
         preset: the motor controller.
         own: the learner's gains, to try as well.
+        allowed: the regulator's weights, as ``Fit.feedback`` takes them.
     """
-    tried = [(SUGGESTED, loop, gains) for loop, gains in found.feedback(preset).items()]
+    suggested = found.feedback(preset, **(allowed or {}))
+    tried = [(SUGGESTED, loop, gains) for loop, gains in suggested.items()]
     if own is not None and tried:
         tried.append((OWN, own.loop, own.gains))
     done = (
@@ -125,11 +131,13 @@ def warn_of_bad_suggestions(found: Fit, tried: tuple[FeedbackTrial, ...]) -> tup
         tried: its trials, from ``try_feedback_gains``.
     """
     return tuple(
-        _doubt(found, trial) for trial in tried if trial.owner == SUGGESTED and not trial.is_good
+        _doubt_suggestion(found, trial)
+        for trial in tried
+        if trial.owner == SUGGESTED and not trial.is_good
     )
 
 
-def _doubt(found: Fit, trial: FeedbackTrial) -> Doubt:
+def _doubt_suggestion(found: Fit, trial: FeedbackTrial) -> Doubt:
     """A warning about one suggestion, with the first better one."""
     late = f" with {1000 * trial.delay:.3g} ms of delay" if trial.delay > LEAST_DELAY else ""
     other = next((one for one in _suggest_others(found, trial) if one.is_good), None)

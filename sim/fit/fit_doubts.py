@@ -14,6 +14,8 @@ FAR = 0.1  # [share of the top speed] error from which the gains cannot be right
 NOTICED = 0.06  # [share of the top speed] error beyond noise that a controller has to correct
 STRONG = 2.5  # [standard deviations of the prior] from which an effect is no longer small
 LEAST_LAG = 0.004  # [s] a longer delay or average is mentioned
+MISFIT = frozenset({"model-strays", "small-misfit", "strong-effect"})
+"""Warnings that kS, kV, kA and kG alone do not describe the log; a model with effects may."""
 
 
 def warn_of_opposed_signs(sign: float) -> tuple[Doubt, ...]:

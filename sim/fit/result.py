@@ -15,7 +15,9 @@ from sim.feedback import (
     design_position_loop,
     design_velocity_loop,
 )
+from sim.feedback.regulator import POSITION_ERROR, VOLTS
 from sim.physics.model import Part
+from sim.support.printable import finite_or_none
 
 
 @dataclass(frozen=True)
@@ -94,16 +96,47 @@ class Fit:
         """The fit converted to the unit of position of the log."""
         return self.in_units(self.log_units)
 
-    def feedback(self, preset: Preset = PRESETS["default"]) -> dict[str, Feedback]:
+    @classmethod
+    def from_gains(
+        cls,
+        gains: Mapping[str, float],
+        *,
+        type: str,  # noqa: A002 - the field's own word
+        units: str,
+        position_delay: float = 0.0,
+        velocity_delay: float = 0.0,
+    ) -> "Fit":
+        """Gains that no log gave, such as those of theory; what only a log tells is nan."""
+        return cls(
+            type, "none", units, units, gains, errors={}, samples_used={},
+            acceleration_r2=math.nan, acceleration_rmse=math.nan, simulated_velocity_r2=math.nan,
+            simulated_velocity_rmse=math.nan, velocity_threshold=math.nan, step_duration=math.nan,
+            position_delay=position_delay, velocity_delay=velocity_delay,
+        )  # fmt: skip
+
+    def feedback(
+        self,
+        preset: Preset = PRESETS["default"],
+        *,
+        position_error: float = POSITION_ERROR,
+        velocity_error: float | None = None,
+        volts: float = VOLTS,
+    ) -> dict[str, Feedback]:
         """Loop -> suggested feedback gains; empty if kV or kA has the wrong sign.
 
         With the default preset the measurement's delay is that of the log, as in SysId. Other
         presets have a delay of their own.
+
+        Args:
+            preset: the motor controller.
+            position_error: [unit] the error that ``volts`` correct.
+            velocity_error: [unit/s] the same; None takes SysId's default.
+            volts: [V] for these errors.
         """
         kv, ka = self.gains["kV"], self.gains["kA"]
         if not (kv >= 0.0 and ka > 0.0):
             return {}
-        allowed = compute_allowed_velocity_error(ks=self.gains["kS"], kv=kv)
+        allowed = velocity_error or compute_allowed_velocity_error(ks=self.gains["kS"], kv=kv)
         if not allowed > 0.0:
             return {}
         of_log = preset is PRESETS["default"]
@@ -113,13 +146,16 @@ class Fit:
                 ka=ka,
                 preset=preset,
                 velocity_error=allowed,
+                volts=volts,
                 delay=self.velocity_delay if of_log else None,
             ),
             "position": design_position_loop(
                 kv=kv,
                 ka=ka,
                 preset=preset,
+                position_error=position_error,
                 velocity_error=allowed,
+                volts=volts,
                 delay=self.position_delay if of_log else None,
             ),
         }
@@ -150,8 +186,8 @@ class Fit:
             "errors": dict(self.errors),
             "acceleration_r2": self.acceleration_r2,
             "acceleration_rmse": self.acceleration_rmse,
-            "simulated_velocity_r2": _finite(self.simulated_velocity_r2),
-            "simulated_velocity_rmse": _finite(self.simulated_velocity_rmse),
+            "simulated_velocity_r2": finite_or_none(self.simulated_velocity_r2),
+            "simulated_velocity_rmse": finite_or_none(self.simulated_velocity_rmse),
             "samples_used": dict(self.samples_used),
             "feedback": {
                 loop: {"kP": gains.kp, "kD": gains.kd}
@@ -173,7 +209,3 @@ def format_gain_unit(gain: str, per: Unit) -> str:
     return {"kV": f"V·s/{per.symbol}", "kA": f"V·s²/{per.symbol}", "offset_rad": "rad"}.get(
         gain, "V"
     )
-
-
-def _finite(value: float) -> float | None:
-    return value if math.isfinite(value) else None

@@ -3,6 +3,7 @@
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 
+from sim.core.doubt import Doubt
 from sim.core.log import Array
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.physics.model import Part
@@ -23,12 +24,14 @@ class ModelVariant:
         parts: its effects.
         gap: [log's unit/s] RMS velocity error on the log that gaps are shown on.
         tracks: per run of the fitted log, (n, 2) simulated position and velocity [SI].
+        doubts: warnings about its gains.
     """
 
     gains: Mapping[str, ParameterEstimate]
     parts: tuple[Part, ...]
     gap: float
     tracks: tuple[Array, ...]
+    doubts: tuple[Doubt, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)

@@ -19,6 +19,7 @@ wpimath.controller. Neither was tested, because 2027 is not released.
 
 import math
 import re
+import textwrap
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import NamedTuple
@@ -29,10 +30,12 @@ from sim.core.units import TURN, find_unit
 from sim.feedback import PRESETS, Preset
 from sim.fit import Fit
 from sim.fit.feedback_trial import try_feedback_gains
+from sim.report.gain_verdicts import write_gain_verdict
 from sim.report.page_file import load_templates
 
 MOST_DIGITS = 5  # significant digits: errors of the model are larger than the next digit
 LEAST_DIGITS = 3  # significant digits: a kA rounded to zero would be another model
+LINE = 92  # [characters] of a comment
 LEAST_ERROR = 1e-3  # [1] relative error; no gain is really known better than this
 
 ORDER = {  # order of the constructor's arguments
@@ -181,7 +184,7 @@ def write_robot_code(
     if found.type not in chosen.units:
         raise BadRequest(
             f"an {found.type} for {chosen.name}, which holds the gains of a drive motor",
-            advice="Fit the log of the drive motors with --type simple.",
+            advice=Action("drive-type"),
         )
     converted = convert_units(found, chosen.units[found.type], radius=radius)
     feedback = tuple(_list_feedback(found, chosen, converted))
@@ -191,7 +194,7 @@ def write_robot_code(
     text = template.render(
         heading=f"Measured gains of {'an' if found.type[0] in 'ae' else 'a'} {found.type} "
         f"mechanism, for {chosen.name.format(season=season)}; ± is one standard error.",
-        warnings=len(found.doubts),
+        warnings=list(_list_warnings(found)),
         class_name=make_class_name(name or found.type),
         type=found.type,
         gains=ORDER[found.type],
@@ -212,10 +215,22 @@ def write_robot_code(
     return f"{text}\n"
 
 
+def _list_warnings(found: Fit) -> Iterator[str]:
+    """The lines of a list: the verdict on the gains, and the first sentence of each doubt."""
+    if not found.doubts:
+        return
+    messages = (f"Verdict: {write_gain_verdict(found)}", *(doubt.message for doubt in found.doubts))
+    for message in messages:
+        first = re.split(r"(?<=[.!?])\s+(?=[A-Z`])", message, maxsplit=1)[0]
+        yield from textwrap.wrap(
+            first, LINE, initial_indent="- ", subsequent_indent="  ", break_long_words=False
+        )
+
+
 def _list_gains(found: Fit, converted: Conversion) -> Iterator[Constant]:
     """The conversion, if one is needed, and the gains with their units and standard errors."""
     if converted.times:
-        yield Constant(converted.name, repr(converted.factor), f"[{converted.unit}]")
+        yield Constant(converted.name, f"{converted.factor:.6g}", f"[{converted.unit}]")
     units = {"kV": f"V·s/{converted.per}", "kA": f"V·s²/{converted.per}"}
     for gain in ORDER[found.type]:
         value, error = found.gains[gain], found.errors.get(gain, math.nan)

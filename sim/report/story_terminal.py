@@ -13,11 +13,11 @@ from sim.reconcile.story_text import (
     describe_size,
     format_gap,
     format_parameter,
+    list_gain_doubts,
     list_gains,
     list_inspections,
     list_next_tests,
     list_remarks,
-    write_gain_caution,
     write_headline,
 )
 from sim.report.terminal import WARNING, WrappedPrinter
@@ -93,8 +93,8 @@ def _print_gains(say: WrappedPrinter, story: Story) -> None:
     for name, with_, without in list_gains(story):
         beside = "" if with_ == without else f"; without: {without}"
         say(f"{name} {with_}{beside}", indent=2)
-    if caution := write_gain_caution(story):
-        say(caution)
+    for doubt in list_gain_doubts(story):
+        say(doubt.text)
 
 
 def _print_gaps(say: WrappedPrinter, story: Story) -> None:

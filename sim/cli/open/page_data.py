@@ -5,33 +5,40 @@ Samples are in SI; gains and their unit are those of the log, with the factor be
 
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, replace
 from typing import Any
 
 import numpy as np
 
 from sim.cli.entries import describe_entry
-from sim.cli.fit.plausibility import compare_directions_alone
-from sim.cli.inspect import name_confidence
+from sim.cli.inspect import SURE, name_confidence
 from sim.cli.open.session import OpenLog, Reading, Session
 from sim.core.doubt import Doubt
-from sim.core.errors import BadRequest, Refusal
-from sim.core.leave_out import LeftOutPart, leave_out
+from sim.core.errors import BadRequest, Refusal, refuse_unknown
+from sim.core.leave_out import LeftOutPart
 from sim.core.log import Array, Log
 from sim.core.units import find_unit
 from sim.estimation.measurements import MIN_SAMPLES
+from sim.feedback import PRESETS
 from sim.fit import Fit
+from sim.fit.feedback_trial import try_feedback_gains, warn_of_bad_suggestions
+from sim.fit.fit_doubts import MISFIT
+from sim.fit.physics import Parts
+from sim.fit.physics.parts import check_radius_unit, fit_in_si
 from sim.fit.replay import replay_fit
+from sim.fit.sysid_doubts import UNSURE_GAIN, warn_of_uncertain_gains
 from sim.inspect.detect_faults import Inspection
-from sim.io.entries.entry import NUMBERS, STRING, Entry
+from sim.io.entries.entry import NUMBERS, SECOND, STRING, Entry
 from sim.physics.engine import engine_can_compile, engine_is_cached
 from sim.physics.model import Part
+from sim.physics.motors import MOTORS, find_motor
 from sim.reconcile.model_variant import ModelVariant
 from sim.reconcile.story import ParameterEstimate
 from sim.report.fit_terminal import format_gains
 from sim.report.gain_verdicts import judge_gains, write_gain_verdict
-from sim.report.robot_code_snippet import write_robot_code
+from sim.report.robot_code_snippet import ORDER, write_robot_code
+from sim.support.printable import finite_or_none, join_names
 
 SIGNALS = ("time", "voltage", "position", "velocity")
 MOST_ENTRIES = 400  # entries listed to choose from
@@ -44,6 +51,8 @@ MEANS = {
     "kG": "gravity: the volts that hold it where gravity pulls most",
     "offset_rad": "what to add to the sensor's angle, to count from horizontal",
 }
+WORDS = ("type", "preset", "units", "before", "motor")  # of a request for feedback gains
+ALLOWED = ("position_error", "velocity_error", "volts")  # weights of the regulator
 LAGS = 1e-5  # [s] a shorter lag is shown as 0
 
 
@@ -96,6 +105,7 @@ def describe_log(one: OpenLog, reading: Reading) -> dict[str, Any]:
         "mechanism": log.mechanism,
         "runs": runs,
         "samples": sum(map(len, log.runs)),
+        "top": log.top_speed / unit.si,
         "compiles": not engine_is_cached(),
         "compiled": engine_can_compile(),
     }
@@ -105,7 +115,8 @@ def describe_session(session: Session) -> dict[str, Any]:
     """The open logs, what the page shows of them, and the source that is followed."""
     return {
         "logs": [name_log(one) for one in session.logs],
-        "view": asdict(session.view),
+        "view": asdict(session.view)
+        | {"motors": list(MOTORS), "presets": {key: one.name for key, one in PRESETS.items()}},
         "live": _describe_live(session),
     }
 
@@ -139,13 +150,32 @@ def pack_samples(log: Log) -> bytes:
     return b"".join(np.asarray(one, dtype="<f8").tobytes() for one in signals)
 
 
+def pack_entry(one: OpenLog, log: Log, name: str) -> bytes:
+    """The last value of an entry at each sample of every run, one after another, as doubles.
+
+    Raises:
+        BadRequest: the log has no such entry with numbers.
+    """
+    named = (entry for entry in one.list_entries() if entry.name == name and len(entry))
+    entry = next((entry for entry in named if entry.type in NUMBERS), None)
+    if entry is None:
+        raise BadRequest(f"the log has no numbers named {name!r}", advice="Choose from the list.")
+    at = np.concatenate([run.time for run in log.runs]) * SECOND
+    last = np.searchsorted(entry.time, np.rint(at), side="right") - 1
+    return entry.numbers()[np.maximum(last, 0)].astype("<f8").tobytes()
+
+
 def describe_faults(found: Inspection, one: OpenLog) -> dict[str, Any]:
     """The faults of a log with their times, and its other warnings."""
     data = found.to_json()
     for fault in data["faults"]:
         fault["evidence"] = _without_path(fault["evidence"], one)
         fault["sureness"] = name_confidence(fault["confidence"])
-    return {"faults": data["faults"], "doubts": _doubts(found.doubts, one), "clean": data["clean"]}
+    return {
+        "faults": data["faults"],
+        "doubts": _describe_doubts(found.doubts, one),
+        "clean": data["clean"],
+    }
 
 
 def describe_fit(
@@ -169,7 +199,7 @@ def describe_fit(
             "label": label,
             "value": found.gains[name],
             "text": text.replace("-", "−"),
-            "error": _finite(found.errors.get(name, math.nan)),
+            "error": finite_or_none(found.errors.get(name, math.nan)),
             "error_text": error,
             "unit": unit,
             "means": MEANS[name],
@@ -179,16 +209,16 @@ def describe_fit(
     return {
         "type": found.type,
         "gains": gains,
-        "word": judge_gains(found),
-        "verdict": write_gain_verdict(found, log),
-        "doubts": _doubts(found.list_doubts(), one),
+        **_describe_verdict(found, log),
+        "doubts": _describe_doubts(found.list_doubts(), one),
         "notes": [] if chosen else list(pooled.notes),
         "tracks": _list_tracks(chosen, log) if chosen else None,
         "parts": [] if chosen else sorted(part.effect for part in found.parts),
         "lag": found.position_delay if found.position_delay > LAGS else 0.0,
         "window": max(2.0 * (found.velocity_delay - found.position_delay), 0.0),
-        "feedback": {
-            loop: {"kP": gains.kp, "kD": gains.kd} for loop, gains in found.feedback().items()
+        "delays": {
+            "position_delay": found.position_delay,
+            "velocity_delay": found.velocity_delay,
         },
         **({} if chosen else _describe_starts(found, log)),
     }
@@ -201,20 +231,25 @@ def _list_tracks(chosen: ModelVariant, log: Log) -> list[list[float]]:
 
 
 def _apply_model(found: Fit, chosen: ModelVariant | None) -> Fit:
-    return found if chosen is None else replace_gains(found, chosen.gains, chosen.parts)
+    if chosen is None:
+        return found
+    return replace_gains(found, chosen.gains, chosen.parts, chosen.doubts)
+
+
+def _describe_verdict(found: Fit, log: Log) -> dict[str, str]:
+    return {"word": judge_gains(found), "verdict": write_gain_verdict(found, log)}
 
 
 def describe_directions(one: OpenLog, reading: Reading) -> dict[str, Any]:
-    """The gains of forward and reverse runs, each fitted alone, where they disagree with the fit.
+    """Where forward and reverse runs, each fitted alone, disagree; and the verdict that knows it.
 
     Raises:
         Refusal: the log cannot be read or fitted.
     """
-    found, log = one.fit(reading).found, one.combine_runs(reading)
-    log = leave_out({"": log}, map(LeftOutPart.parse, reading.left_out))[""]
-    doubted, notes = compare_directions_alone(found, log, include_long=False)
+    found, (doubted, notes) = one.fit(reading).found, one.compare_directions(reading)
     more = [doubt for doubt in doubted.doubts if doubt not in found.doubts]
-    return {"doubts": _doubts(more, one), "notes": list(notes)}
+    verdict = _describe_verdict(doubted.in_log_units(), one.combine_runs(reading))
+    return verdict | {"doubts": _describe_doubts(more, one), "notes": list(notes)}
 
 
 def _describe_starts(found: Fit, log: Log) -> dict[str, Any]:
@@ -263,11 +298,14 @@ def write_code(
     language, season = query.get("language", "java"), query.get("season", "2026")
     if not season.isdecimal():
         raise BadRequest("there is no such season", advice="Choose 2026.")
-    found = _apply_model(one.fit(reading).found.in_log_units(), chosen)
+    compared = one.fit(reading).found if chosen else one.compare_directions(reading)[0]
+    found = _apply_model(compared.in_log_units(), chosen)
     moved = {name: float(query[name]) for name in found.gains if _is_number(query.get(name, ""))}
     errors = {name: error for name, error in found.errors.items() if name not in moved}
     # A value set by hand has no standard error
-    found = replace(found, gains={**found.gains, **moved}, errors=errors)
+    known = (*found.doubts, *_doubt_faults(one, reading))
+    doubts = tuple(replace(some, message=_without_path(some.message, one)) for some in known)
+    found = replace(found, gains={**found.gains, **moved}, errors=errors, doubts=doubts)
     radius = float(query["radius"]) if _is_number(query.get("radius", "")) else None
     code = write_robot_code(found, target=language, season=int(season), radius=radius)
     if moved:
@@ -276,12 +314,76 @@ def write_code(
     return {"code": code}
 
 
+def _doubt_faults(one: OpenLog, reading: Reading) -> Iterator[Doubt]:
+    """A doubt for each kind of fault that is sure, where it was not left out."""
+    gone = [LeftOutPart.parse(part) for part in reading.left_out]
+    for kind in one.inspect(reading).group_by_kind():
+        left = [
+            where.test or "the whole log"
+            for where in (fault.where for fault in kind if fault.confidence >= SURE)
+            if not any(part.covers(where.test, where.start, where.end) for part in gone)
+        ]
+        if left:
+            tests = join_names(list(dict.fromkeys(left)))
+            yield Doubt(
+                kind[0].fault, f"{kind[0].fault.replace('-', ' ').capitalize()} in {tests}."
+            )
+
+
 def _is_number(text: str) -> bool:
     """Whether a text is a finite number."""
     try:
         return math.isfinite(float(text))
     except ValueError:
         return False
+
+
+def describe_feedback(query: Mapping[str, str]) -> dict[str, Any]:
+    """Feedback gains for gains that the user typed, or that theory gives for a motor.
+
+    Args:
+        query: kS, kV, kA, type, units, preset, delays, the regulator's allowed errors and volts;
+            a motor with count, ratio, radius and load takes the place of kV and kA.
+
+    Raises:
+        Refusal: there are no feedback gains for these numbers.
+    """
+    type_, chosen = query.get("type", "simple"), query.get("preset", "default")
+    refuse_unknown("preset", chosen, PRESETS)
+    texts = {name: text for name, text in query.items() if text and name not in WORDS}
+    wrong = [name for name, text in texts.items() if not _is_number(text)]
+    wrong += [
+        name
+        for name in ALLOWED
+        if name in texts and name not in wrong and float(texts[name]) <= 0.0
+    ]
+    if wrong:
+        label = wrong[0].replace("_", " ")
+        raise BadRequest(f"{texts[wrong[0]]!r} is no {label}", advice="Type a number above zero.")
+    numbers = {name: float(text) for name, text in texts.items()}
+    delays = {name: numbers.get(name, 0.0) for name in ("position_delay", "velocity_delay")}
+    gains = {name: numbers.get(name, 0.0) for name in (*ORDER.get(type_, ()), "offset_rad")}
+    units = query.get("units", "meters")
+    given = Fit.from_gains(gains, type=type_, units=query.get("before") or units, **delays)
+    found = given.in_units(units)
+    per = find_unit(units)
+    if query.get("motor"):
+        count, ratio, radius = (numbers.get(name, 1.0) for name in ("count", "ratio", "radius"))
+        motor = find_motor(query["motor"])
+        parts = Parts(motor, int(count), ratio, radius=radius, load=numbers.get("load"))
+        check_radius_unit(parts, found)
+        theory = {"kV": parts.kv * per.si, "kA": (parts.ka or 0.0) * per.si}
+        found = replace(found, gains=gains | theory)
+    allowed = {name: numbers[name] for name in ALLOWED if name in numbers}
+    tried = try_feedback_gains(found, PRESETS[chosen], allowed=allowed)
+    rows = []
+    for trial in filter(lambda trial: trial.is_good, tried):
+        symbols = PRESETS[chosen].format_units(trial.loop, per.symbol)
+        pairs = zip(("kP", "kD"), (trial.gains.kp, trial.gains.kd), symbols, strict=True)
+        shown = [f"{name} {value:.4g} {unit}" for name, value, unit in pairs if value]
+        rows.append({"loop": trial.loop, "gains": shown, "step": trial.verdict.description})
+    doubts = [one.message for one in warn_of_bad_suggestions(found, tried)]
+    return {"gains": found.gains, "rows": rows, "doubts": doubts, "symbol": per.symbol}
 
 
 def describe_entries(entries: Sequence[Entry]) -> list[dict[str, Any]]:
@@ -325,7 +427,7 @@ def describe_refusal(refusal: Refusal, folder: str) -> dict[str, Any]:
     }
 
 
-def _doubts(doubts: Sequence[Doubt], one: OpenLog) -> list[dict[str, Any]]:
+def _describe_doubts(doubts: Sequence[Doubt], one: OpenLog) -> list[dict[str, Any]]:
     return [
         {
             "code": doubt.code,
@@ -347,22 +449,25 @@ def _without_path(text: str, one: OpenLog) -> str:
     return f"{start}{short[1:]}".replace(str(one.path), one.name)
 
 
-def _finite(value: float) -> float | None:
-    """The value, or None if it is not finite, which JSON cannot hold."""
-    return value if math.isfinite(value) else None
-
-
 def replace_gains(
-    plain: Fit, gains: Mapping[str, ParameterEstimate], parts: tuple[Part, ...]
+    plain: Fit,
+    gains: Mapping[str, ParameterEstimate],
+    parts: tuple[Part, ...],
+    doubts: tuple[Doubt, ...],
 ) -> Fit:
-    """A fit with the gains and effects of another model, in the same unit.
+    """A fit with the gains, effects and doubts of a model with effects, in the same unit.
 
-    Warnings about the model without effects do not concern these gains, unless they are grave.
+    That the model without effects misses the log says nothing about these gains, unless it is
+    grave; everything else that is doubted of the log still holds.
     """
-    return replace(
+    gone = MISFIT | {UNSURE_GAIN}
+    found = replace(
         plain,
         gains={name: one.value for name, one in gains.items()},
         errors={name: one.error for name, one in gains.items() if one.error is not None},
         parts=parts,
-        doubts=tuple(doubt for doubt in plain.doubts if doubt.grave),
+        doubts=(*(one for one in plain.doubts if one.grave or one.code not in gone), *doubts),
     )
+    si = fit_in_si(found)
+    unsure = warn_of_uncertain_gains(si.gains, si.errors, per=find_unit(found.units))
+    return replace(found, doubts=(*found.doubts, *unsure))

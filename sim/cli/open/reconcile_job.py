@@ -3,6 +3,7 @@
 import math
 import threading
 from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from sim.core.errors import BadRequest, Refusal
@@ -16,10 +17,11 @@ from sim.reconcile.model_variant import ModelVariant
 from sim.reconcile.story_text import (
     format_gap,
     format_parameter,
+    list_gain_doubts,
     list_inspections,
     list_next_tests,
     list_remarks,
-    write_gain_caution,
+    narrows_gap,
     write_headline,
 )
 
@@ -77,9 +79,9 @@ class ReconcileJob:
         Raises:
             BadRequest: the search has not ended.
         """
-        if self.story is None or self.story.variants is None:
+        if self.story is None:
             raise BadRequest("the search has not ended", advice="Wait for it, or stop it.")
-        return self.story.variants.refit(effects)
+        return refit_story(self.story, effects)
 
     def _run(self) -> None:
         """Run the search; an error is reported when the page asks for its progress."""
@@ -87,7 +89,7 @@ class ReconcileJob:
             logs = self._read()
             self._said = {doubt.text for log in logs.values() for doubt in log.doubts}
             self.story = search_effects(
-                logs, type=self._type, effort=self._effort, progress=self._note,
+                logs, type=self._type, effort=self._effort, progress=self._store_progress,
                 is_stopped=self._stopped.is_set, left_out=self._left_out,
             )  # fmt: skip
         except Refusal as refusal:
@@ -99,8 +101,19 @@ class ReconcileJob:
                 advice="Try sysid reconcile, which says more.",
             )
 
-    def _note(self, words: str, share: float) -> None:
+    def _store_progress(self, words: str, share: float) -> None:
         self._words, self._share = words, share
+
+
+def refit_story(story: Story, effects: Collection[str]) -> ModelVariant:
+    """The model of a story with some of its effects, and with the doubts about its gains.
+
+    Raises:
+        BadRequest: the story has no model with effects.
+    """
+    if story.variants is None:
+        raise BadRequest("no effect was found", advice="Take the gains of the fit.")
+    return replace(story.variants.refit(effects), doubts=list_gain_doubts(story))
 
 
 def describe_story(story: Story, said: Collection[str] = ()) -> dict[str, Any]:
@@ -146,7 +159,8 @@ def describe_story(story: Story, said: Collection[str] = ()) -> dict[str, Any]:
         "gaps": gaps,
         "places": [place.sentence for place in story.where[:PLACES]],
         "next": list(list_next_tests(story)),
-        "caution": write_gain_caution(story),
+        "caution": " ".join(one.text for one in list_gain_doubts(story)),
+        "narrows": narrows_gap(story),
         "remarks": [one for one in remarks if one not in said],
         "how": story.how,
     }
@@ -176,14 +190,14 @@ def search_effects(
     """
     progress("looking for damage", 0.0)
     log, *_ = logs.values()
-    damages = {name: inspect_damage(some) for name, some in logs.items()}
+    damages = {name: inspect_damage(some) for name, some in logs.items() if name != "log"}
     gone = [
         DamagedInterval(k, float(time[0]), float(time[-1]), LEFT_OUT, 1.0, "", "")
         for part in left_out
         for k, run in enumerate(log.runs)
         if (time := run.time[part.find(run)]).size
     ]
-    rest = [one for one in damages["log"] if not any(map(one.is_within, gone))]
+    rest = inspect_damage(log, left_out=left_out)
     return reconcile(
         log,
         validation=logs.get("validation"),
@@ -196,11 +210,24 @@ def search_effects(
     )
 
 
-def inspect_damage(log: Log) -> tuple[DamagedInterval, ...]:
-    """The damaged intervals that an inspection finds in a log, as ``reconcile`` takes them."""
+def inspect_damage(
+    log: Log, *, left_out: Sequence[LeftOutPart] = ()
+) -> tuple[DamagedInterval, ...]:
+    """The damaged intervals that an inspection finds in a log, as ``reconcile`` takes them.
+
+    What is ordinary, such as frames of 20 ms, is no damage.
+
+    Args:
+        log: the log.
+        left_out: parts whose damage does not count.
+    """
     found = []
     for one in inspect(log).damages:
         where = one.where
+        if one.ordinary or any(
+            part.covers(where.test, where.start, where.end) for part in left_out
+        ):
+            continue
         intervals: tuple[tuple[float, float], ...] = ((where.start, where.end),)
         if one.fault == DROPOUT and where.run is not None:
             intervals = find_dropout_intervals(

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from urllib.parse import urlencode
 
 from sim.cli.open import page_data
-from sim.cli.open.reconcile_job import describe_story
+from sim.cli.open.reconcile_job import describe_story, refit_story
 from sim.cli.open.session import OpenLog, Reading
 from sim.cli.open.view import PageView
 from sim.core.errors import Refusal
@@ -94,8 +94,7 @@ def _collect_answers(one: OpenLog, reading: Reading, story: Story | None) -> dic
         added = told["effects"]
         counts = range(1, len(added) + 1) if len(added) <= MOST_SWITCHED else [len(added)]
         for some in (some for count in counts for some in combinations(added, count)):
-            if story.variants is not None:
-                models[",".join(some)] = story.variants.refit(some)
+            models[",".join(some)] = refit_story(story, some)
     languages = [
         {"language": language, "season": str(season)}
         for language, season in product(TARGETS, SEASONS)

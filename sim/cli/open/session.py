@@ -16,13 +16,14 @@ from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.cli.fit.parts import PooledParts, fit_parts
+from sim.cli.fit.plausibility import check_against_physics, compare_directions_alone
 from sim.cli.log_reader import LogReader, join_parts
 from sim.cli.open.reconcile_job import ReconcileJob
 from sim.cli.open.view import PageView
 from sim.core.errors import BadRequest, Refusal
 from sim.core.leave_out import LeftOutPart, leave_out
 from sim.core.log import Log
-from sim.fit import fit
+from sim.fit import Fit, fit
 from sim.inspect.contaminate import contaminate
 from sim.inspect.detect_faults import Inspection, inspect
 from sim.io import list_entries, write
@@ -158,11 +159,29 @@ class OpenLog:
         """
 
         def find() -> PooledParts:
-
-            logs = leave_out(self.read_parts(reading), map(LeftOutPart.parse, reading.left_out))
-            return fit_parts(logs, partial(fit, type=reading.type or ""))
+            logs = self._read_rest(reading)
+            pooled = fit_parts(logs, partial(fit, type=reading.type or ""))
+            found, _ = check_against_physics(pooled.found, join_parts(logs), parts=None)
+            return replace(pooled, found=found)
 
         return self._compute_once(("fit", reading), find)
+
+    def compare_directions(self, reading: Reading) -> tuple[Fit, tuple[str, ...]]:
+        """The fit, with a doubt if forward and reverse runs disagree when fitted alone; and notes.
+
+        Raises:
+            Refusal: as ``fit``.
+        """
+        return self._compute_once(
+            ("directions", reading),
+            lambda: compare_directions_alone(
+                self.fit(reading).found, join_parts(self._read_rest(reading)), include_long=False
+            ),
+        )
+
+    def _read_rest(self, reading: Reading) -> dict[str, Log]:
+        """The log of each mechanism, side or motor without what the user left out."""
+        return leave_out(self.read_parts(reading), map(LeftOutPart.parse, reading.left_out))
 
     def keep_fit(self, pooled: PooledParts) -> None:
         """Take a fit that was already computed, of the log as it is."""

@@ -8,6 +8,7 @@ from pathlib import Path
 import click
 
 from sim.cli.fit.paste import make_paste_text
+from sim.cli.fit.plausibility import check_against_physics
 from sim.cli.log_reader import LogReader
 from sim.cli.open.page_data import replace_gains
 from sim.cli.open.reconcile_job import search_effects
@@ -18,6 +19,7 @@ from sim.core.log import Log
 from sim.fit import Fit, fit
 from sim.physics.engine import engine_can_compile
 from sim.reconcile import Story
+from sim.reconcile.story_text import list_gain_doubts
 from sim.report.page_file import choose_page_path
 from sim.report.story_terminal import show_progress, show_story
 from sim.support.command_line import DONE, NOT_RIGHT, print_error
@@ -86,7 +88,8 @@ def _warn_uncompiled() -> None:
 
 def _make_fit(story: Story, log: Log) -> Fit:
     """The fit of a log, with the gains of a story's last model."""
-    plain = fit(log, type=story.model.type).in_log_units()
+    checked, _ = check_against_physics(fit(log, type=story.model.type), log, parts=None)
+    plain = checked.in_log_units()
     if story.gains == story.gains_without:
         return plain
-    return replace_gains(plain, story.gains, story.model.parts)
+    return replace_gains(plain, story.gains, story.model.parts, list_gain_doubts(story))

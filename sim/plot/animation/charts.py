@@ -122,6 +122,125 @@ def chart_gain_errors(errors: Mapping[str, float]) -> Chart:
     return Chart("standard error [% of the gain]", "", bars, tuple(errors), x=(0.0, 118.0))
 
 
+def chart_curves(
+    x: Sequence[float] | Array,
+    lines: Mapping[str, Sequence[float] | Array],
+    *,
+    xlabel: str,
+    ylabel: str,
+    levels: Mapping[str, float] | None = None,
+    marks: Mapping[str, tuple[float, float]] | None = None,
+) -> Chart:
+    """One or more curves over a common axis.
+
+    Args:
+        x: (n,) values of the horizontal axis.
+        lines: name -> (n,) values.
+        xlabel: label of the horizontal axis, with unit.
+        ylabel: label of the vertical axis, with unit.
+        levels: name -> height of a dashed line, as the truth or a limit.
+        marks: name -> point to mark.
+    """
+    ends = [x[0], x[-1]]
+    curves = [
+        *(Curve(name, x, y, "line", color) for color, (name, y) in enumerate(lines.items())),
+        *(Curve(name, ends, [level] * 2, "dashed") for name, level in (levels or {}).items()),
+        *(Curve(name, [at], [up], "dots") for name, (at, up) in (marks or {}).items()),
+    ]
+    return Chart(xlabel, ylabel, curves)
+
+
+def chart_line_errors(
+    x: Array, y: Array, *, intercept: float, slope: float, xlabel: str, ylabel: str
+) -> Chart:
+    """A few points, a straight line, and the error of the line at each point.
+
+    Args:
+        x: (n,) horizontal coordinates of the points.
+        y: (n,) vertical coordinates of the points.
+        intercept: value of the line at x = 0.
+        slope: slope of the line.
+        xlabel: label of the horizontal axis, with unit.
+        ylabel: label of the vertical axis, with unit.
+    """
+    line, ends = intercept + slope * x, np.array([0.0, 1.05 * x.max()])
+    gap = np.full(x.size, np.nan)  # ends one error before the next begins
+    errors = Curve("errors", np.repeat(x, 3), np.stack([line, y, gap], axis=1).ravel(), "line", 3)
+    fitted = Curve("the line", ends, intercept + slope * ends, "dashed", 1)
+    total = to_text(float(np.sum((y - line) ** 2)))
+    title = f"The sum of the squared errors is {total}."
+    samples = Curve("samples", x, y, "dots", 0)
+    return Chart(xlabel, ylabel, (fitted, errors, samples), title=title)
+
+
+def chart_bands(values: Mapping[str, float], bands: Mapping[str, float], *, xlabel: str) -> Chart:
+    """Numbers as dots, one in a row, on the named bands of a scale.
+
+    Args:
+        values: name of the row -> number.
+        bands: name -> upper end, rising; the last band is open.
+        xlabel: label of the scale, with unit.
+    """
+    numbers, rows = list(values.values()), range(len(values))
+    starts = [min(0.0, *numbers), *bands.values()]
+    ends = [*list(bands.values())[:-1], max(*bands.values(), *numbers)]
+    curves = [
+        Curve("" if row else name, [start, end], [row, row], "bar", color)
+        for color, (name, start, end) in enumerate(zip(bands, starts, ends, strict=False), 1)
+        for row in rows
+    ]
+    dots = Curve("", numbers, rows, "dots", None, [to_text(one) for one in numbers])
+    return Chart(xlabel, "", (*curves, dots), tuple(values))
+
+
+def chart_hold_window(
+    volts: Sequence[float] | Array,
+    speeds: Sequence[float] | Array,
+    *,
+    window: tuple[float, float],
+    marks: Mapping[str, float],
+) -> Chart:
+    """Steady speed over constant voltage, and the window in which friction holds the mechanism.
+
+    Args:
+        volts: (n,) constant voltages [V], rising.
+        speeds: (n,) steady speed at each [m/s]; negative is down.
+        window: lower and upper edge, kG - kS and kG + kS [V].
+        marks: name -> voltage to mark [V].
+    """
+    (low, high), (down, up) = window, (min(speeds), max(speeds))
+    dots = [
+        Curve(name, [value], [0.0], "dots", color, [f"{value:.2f} V"])
+        for color, (name, value) in enumerate(marks.items(), 1)
+    ]
+    stays = Curve("it stays", [low, low, high, high], [down, up, up, down], "area", 4)
+    curves = (stays, Curve("speed", volts, speeds, "line", 0), *dots)
+    return Chart("voltage [V]", "speed, up is positive [m/s]", curves)
+
+
+def chart_hold_angles(
+    holds: Sequence[tuple[float, float, float]], *, kg: float, ks: float
+) -> Chart:
+    """The voltages that hold an arm, over its angle: a cosine with a constant width.
+
+    Args:
+        holds: angle from level [deg], and lower and upper edge of the window measured there [V].
+        kg: voltage that holds the arm level [V].
+        ks: voltage of static friction [V].
+    """
+    angles = np.linspace(-95.0, 95.0, 96)
+    middle = kg * np.cos(np.radians(angles))
+    around = np.concatenate([middle + ks, (middle - ks)[::-1]])
+    at, falls, rises = zip(*holds, strict=True)
+    curves = (
+        Curve("it stays", np.concatenate([angles, angles[::-1]]), around, "area", 4),
+        Curve("kG·cos(angle)", angles, middle, "dashed", 0),
+        Curve("no longer falls", at, falls, "dots", 1),
+        Curve("begins to rise", at, rises, "dots", 2),
+    )
+    return Chart("angle from level [deg]", "voltage [V]", curves)
+
+
 def animate_charts(
     draw: Callable[..., Chart | Sequence[Chart]],
     *,
@@ -172,7 +291,8 @@ def _describe_start(
     """The charts in words, as first shown."""
     start: dict[str, object] = {one.label: one.value or one.options[0] for one in choices}
     start |= {knob.label: knob.value for knob in knobs}
-    words = [f"With {', '.join(f'{name} = {value}' for name, value in start.items())}:"]
+    listed = ", ".join(f"{name} = {value}" for name, value in start.items())
+    words = [f"With {listed}:"] if listed else []
     for chart in _draw(draw, [*start.values()]):
         named = [*chart.rows, *(w for one in chart.curves for w in (one.name, *one.notes) if w)]
         words.append(f"{chart.title} {chart.ylabel} over {chart.xlabel} ({', '.join(named)}).")

@@ -16,9 +16,9 @@ export function askLog(id, what, query = {}) {
   return ask(addressOf(id, what, query));
 }
 
-/** The samples of a log: one array after another, in SI. */
-export async function askSamples(id, query) {
-  return new Float64Array(await (await fetchOrRefuse(addressOf(id, "samples", query))).arrayBuffer());
+/** Samples of a log, one array after another: its signals in SI, or those of one entry as they are. */
+export async function askSamples(id, query, what = "samples") {
+  return new Float64Array(await (await fetchOrRefuse(addressOf(id, what, query))).arrayBuffer());
 }
 
 /** The address of data about a log. */

@@ -36,7 +36,8 @@ export class Chart {
   }
 
   /** Show a log: its runs, with samples in the log's own unit. */
-  setLog({ runs, faults, symbol }) {
+  setLog({ runs, faults, symbol, entry }) {
+    this.entry = entry; // name of one more entry in the view of the signals
     this.runs = runs;
     this.faults = faults;
     this.symbol = symbol;
@@ -63,7 +64,7 @@ export class Chart {
 
   /** The panels and curves of the view. */
   get shown() {
-    return VIEWS[this.showsSignals ? "signals" : "fit"];
+    return VIEWS[!this.showsSignals ? "fit" : this.entry ? "entry" : "signals"];
   }
 
   /** Fit a panel to what is visible of its curves. */

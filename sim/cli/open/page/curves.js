@@ -53,6 +53,15 @@ export const VIEWS = {
   },
 };
 
+const { panels, curves } = VIEWS.signals;
+VIEWS.entry = { // the signals, and one more entry of the log
+  panels: {
+    ...Object.fromEntries(Object.entries(panels).map(([name, one]) => [name, { ...one, share: 0.8 * one.share }])),
+    entry: { title: ({ entry }) => entry, share: 0.2 },
+  },
+  curves: [...curves, { panel: "entry", label: "value", unit: () => "", of: recorded("entry"), color: "ink", width: 1.3, dots: true, steps: true }],
+};
+
 /** The range of the residual, in round steps so that it does not flicker. */
 function errorRange({ noise, ranges }, inView) {
   const [low, high] = rangeOf(inView);

@@ -24,7 +24,7 @@ export function prose(words) {
 /** An item of which only the first sentence is seen until it is opened. */
 export function foldedItem(kind, title, words, ...more) {
   const [, first, rest] = words.trim().match(/^(.*?[.!?](?=\s+[A-Z`]|$)|.*)\s*(.*)$/s);
-  const head = make("summary", "", make("b", "", title), " ", prose(first));
+  const head = make("summary", { title: first }, make("b", "", title), " ", prose(first));
   return make("li", kind, make("details", "", head, rest && make("p", "", prose(rest)), more));
 }
 

@@ -1,7 +1,7 @@
 // The gains: sliders, simulation error, feedback, robot code.
 
 import { addressOf, askLog } from "./api.js";
-import { figure, make, prose, sentence } from "./elements.js";
+import { figure, make, sentence } from "./elements.js";
 import { modelQuery, shownLog } from "./logs.js";
 import { at, copy } from "./page.js";
 import { simulate } from "./simulation.js";
@@ -14,14 +14,14 @@ export const sliders = new Sliders(at("sliders"), moveGains);
 export function showFit() {
   const log = shownLog();
   const { fit, fitRefused } = log;
-  at("paste").disabled = !fit;
+  at("paste").disabled = at("feedback").disabled = !fit;
   at("reset").hidden = true;
   const report = at("report");
   report.toggleAttribute("href", false);
   report.setAttribute("aria-disabled", String(!fit));
   showDoubts();
   if (!fit) {
-    for (const id of ["sliders", "meter", "feedback"]) at(id).replaceChildren();
+    for (const id of ["sliders", "meter"]) at(id).replaceChildren();
     at("verdict").textContent = fitRefused ? sentence(fitRefused) : log.summary.compiles
       ? "The simulation is compiled first. That is done once, and takes about twenty seconds." : "";
     return;
@@ -30,17 +30,8 @@ export function showFit() {
   report.download = `${log.name}.html`;
   sliders.show(fit.gains, log.gains, { fixed: Boolean(fit.tracks) });
   log.moved = sliders.isMoved;
-  at("verdict").replaceChildren(...prose(fit.verdict));
-  showFeedback(fit);
   showSimulation(log);
   chart.redraw();
-}
-
-/** Feedback gains to start with, as SysId suggests them. */
-function showFeedback({ feedback }) {
-  const rows = Object.entries(feedback).map(([loop, { kP, kD }]) =>
-    make("div", "", make("dt", "", `${loop} loop`), make("dd", "", `kP ${figure(kP)}${kD ? `  kD ${figure(kD)}` : ""}`)));
-  at("feedback").replaceChildren(...rows);
 }
 
 function moveGains(values) {
@@ -76,7 +67,7 @@ function showMeter(log, error) {
   const { si, symbol } = log.summary.units;
   const floors = (error * si) / log.fit.noise;
   const gap = make("p", "gap", make("b", "", floors.toPrecision(floors < 10 ? 2 : 3)), " × sensor noise, ",
-    make("b", "", (100 * error / log.top).toPrecision(2)), "\u00a0% of top speed");
+    make("b", "", (100 * error / log.summary.top).toPrecision(2)), "\u00a0% of top speed");
   const ratio = error / log.fitError;
   const moved = log.moved ? `, ${ratio >= 10 ? Math.round(ratio) : ratio.toFixed(2)} × that of the fit` : "";
   const bar = make("div", `bar-of-error${floors > 2 ? " far" : ""}`);
@@ -91,8 +82,10 @@ async function showCode() {
   const [language, season] = [at("language").value, at("season").value];
   const query = { ...modelQuery(log), ...Object.fromEntries(moved), language, season, radius: at("radius").value.replace(",", ".") };
   at("code-text").textContent = "Writing…";
+  at("copy").disabled = true; // a refusal is no code
   try {
     at("code-text").textContent = (await askLog(log.id, "code", query)).code;
+    at("copy").disabled = false;
     at("radius-row").hidden = !query.radius;
   } catch (problem) {
     at("code-text").textContent = sentence(problem);

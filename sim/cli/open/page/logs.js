@@ -137,7 +137,14 @@ function take(log, summary, samples) {
     const part = summary.runs.some((one) => one.part !== run.part) ? run.part : "";
     return { ...run, part, time, voltage, position: inUnit(position), velocity: inUnit(velocity) };
   });
-  log.top = log.runs.reduce((top, run) => run.velocity.reduce((most, one) => Math.max(most, Math.abs(one)), top), 0);
+}
+
+/** Take the values of one more entry of a log; without a name, none. */
+export async function takeEntry(log, name) {
+  const values = name ? await askSamples(log.id, { ...log.query, name }, "entry") : null;
+  let from = 0;
+  for (const run of log.runs) run.entry = values?.subarray(from, (from += run.time.length));
+  log.entry = name;
 }
 
 async function askFaults(log, asked) {
@@ -165,8 +172,8 @@ async function askFit(log, asked) {
   if (!log.fit) return;
   const more = await askLog(log.id, "directions", modelQuery(log)).catch(() => null);
   if (more === null || log.asked !== asked) return;
-  log.plain.doubts.push(...more.doubts);
-  log.plain.notes.push(...more.notes);
+  const { doubts, notes } = log.plain;
+  Object.assign(log.plain, more, { doubts: [...doubts, ...more.doubts], notes: [...notes, ...more.notes] });
   changed(log, "doubts");
 }
 
@@ -180,7 +187,8 @@ function takeFit(log, fit) {
 
 /** Fit again without these parts: {test, start, end}, in the log's time. */
 export function leaveOut(log, parts) {
-  Object.assign(log, { leftOut: parts, effects: [], search: null, fit: null, fitRefused: null, asked: {} });
+  const named = new Map(parts.map((part) => [nameOfPart(part), part])); // each once
+  Object.assign(log, { leftOut: [...named.values()], effects: [], search: null, fit: null, fitRefused: null, asked: {} });
   setBusy(log, true);
   for (const what of ["faults", "fit", "story"]) changed(log, what);
   guarded(log.name, () => askFit(log, log.asked)).then(() => setBusy(log, false));
@@ -218,7 +226,7 @@ export async function reconcile(log, settings, effects) {
       changed(log, "story");
       if (!search.story) await new Promise((done) => setTimeout(done, POLL));
     }
-    const chosen = effects ?? search.story.effects;
+    const chosen = effects ?? (search.story.narrows ? search.story.effects : []);
     if (chosen.length && log.plain) await chooseEffects(log, chosen);
   } catch (problem) {
     if (log.asked !== asked) return;

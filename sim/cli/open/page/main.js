@@ -5,6 +5,7 @@ import { showChoice } from "./choices.js";
 import { sentence } from "./elements.js";
 import { showFit, sliders } from "./gains.js";
 import { followLive } from "./live.js";
+import { openLoops } from "./loops.js";
 import { begin, choose, keepChoices, logs, offerChoice, onChange, openAll, shownLog, state } from "./logs.js";
 import { at, guarded } from "./page.js";
 import { chart, showReading, showSignals, showStage } from "./stage.js";
@@ -46,6 +47,7 @@ at("file").addEventListener("change", (event) => {
   openAll(event.target.files);
   event.target.value = "";
 });
+for (const id of ["feedback", "theory"]) at(id).addEventListener("click", openLoops);
 at("example").addEventListener("click", () => guarded("example", async () => begin(await ask("example", { method: "POST" }), { show: true })));
 at("rechoose").addEventListener("click", () => offerChoice(shownLog()));
 for (const id of ["type", "units"]) at(id).addEventListener("change", () => choose(shownLog(), id, at(id).value));

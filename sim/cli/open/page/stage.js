@@ -1,10 +1,11 @@
 // The card of the chart: the log's name, its runs, the values at the cursor, marked spans, other logs.
 
+import { askLog, saved } from "./api.js";
 import { Chart } from "./chart.js";
 import { button, figure, make } from "./elements.js";
 import { nameOfRun } from "./frame.js";
-import { leaveOut, logs, shownLog, state } from "./logs.js";
-import { at, copy, say } from "./page.js";
+import { leaveOut, logs, shownLog, state, takeEntry } from "./logs.js";
+import { at, copy, guarded, say } from "./page.js";
 import { writeSpans } from "./spans.js";
 
 const OTHERS = ["#9b5de5", "#c08a00", "#2a9d8f", "#d0539a"]; // colors of other logs
@@ -22,7 +23,8 @@ export function showStage() {
   at("type").value = log.query.type ?? summary.type;
   at("units").value = summary.units.name;
   at("rechoose").hidden = !["voltage", "position", "velocity", "state", "time"].some((role) => log.query[role]);
-  chart.setLog({ runs: log.runs, faults: listMarks(log), symbol: summary.units.symbol });
+  chart.setLog({ runs: log.runs, faults: listMarks(log), symbol: summary.units.symbol, entry: log.entry });
+  if (chart.showsSignals) showSignals(true);
   showRuns(log);
   showCursor(null);
   showSpans(chart.spans);
@@ -41,11 +43,13 @@ function showRuns(log) {
   at("runs").replaceChildren(button("chip all", "All", () => chart.showAll()), ...chips);
 }
 
-/** The faults that have a place on the time axis. */
+/** The faults that have a place on the time axis, and the parts that were left out. */
 export function listMarks(log) {
-  return (log.faults?.faults ?? [])
-    .filter((one) => one.run !== null && one.test)
-    .map((one) => ({ run: one.run, start: one.start_s, end: one.end_s, name: one.fault }));
+  const faults = (log.faults?.faults ?? []).filter((one) => one.run !== null && one.test)
+    .map((one) => ({ run: one.run, start: one.start_s, end: one.end_s, name: one.fault, color: "fault" }));
+  const left = log.leftOut.flatMap(({ test, start, end }) => log.runs.flatMap(({ test: of, time }, run) =>
+    (of === test && time.at(-1) >= start && time[0] <= end ? [{ run, start: Math.max(start, time[0]), end: Math.min(end, time.at(-1)), name: "", color: "quiet" }] : [])));
+  return [...left, ...faults];
 }
 
 /** Show the signals of a log, or its fit. */
@@ -55,6 +59,19 @@ export function showSignals(on) {
   document.querySelector(`#views [value=${on ? "signals" : "fit"}]`).checked = true;
   showCursor(chart.cursor);
   showSpans(chart.spans);
+  if (on) offerEntries(shownLog());
+}
+
+/** List the numbers of a log that can be plotted beside its signals. */
+async function offerEntries(log) {
+  at("entry").hidden = true;
+  if (!log?.runs || saved) return;
+  log.entries ??= await askLog(log.id, "entries").catch(() => []);
+  const names = log.entries.filter((one) => !one.text).map(({ name }) => name);
+  if (log !== shownLog()) return;
+  at("entry").hidden = !names.length;
+  at("entry").value = log.entry ?? "";
+  at("entries").replaceChildren(...names.map((one) => new Option(one)));
 }
 
 /** Show the text of the marked spans. */
@@ -107,12 +124,19 @@ export function showOthers() {
 }
 
 at("views").addEventListener("change", ({ target }) => showSignals(target.value === "signals"));
+at("entry").addEventListener("change", () => guarded("signal", async () => {
+  const log = shownLog();
+  await takeEntry(log, at("entry").value);
+  chart.entry = log.entry;
+  showSignals(true);
+}));
 at("drag").addEventListener("change", ({ target }) => { chart.dragMarks = target.value === "mark"; });
 at("span-copy").addEventListener("click", () => copy(at("span-text")));
 at("span-leave").addEventListener("click", () => {
   const log = shownLog();
   const marked = [...chart.spans].map(([run, [first, last]]) => ({ test: log.runs[run].test, start: log.runs[run].time[first], end: log.runs[run].time[last] }));
   leaveOut(log, [...log.leftOut, ...marked]);
+  at("span-clear").click();
   say("Left out. The gains are those of the rest.");
 });
 at("span-clear").addEventListener("click", () => { for (const run of [...chart.spans.keys()]) chart.setSpan(run, null); });

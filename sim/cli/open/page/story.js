@@ -8,6 +8,7 @@ export function showStory() {
   const log = shownLog();
   const { search } = log;
   const place = at("story");
+  at("look").hidden = Boolean(search);
   if (search && !search.story && !search.refused) {
     const bar = place.querySelector("progress") ?? make("progress", { max: 1, "aria-label": "How far the search is" });
     const end = place.querySelector(".stop") ?? button("button stop", "Stop", () => stop(log));
@@ -43,17 +44,18 @@ function storyParts(story, log, choose) {
 }
 
 /** A box to tick for each effect, and the gains without effects and with those ticked. */
-function modelChoice({ effects }, { effects: chosen, plain: without, fit }, choose) {
+function modelChoice({ effects, narrows }, { effects: chosen, plain: without, fit }, choose) {
   const boxes = effects.map((name) => {
     const onchange = ({ target }) => choose(effects.filter((one) => (one === name ? target.checked : chosen.includes(one))));
     return make("label", "", make("input", { type: "checkbox", checked: chosen.includes(name), onchange }), plain(name));
   });
   const say = ({ text, error_text: error }) => `${text} ±\u00a0${error}`;
   const row = (tag, words) => make("tr", "", words.map((one) => make(tag, "", one)));
-  const table = make("table", "gains-table",
-    row("th", ["gain", "without", chosen.length ? `with ${chosen.map(plain).join(", ")}` : "with the ticked effects", "unit"]),
-    without.gains.map((gain, k) => row("td", [gain.label, say(gain), chosen.length ? say(fit.gains[k]) : "–", gain.unit])));
-  return make("fieldset", "models", make("legend", "", "Effects in the model"), boxes, table);
+  const withThem = chosen.length ? [`with ${chosen.map(plain).join(", ")}`] : [];
+  const table = make("table", "gains-table", row("th", ["gain", "without", ...withThem, "unit"]),
+    without.gains.map((gain, k) => row("td", [gain.label, say(gain), ...withThem.map(() => say(fit.gains[k])), gain.unit])));
+  const why = !chosen.length && !narrows && "They narrow the gap only a little, so the gains are those without them. Tick them to see what they change.";
+  return make("fieldset", "models", make("legend", "", "Effects in the model"), boxes, why && make("p", "quiet", why), table);
 }
 
 /** Other open logs that take part, and the button that begins a search. */
@@ -74,12 +76,19 @@ function searchForm(search, others, begin) {
 }
 
 /** The gap of each model as a bar, in times the noise; 1 is noise alone. */
-function gapBars({ gaps }) {
+function gapBars({ gaps, findings }) {
+  const damaged = findings.some(({ kind }) => kind === "fault");
   const most = Math.max(1, ...gaps.map(({ gap }) => gap ?? 0));
   const rows = gaps.map(({ name, text, gap }, k) => make("div", k === gaps.length - 1 ? "last" : "",
     make("span", "", name), make("i", { style: `--share: ${(gap ?? most) / most}` }), make("b", "", text)));
-  return make("div", "gaps", make("p", "quiet", "Simulation error, in times the noise of the velocity"), rows);
+  return make("div", "gaps", make("p", "quiet", `Simulation error, in times the noise of the velocity${damaged ? ", without the damaged parts" : ""}`), rows);
 }
+
+at("look").addEventListener("click", () => {
+  const log = shownLog();
+  at("story").scrollIntoView({ block: "center", behavior: "smooth" });
+  guarded(log.name, () => reconcile(log, {}));
+});
 
 function plain(name) {
   return name.replaceAll("-", " ");

@@ -1,7 +1,7 @@
 // The verdict and its warnings, and the faults of the log.
 
 import { button, foldedItem, make, prose } from "./elements.js";
-import { choose, leaveOut, nameOfPart, shownLog } from "./logs.js";
+import { choose, leaveOut, shownLog } from "./logs.js";
 import { at } from "./page.js";
 import { chart, listMarks } from "./stage.js";
 
@@ -26,9 +26,9 @@ export function showFaults() {
   const left = faults.filter((one) => !isLeftOut(log, one));
   const lines = left.slice(0, MOST_LINES).map((one) => {
     const words = `${one.fault.replaceAll("-", " ")} (${one.sureness})${one.test ? `: ${nameOfTest(log, one)}` : ""}`;
-    return make("li", "grave", button("link", words, () => showFault(one)));
+    return make("li", "grave", button("link", words, () => showFault(one)), " ", canLeaveOut(one) && leaveButton(log, one, "link"));
   });
-  if (left.length > MOST_LINES) lines.push(make("li", "busy", `${left.length - MOST_LINES} more below`));
+  if (left.length > MOST_LINES) lines.push(make("li", "busy", button("link", `${left.length - MOST_LINES} more below`, () => at("faults").scrollIntoView({ behavior: "smooth" }))));
   at("fault-lines").replaceChildren(...faults.length ? lines : [make("li", "well", none)], ...leftOutLines(log));
   showDoubts();
 }
@@ -44,7 +44,8 @@ const nameOfTest = (log, { run, test }) => `${log.runs[run]?.part ?? ""} ${test}
 const partOf = (one) => ({ test: one.test, start: one.start_s, end: one.end_s });
 
 function isLeftOut(log, one) {
-  return log.leftOut.some((part) => nameOfPart(part) === nameOfPart(partOf(one)));
+  const { test, start, end } = partOf(one);
+  return log.leftOut.some((part) => part.test === test && part.start <= start && part.end >= end);
 }
 
 function faultCard(log, one) {
@@ -53,15 +54,21 @@ function faultCard(log, one) {
     make("h3", "", one.fault.replaceAll("-", " "), make("span", "badge", one.sureness)),
     one.test && make("p", "where", where),
     make("p", "", prose(one.evidence)), make("p", "advice", prose(one.advice)),
-    one.test && one.run !== null && [
-      button("button small", "Show", () => showFault(one)), " ",
-      button("button small leave", "Leave out", () => leaveOut(log, [...log.leftOut, partOf(one)]), { disabled: isLeftOut(log, one) }),
-    ]);
+    canLeaveOut(one) && [button("button small", "Show", () => showFault(one)), " ", leaveButton(log, one, "button small")]);
+}
+
+const canLeaveOut = (one) => one.test && one.run !== null;
+
+function leaveButton(log, one, kind) {
+  const out = isLeftOut(log, one);
+  return button(`${kind} leave`, out ? "Left out" : "Leave out", () => leaveOut(log, [...log.leftOut, partOf(one)]), { disabled: out });
 }
 
 /** A line for each part that was left out, with a button to take it in again. */
 function leftOutLines(log) {
-  return log.leftOut.map((part) => make("li", "busy", `Left out: ${part.test}, ${part.start.toFixed(2)} to ${part.end.toFixed(2)}\u00a0s `,
+  const parts = [...new Set(log.runs.map(({ part }) => part))].filter(Boolean);
+  const of = parts.length ? ` of ${parts.join(" and ")}` : "";
+  return log.leftOut.map((part) => make("li", "busy", `Left out: ${part.test}${of}, ${part.start.toFixed(2)} to ${part.end.toFixed(2)}\u00a0s `,
     button("link", "Take in again", () => leaveOut(log, log.leftOut.filter((one) => one !== part)))));
 }
 
@@ -69,9 +76,10 @@ function leftOutLines(log) {
 export function showDoubts() {
   const log = shownLog();
   const { fit, fitRefused, faults } = log;
-  const sure = faults?.faults.some((one) => one.sureness === "sure");
-  const word = fitRefused ? "No gains" : !fit ? "Fitting…" : sure && fit.word !== "Do not use" ? "Check first" : fit.word;
+  const sure = faults?.faults.some((one) => one.sureness === "sure" && !isLeftOut(log, one));
+  const word = fitRefused ? "No gains" : !fit ? "Fitting…" : !faults ? "Checking…" : sure && fit.word !== "Do not use" ? "Check first" : fit.word;
   at("word").textContent = word;
+  if (fit) at("verdict").replaceChildren(...prose(fit.verdict));
   at("verdict-card").classList.toggle("wrong", Boolean(fitRefused) || word === "Do not use");
   at("verdict-card").classList.toggle("well", word === "Usable");
   const said = [...fit?.doubts ?? [], ...faults?.doubts ?? []].sort((a, b) => Number(b.grave) - Number(a.grave));
