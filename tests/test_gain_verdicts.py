@@ -47,6 +47,21 @@ def test_advice_for_ka_comes_from_the_log(log, advice):
 
 
 @pytest.mark.parametrize(
+    ("log", "advice"),
+    [
+        (only("dynamic-forward"), "add a quasistatic test"),
+        (only("quasistatic-forward"), "add the tests in reverse"),
+        (weaker(LOG, 0.25), "let the quasistatic tests run beyond 1.2 V"),
+        (LOG, "repeat the quasistatic tests with a slower ramp"),
+    ],
+)
+def test_advice_for_kv_comes_from_the_log(log, advice):
+    found = replace(FOUND, gains={"kV": 2.0}, errors={"kV": 1.0})
+
+    assert write_gain_verdict(found, log) == f"kV not usable (± 50 %): {advice}."
+
+
+@pytest.mark.parametrize(
     ("gains", "errors", "said"),
     [
         ({"kV": 2.0}, {"kV": 0.001}, "kV usable (± less than 0.1 %)."),

@@ -10,6 +10,7 @@ from urllib.parse import urlencode
 import numpy as np
 import pytest
 from open_page import BROKEN, ask, ask_json, drive_log, served, slipped_log, write_log
+from sysid_process import run_sysid
 
 from sim.cli import sysid
 from sim.cli.open.page_data import replace_gains
@@ -114,7 +115,7 @@ def test_a_dropped_log_is_read_inspected_and_fitted(server, drive):
 
 
 @pytest.mark.parametrize("headers", [{"Host": "evil.example"}, {"Origin": "http://evil.example"}])
-def test_what_is_watched_is_told_to_its_own_page_alone(tmp_path, headers):
+def test_the_watched_log_is_shown_to_its_own_page_alone(tmp_path, headers):
     with served(tmp_path) as server:
         server.session.live = LiveView("following robot.wpilog", {}, "secret")
         refused = ask(server, "live", headers=headers)
@@ -164,7 +165,7 @@ def test_a_question_is_an_answer_of_which_no_console_complains(tmp_path, drive):
     assert (status, said["refusal"]["asks"]) == (200, "radius")
 
 
-def test_ten_broken_logs_do_not_end_it(tmp_path):
+def test_ten_broken_logs_do_not_end_the_server(tmp_path):
     (tmp_path / "session").mkdir()
     said = {}
     with served(tmp_path / "session") as server:
@@ -184,7 +185,7 @@ def test_ten_broken_logs_do_not_end_it(tmp_path):
             assert str(tmp_path) not in json.dumps(answer)
 
 
-def test_a_mistake_of_ours_is_told_and_does_not_end_it(tmp_path, drive, monkeypatch):
+def test_a_mistake_of_ours_is_reported_and_does_not_end_the_server(tmp_path, drive, monkeypatch):
     with served(tmp_path, drive) as server:
         monkeypatch.setattr(server.session.find(1), "combine_runs", lambda _reading: 1 / 0)
         status, answer = ask_json(server, "logs/1/summary")
@@ -214,10 +215,7 @@ def test_a_dropped_name_becomes_a_file_in_the_sessions_folder(tmp_path, given, n
 
 def test_a_taken_port_is_refused_in_one_line(server):
     port = str(server.server_address[1])
-    done = subprocess.run(
-        [sys.executable, "-c", "from sim.cli import main; main()", "open", "--port", port],
-        capture_output=True, encoding="utf-8", check=False, timeout=60,
-    )  # fmt: skip
+    done = run_sysid("open", "--port", port)
 
     assert done.returncode == 2
     assert f"port {port} cannot be used" in done.stderr

@@ -156,6 +156,6 @@ def test_a_learners_loop_is_checked_and_ours_used_until_it_is_right(mine, says):
 
 
 @pytest.mark.parametrize("volts", [lambda _: math.nan, lambda _: ..., lambda _: "12"])
-def test_a_loop_that_answers_with_no_number_is_told_so(volts):
+def test_a_loop_that_returns_no_number_is_refused(volts):
     with pytest.raises(BadRequest, match="instead of volts"):
         follow_in_closed_loop(LIFT, RISE, volts)
