@@ -88,7 +88,8 @@ from sim.teaching.reality_gap import (
 
 truth = MECHANISMS["drivetrain"].gains
 log, validation, held_out = record_team_logs()
-print(fill(f"This course knows {len(EFFECTS)} effects: {', '.join(EFFECTS)}.", 90))
+known = f"This course knows {len(EFFECTS)} effects: {', '.join(EFFECTS)}."
+print(fill(known, 80, break_on_hyphens=False))
 
 # %% [markdown]
 # Today's robot has two of these effects. Its team does not know which. The robot is a drivetrain
@@ -136,9 +137,9 @@ animate_model(
     log,
     base.gains,
     tests={"step": ("dynamic-forward", 1.0), "ramp": ("quasistatic-forward", 3.0)},
-    alt="The solid robot is the log. The dashed robot is the model with the same voltage. After "
-    "the step the model is ahead at first, and behind later. Its velocity curve has a different "
-    "shape.",
+    alt="The solid robot is the log. The dashed robot is the model with the same voltage. For "
+    "0.3 s after the step the model is faster, then both are equally fast: the two velocity curves "
+    "have different shapes.",
 )
 
 # %% [markdown]
