@@ -264,10 +264,11 @@ animate_charts(
 # 1. **Look** at the plot with the largest percentage. Which effects could cause it?
 # 2. **Choose** one of them in the menu. Read what it does, and press *Add and fit*. All gains and
 #    the parameters of the effect are fitted again. This takes one to three seconds.
-# 3. **Decide** by the gap of the *validation* log. Is it smaller? Keep the effect. If not, press
-#    *Take back*, and choose another one.
-# 4. **Look again.** Repeat this until the plots show only noise, or until no other effect makes the
-#    gap of the validation log smaller.
+# 3. **Compare** by the gap of the *validation* log: press *Take back*, and try the other effects of
+#    the same line below. Keep the one with the smallest gap. If none helps, take the plot with the
+#    next percentage.
+# 4. **Look again.** Repeat this until the gap of the validation log is about 1, or until no other
+#    effect makes it smaller.
 # 5. **Stop.** But before you press the last button, read section 5.
 #
 # Effects that can cause the largest percentage:

@@ -184,7 +184,7 @@ def test_a_student_finds_what_lesson_9_hides_by_clicks(address, page, tmp_path):
     second, _ = shares()
     assert max(second, key=lambda name: int(second[name])) == "speed"
     done = add("stribeck")
-    assert "Only noise remains." in shares()[1]
+    assert "At least 90 % of this is noise." in shares()[1]
     widget.screenshot(path=tmp_path / "found.png")
     press("Stop, open the held-out log", "The held-out log is open.")
     opened = widget.inner_text()
