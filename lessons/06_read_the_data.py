@@ -384,10 +384,10 @@ for share, longest in ((0.0, 0.02), (0.05, 0.04), (0.05, 0.08), (0.05, 0.2)):
         log = select_rows(whole, lambda run, how=(share, longest, rng): written(run, *how))
         found.append(fit(log, method="sysid").gains)
     kv, ka = (np.array([one[gain] / TRUTH[gain] for one in found]) for gain in ("kV", "kA"))
-    name = f"{100 * share:.0f} % of the rows: {1000 * longest:.0f} ms" if share else "no row"
+    name = f"{1000 * longest:.0f} ms after {100 * share:.0f} % of the rows" if share else "none"
     rows.append((name, kv.mean(), ka.mean(), ka.min(), ka.max()))
 
-Table(("missing after", "kV ÷ true", "kA ÷ true, mean of ten", "smallest", "largest"), tuple(rows))
+Table(("gaps", "kV ÷ true", "kA ÷ true, mean of ten", "smallest", "largest"), tuple(rows))
 
 # %% [markdown]
 # kV hardly changes. kA changes if a gap falls into the few samples in which the velocity rises.

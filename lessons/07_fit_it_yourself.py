@@ -75,6 +75,15 @@ def shaking(noise: float) -> Mechanism:
     return replace(drivetrain, sensor=replace(drivetrain.sensor, velocity_noise=noise))
 
 
+def signals(log: sim.Log) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Voltage, velocity and acceleration of every row that moves."""
+    volts = np.concatenate([run.voltage for run in log.runs])
+    v = np.concatenate([run.velocity for run in log.runs])
+    a = np.concatenate([np.gradient(run.velocity, run.time) for run in log.runs])
+    moving = np.abs(v) > 0.05
+    return volts[moving], v[moving], a[moving]
+
+
 robot = shaking(0.02)
 truth = robot.gains
 routine = sim.Routine(ramp=1.0, step=3.5, timeout=10.0)
@@ -229,17 +238,8 @@ print(f"{intercept:.2f} V at v = 0, {slope:.2f} V per m/s, sum of squares {small
 # %% [markdown]
 # ## 4 The whole fit in five lines
 #
-# Now do the same with three columns. Use every row of all four tests in which the robot moves:
-
-
-# %%
-def signals(log: sim.Log) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Voltage, velocity and acceleration of every row that moves."""
-    volts = np.concatenate([run.voltage for run in log.runs])
-    v = np.concatenate([run.velocity for run in log.runs])
-    a = np.concatenate([np.gradient(run.velocity, run.time) for run in log.runs])
-    moving = np.abs(v) > 0.05
-    return volts[moving], v[moving], a[moving]
+# Now do the same with three columns. `signals` gives V, v and a of every row of all four tests in
+# which the robot moves:
 
 
 # %%
