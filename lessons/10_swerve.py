@@ -57,6 +57,8 @@
 # Our robot has four Kraken X60, 4 inch wheels and a mass of 60 kg. Its wheels form a square.
 
 # %%
+from textwrap import fill
+
 import numpy as np
 from IPython.display import display
 
@@ -224,23 +226,15 @@ Table(
 #
 # The same distance is 2π · radius · turns of the wheel. The wheels of a square robot are at its
 # corners. With trackwidth T, the distance from the middle is half of the diagonal: **T/√2**.
+#
+# Find the four radii by hand: with the right radius, a wheel has rolled as far as the gyro says.
 
 # %%
 spin = record_spin(robot, turns=6.0, rng=np.random.default_rng(2), radii={"back-left": 0.0484})
 distance = robot.trackwidth / np.sqrt(2.0)
-rows = []
-for name, motor_turns in spin.motor_turns.items():
-    wheel_turns = motor_turns / robot.ratio
-    radius = spin.turned * distance / (2 * np.pi * wheel_turns)
-    rows.append((name, motor_turns, 1000 * radius))
 print(f"The gyro turned {np.degrees(spin.turned):.0f}°, which is {spin.turned:.2f} rad.")
-Table(("module", "turns of the motor", "radius of the wheel [mm]"), tuple(rows))
-
-# %% [markdown]
-# Find the four radii by hand: with the right radius, a wheel has rolled as far as the gyro says.
 
 
-# %%
 def roll(radius: float) -> Chart:
     """How far each wheel has rolled, if this is its radius [mm]."""
     way = 2 * np.pi * radius / 1000 / robot.ratio
@@ -250,6 +244,17 @@ def roll(radius: float) -> Chart:
 
 
 animate_charts(roll, knobs=(Knob("radius", "radius [mm]", 46.0, 54.0, 0.2, 53.0),))
+
+# %% [markdown]
+# Now compute them:
+
+# %%
+rows = []
+for name, motor_turns in spin.motor_turns.items():
+    wheel_turns = motor_turns / robot.ratio
+    radius = spin.turned * distance / (2 * np.pi * wheel_turns)
+    rows.append((name, motor_turns, 1000 * radius))
+Table(("module", "turns of the motor", "radius of the wheel [mm]"), tuple(rows))
 
 # %% [markdown]
 # The radius of the back left wheel is 2.4 mm smaller. Change the wheel, or write the right radius
@@ -328,7 +333,7 @@ Table(
 quotient = turning.gains["kV"] / straight.gains["kV"]
 print(f"kV turning / kV straight = {quotient:.3f} m. T/√2 = {distance:.3f} m.")
 for doubt in found["half the trackwidth, T/2"].doubts:
-    print(doubt.text)
+    print(fill(doubt.text, 80))
 
 # %% [markdown]
 # This check also finds an angle in degrees where you need radians: then the "lever" is 7 mm.

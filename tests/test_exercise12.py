@@ -224,3 +224,11 @@ def test_reconcile_has_the_same_gap_and_the_same_first_effect():
     for name, point in fits.items():
         gap = getattr(story, name) / story.noise_floor
         assert hand.measure_gap(point, "held_out") == pytest.approx(gap, rel=0.02)
+
+
+@pytest.mark.parametrize(
+    ("written", "ours", "same"),
+    [(0.94, 0.77, True), (1.05, 1.0, True), (1.3, 1.0, False), (0.0, 0.8, False), (0.9, 5, False)],
+)
+def test_gaps_below_the_noise_are_the_same(written, ours, same):
+    assert ROOM._is_same(written, ours) is same

@@ -172,7 +172,7 @@ def test_nothing_is_seen_where_nothing_is_missing():
     log = hiding("")
     found = make_residual_views(log, TRUTH)
     assert found.is_noise
-    assert found.headline == "Only noise remains."
+    assert found.headline == "At least 90 % of this is noise."
     assert all(view.explains < 0.1 for view in found.views.values())
 
 

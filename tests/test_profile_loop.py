@@ -151,7 +151,8 @@ def make_loop(
 def test_a_learners_loop_is_checked_and_ours_used_until_it_is_right(mine, says):
     found = check_loop(mine)
 
-    assert says in found.report
+    assert says in " ".join(found.report.split())
+    assert max(map(len, found.report.splitlines())) <= 80
     assert found.loop is (mine if says is RIGHT else compute_loop_voltage)
 
 

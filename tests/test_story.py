@@ -313,4 +313,4 @@ def test_the_pictures_show_a_gap_before_and_only_noise_after():
     before, after = plot_remaining_gap(EXPLAINED)
 
     assert "of the gap beyond noise shows in no plot" in before.alt
-    assert "with drag: Only noise remains." in after.alt
+    assert "with drag: At least 90 % of this is noise." in after.alt

@@ -112,7 +112,7 @@ class ResidualViews:
     def headline(self) -> str:
         """A sentence about the share of the residual that each view explains."""
         if self.is_noise:
-            return "Only noise remains."
+            return f"At least {_format_percent(1.0 - LEAST)} of this is noise."
         share = _format_percent(self.unexplained)
         return f"{share} of the gap beyond noise shows in no plot."
 
