@@ -27,7 +27,6 @@ BROKEN = {
     "truncated": TEXT[: len(TEXT) // 2],
     "a comma lost": TEXT.replace("0.0,\n", "0.0\n", 1),
     "nested without end": '{"slow-forward": ' + "[" * 100_000,
-    "a run twice": '{"slow-forward": [[1,2,3,4]], "slow-forward": [[1,2,3,4]]}',
     "no row": with_row("slow"),
     "null for a run": sysid(4, "Simple") | {"slow-forward": None},
     "a width no tool wrote": {"slow-forward": [[1, 2, 3, 4, 5]]},

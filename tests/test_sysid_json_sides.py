@@ -101,14 +101,3 @@ def test_sides_that_move_differently_are_doubted(tmp_path: Path) -> None:
     assert doubt.code == "sides-differ"
     assert "dynamic-forward" in doubt.message
     assert "Fit each side alone" in doubt.message
-
-
-def test_signs_that_come_and_go_are_doubted(tmp_path: Path) -> None:
-    made = sysid(9, "Drivetrain")
-    for row in made["fast-forward"][::2]:
-        row[5] *= -1
-
-    log = read_json(tmp_path, made, motor="left")
-
-    assert only_doubt(log).code == "unclear-sign"
-    assert "left, dynamic-forward" in only_doubt(log).message

@@ -10,7 +10,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.core.log import Array, Log, Run
+from sim.core.log import Array, Log, Run, find_majority_sign
 from sim.estimation.measurements import compute_noise_deviation
 from sim.inspect.anomalies import Anomaly, find_anomalies, predict_velocity
 from sim.inspect.baseline_model import BaselineModel, fit_baseline
@@ -22,7 +22,6 @@ FEWEST = 6  # [samples] of voltage that tell a ramp from a step
 RAMP, STEP = 0.55, 0.7  # median voltage of the first half over that of the second: 1/3 in a ramp
 STRAIGHT = 0.05  # [share of the largest voltage] median deviation of a ramp from its line
 DRIVEN = 0.05  # [share of a run's largest voltage] less is before or after the test
-AGREED = 0.6  # [1] mean of the signs if 4 of 5 samples agree
 RISEN = 0.632  # [share of the top speed] after one time constant
 STEPS, CREEP = 1.5, 2e-5  # [smallest steps of the position, share of its way] a position at rest
 PARTS = 10  # of a run's motion, evaluated one by one: a slip or a stop changes one or two of them
@@ -179,12 +178,6 @@ def find_held_samples(values: Array) -> tuple[Counts, Counts]:
     """
     starts = np.flatnonzero(np.concatenate(([True], np.diff(values) != 0.0))[: values.size])
     return starts, np.diff(np.append(starts, values.size))
-
-
-def find_majority_sign(values: Array) -> int:
-    """The sign of at least four fifths of the values: 1, -1, or 0 if there is none."""
-    mean = float(np.sign(values).mean()) if values.size else 0.0
-    return 0 if abs(mean) < AGREED else int(np.sign(mean))
 
 
 def _recognize_test(run: Run) -> str:
