@@ -26,7 +26,7 @@ CUT = FaultStrike(FORWARD_RAMP, start=1.5, severity=1.0)
 LATE = 0.2  # [share of the loops] that are late
 SHORTEST = 0.04  # [s] shortest late loop
 GRIP = 1.1 * 9.81  # [m/s²] largest acceleration on carpet
-FINE = 10  # simulation steps per sample
+FINE = 20  # simulation steps per sample
 RATIO = 1.25  # error of the gear ratio
 
 
@@ -162,7 +162,8 @@ def _add_slip(run: Run, setup: Setup) -> Run:
     """The step with wheel slip, with the grip of the carpet; the encoder's noise stays."""
     gains = setup.mechanism.gains
     time = np.linspace(run.time[0], run.time[-1], FINE * len(run))
-    push = (np.interp(time, run.time, np.abs(run.voltage)) - gains["kS"]) / gains["kV"]
+    held = np.abs(run.voltage)[np.searchsorted(run.time, time, side="right") - 1]
+    push = (held - gains["kS"]) / gains["kV"]
     plain, slipping = spin_wheels(
         push,
         time,
