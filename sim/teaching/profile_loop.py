@@ -22,6 +22,7 @@ from sim.core.units import BATTERY
 from sim.physics.engine import NO_WIRES, simulate_run
 from sim.physics.engine import State as Body
 from sim.physics.model import Model
+from sim.teaching.fit_gaps import CLOSE, RIGHT, judge_gap
 
 LOOP = 0.02  # [s] loop period of the robot program
 SETTLING = 0.5  # [s] simulated after the end of the profile
@@ -283,9 +284,7 @@ Loop = Callable[[ElevatorFeedforward, PIDController, LoopInput], float]
 
 # All numbers differ, so that mistakes can be told apart
 EXAMPLE = LoopInput(Setpoint(0.4, 0.8), Setpoint(0.418, 0.92), 0.37, 0.74)
-CLOSE = 1e-9  # [1] relative tolerance for rounding errors
-RIGHT = "Your loop: right."
-OURS = " The next cells use our loop until then."
+OURS = "The next cells use our loop until then."
 
 
 @dataclass(frozen=True)
@@ -313,23 +312,19 @@ def check_loop(mine: Callable[..., object]) -> CheckedLoop:
     Args:
         mine: the student's function of feedforward, PID controller and ``LoopInput``; returns [V].
     """
-    try:
-        answer = mine(*_controllers(), EXAMPLE)
-        if answer is ... or answer is None:
-            feedback_text = "Your loop: still empty. Put your answer in place of the three dots."
-            return CheckedLoop(compute_loop_voltage, feedback_text + OURS)
-        found = float(answer)  # type: ignore[arg-type]  # whatever it is, the next lines say so
-    except Exception as error:  # noqa: BLE001 - a student's line may fail in any way
-        feedback_text = f"Your loop: it stops with an error: {error}."
-        return CheckedLoop(compute_loop_voltage, feedback_text + OURS)
     wanted = compute_loop_voltage(*_controllers(), EXAMPLE)
-    if math.isclose(found, wanted, rel_tol=CLOSE):
-        return CheckedLoop(mine, RIGHT)  # type: ignore[arg-type]  # judged to answer with a number
-    hint = next(
+    said = judge_gap(lambda: mine(*_controllers(), EXAMPLE), wanted, _choose_hint)
+    if said == RIGHT:
+        return CheckedLoop(mine, f"Your loop: {said}")  # type: ignore[arg-type]  # judged to answer with a number
+    return CheckedLoop(compute_loop_voltage, f"Your loop: {said} {OURS}")
+
+
+def _choose_hint(found: float) -> str:
+    """The hint for a wrong output [V]."""
+    return next(
         (says for value, says in _wrong_loops() if math.isclose(found, value, rel_tol=CLOSE)),
         "Add two things: ff.calculateWithVelocities(…) and pid.calculate(…).",
     )
-    return CheckedLoop(compute_loop_voltage, f"Your loop: not yet. {hint}{OURS}")
 
 
 def _controllers() -> tuple[ElevatorFeedforward, PIDController]:
