@@ -35,7 +35,7 @@ from sim.inspect.fault import (
     replace_run,
     rescale_motion,
 )
-from sim.inspect.launch import CLIMBS, FALLS, find_launch_event, find_step_start
+from sim.inspect.launch import LEAST, find_launch_event, find_step_start
 from sim.inspect.log_features import LogFeatures
 from sim.inspect.step_rise import find_rise, spin_wheels
 
@@ -122,9 +122,9 @@ def _find_event(index: int, run: Run) -> Damage | None:
     event = find_launch_event(run)
     if event is None:
         return None
-    least = FALLS if event.kind == "fall" else CLIMBS
-    volts = float(np.median(np.abs(run.voltage[find_step_start(run) :])))
-    lasts = event.end - event.start
+    first = find_step_start(run)
+    start, end = float(run.time[first]), float(run.time[event.end])
+    volts, lasts = float(np.median(np.abs(run.voltage[first:]))), end - start
     happened = (
         f"falls by {event.size:.0%} within the first {lasts:.2f} s, and then recovers"
         if event.kind == "fall"
@@ -133,8 +133,8 @@ def _find_event(index: int, run: Run) -> Damage | None:
     )
     return Damage(
         fault="wheel-slip",
-        where=LogInterval(index, run.test, event.start, event.end),
-        confidence=1.0 - 0.5 * least / event.size,
+        where=LogInterval(index, run.test, start, end),
+        confidence=1.0 - 0.5 * LEAST / event.size,
         evidence=f"The speed rises to {event.speed:.3g} m/s, {happened}, at a constant "
         f"{volts:.1f} V: the wheels spin, and the robot catches up later.",
         advice=f"Run the dynamic tests again with half the step, {0.5 * volts:.1f} V, on the "
