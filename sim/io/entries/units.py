@@ -212,8 +212,8 @@ def _scale_signal(
     else:
         factor = found.factor * (UNITS[found.units].si / UNITS[unit].si)
     what = (
-        f"the unit of {name!r} is {text!r} and was converted to {unit}. SysId itself does not convert: "
-        "there, log all signals in one unit, and velocities per second."
+        f"the unit of {name!r} is {text!r} and was converted to {unit}. SysId itself does not "
+        "convert: there, log all signals in one unit, and velocities per second."
     )
     return factor, "" if found.units == unit and factor == 1.0 else "converted-units", what
 
