@@ -45,7 +45,6 @@ ROUNDING = 0.0051  # [V] the same, for voltages written with two digits
 FEWEST = 8  # [samples] of a start that is evaluated
 BENT = 0.0012  # [share of ``length``] RMS error of a start without a limit, at least
 BETTER = 0.3  # [share] of its squared error that a limit leaves, at most
-FLAT = 0.2  # [share] of the acceleration that is missing at first, at least
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:  # noqa: ARG001 - the contract
@@ -89,7 +88,7 @@ def _detect_limit(index: int, run: Run, rise: StepRise) -> Damage | None:
         return None
     held = rise.fit("current", np.linspace(0.1, 1.0, 10))
     left = (held.error / free.error) ** 2
-    if left >= BETTER or held.share > 1.0 - FLAT:
+    if left >= BETTER:
         return None
     volts = float(np.median(run.voltage))
     return Damage(

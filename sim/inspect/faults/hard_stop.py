@@ -33,9 +33,6 @@ PRESSED = 0.6  # [s] against the stop at severity 1
 BOUNCE, FADES = 0.15, 0.02  # [share of the speed, s] speed of the bounce, and its time constant
 SHORTEST = 0.06  # [s] against the stop, at least three samples
 FAST = 4.0  # [times the threshold of standstill] speed before an impact
-BRISK = 2.0  # [times the threshold of standstill] the same, if it stops from one sample to the next
-WHOLE = 0.7  # [share of that speed] one sample before such an impact
-ON, LATELY = 0.5, 0.2  # [share of the voltage in the last s before the impact] after it, at least
 PUSHED = 0.1  # [share of the largest voltage] with less it came to rest without a stop
 SETTLES = 0.1  # [s] after the impact, for the bounce and the sensor's filter
 BEFORE = 0.1  # [s] before the impact, of which the speed is the median
@@ -75,31 +72,24 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
     """Find runs that end at a stop with the voltage on, or start pressed against one."""
     yield from _find_pressed_starts(features)
     for index, run in enumerate(features.log.runs):
-        for fast in (FAST, BRISK):
-            found = _find_stop(
-                index, run, fast=fast, still=features.still_speed, period=features.period
-            )
-            if found:
-                yield found
-                break
+        found = _find_stop(index, run, still=features.still_speed, period=features.period)
+        if found:
+            yield found
 
 
-def _find_stop(index: int, run: Run, *, fast: float, still: float, period: float) -> Damage | None:
-    """The first stop after motion above ``fast`` times the speed at rest; None if there is none."""
-    impact = _find_impact(run, speed=fast * still, still=still)
+def _find_stop(index: int, run: Run, *, still: float, period: float) -> Damage | None:
+    """The stop at which a run ends; None if there is none."""
+    impact = _find_impact(run, speed=FAST * still, still=still)
     if impact is None:
         return None
     before = (run.time >= run.time[impact] - BEFORE) & (run.time < run.time[impact])
     speed = float(np.median(np.abs(run.velocity[before]))) if before.any() else 0.0
     lasts = float(run.time[-1] - run.time[impact])
     volts = np.abs(run.voltage)
-    lately = (run.time >= run.time[impact] - LATELY) & (run.time < run.time[impact])
-    pushed = float(volts[lately].max(initial=0.0))
     if (
-        speed < fast * still
-        or (fast < FAST and not _stops_at_once(run, impact, speed=speed, still=still))
+        speed < FAST * still
         or lasts < max(SHORTEST, 2.5 * period)
-        or volts[impact:].min() < max(ON * pushed, PUSHED * volts.max())
+        or volts[impact:].min() < PUSHED * volts.max()
     ):
         return None
     moved = abs(float(run.position[-1] - run.position[impact]))
@@ -122,12 +112,6 @@ def _find_stop(index: int, run: Run, *, fast: float, still: float, period: float
 def _distance(run: Run, impact: int) -> float:
     """[m or rad] distance from the start of the run to the impact."""
     return abs(float(run.position[impact] - run.position[0]))
-
-
-def _stops_at_once(run: Run, impact: int, *, speed: float, still: float) -> bool:
-    """Whether it stops from full speed within a sample, faster than by friction."""
-    size = np.abs(run.velocity)
-    return bool(size[impact - 1] > WHOLE * speed and np.all(size[impact + 1 :] < still))
 
 
 def _find_pressed_starts(features: LogFeatures) -> Iterable[Damage]:

@@ -25,7 +25,6 @@ ORDINARY = 0.06  # [share of the log's top speed] standard deviation at severity
 LOUD = 0.014  # [share of the log's top speed] less noise is a doubt, not a fault
 FEWEST = 8  # [samples] at rest; fewer do no harm
 ADDED = 0.8  # [s] of standstill added before a test that starts in motion, within the log's pause
-HERE = 0.3  # [share of the log's noise at rest] of a run that is reported
 SURE = 3.0  # [times LOUD] noise at which the confidence is 0.95
 
 
@@ -63,8 +62,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
         return
     confidence = 1.0 - 0.5 * 10.0 ** (-noise / (SURE * LOUD * top))
     for index, rest in rests.items():
-        if _noise([rest]) > HERE * noise:
-            yield _damage(index, features.log.runs[index], rest, noise, confidence)
+        yield _damage(index, features.log.runs[index], rest, noise, confidence)
 
 
 def _noise(rests: list[Array]) -> float:

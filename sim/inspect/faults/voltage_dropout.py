@@ -17,7 +17,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from sim.core.log import Array, Log, Run
+from sim.core.log import Log, Run
 from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterval
 from sim.inspect.launch import find_step_start
 from sim.inspect.log_features import LogFeatures
@@ -31,12 +31,9 @@ AROUND = 0.22  # [s] window of the running median, the expected voltage
 NARROWEST = 7  # [samples] of that window, at least
 FALL = 0.25  # [share of the expected voltage] least drop
 FLOOR = 0.08  # [V] least drop
-NOISE = 6.0  # [times the voltage's median deviation] least drop
 LONGEST = 0.08  # [s] longest drop-out; longer is a brownout or a released button
 ECHO = 0.06  # [s] in which the velocity would follow
-ANSWER = 0.5  # [share of the predicted loss of speed] from which on the velocity follows
 CLEAR = 0.1  # [share of the speed] a smaller loss is noise
-SAGS = 0.5  # [share of the voltage's drop] by which the bus voltage drops as well, in a sag
 LAUNCH = 0.2  # [s] after a step, in which a single drop of the voltage is no lost reading
 SERIES = 3  # drop-outs that are reported together
 
@@ -82,7 +79,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
                 drop
                 for drop, answer in zip(drops, answers, strict=True)
                 if run.moving[max(drop.first - 1, 0)]  # only motion can contradict it
-                and answer < _find_least_loss(run, drop, features.timescale)
+                and answer < CLEAR
                 and not _launches(run, drop)
             ]
         for where, group in _group_drops(index, run, drops):
@@ -95,42 +92,22 @@ def find_dropouts(run: Run, period: float) -> list[Dropout]:
     padded = np.pad(run.voltage, window // 2, mode="reflect" if len(run) > window else "edge")
     expected = np.median(np.lib.stride_tricks.sliding_window_view(padded, window), axis=1)
     short = (expected - run.voltage) * np.sign(expected)
-    least = max(FLOOR, NOISE * float(np.median(np.abs(short))))
+    least = FLOOR
     low = np.flatnonzero((short > FALL * np.abs(expected)) & (short > least))
     groups = np.split(low, np.flatnonzero(np.diff(low) > 1) + 1) if low.size else []
     drops = []
     for group in groups:
         first, last = int(group[0]), int(group[-1])
         lasted = float(run.time[min(last + 1, len(run) - 1)] - run.time[first])
-        inside = first > 0 and last < len(run) - 1 and not _sags(run, first, last)
-        if inside and lasted <= LONGEST and _returns(run.voltage, first, last, expected):
+        inside = first > 0 and last < len(run) - 1
+        if inside and lasted <= LONGEST:
             drops.append(Dropout(first, last, float(expected[first])))
     return drops
-
-
-def _sags(run: Run, first: int, last: int) -> bool:
-    """Whether the bus voltage drops as well: then the battery sags, and no reading is lost."""
-    if run.bus_voltage is None:
-        return False
-    before = max(first - 2, 0)
-    bus, volts = run.bus_voltage, np.abs(run.voltage)
-    sag = 1.0 - float(bus[first : last + 1].min()) / max(float(bus[before]), FLOOR)
-    fall = 1.0 - float(volts[first : last + 1].min()) / max(float(volts[before]), FLOOR)
-    return fall > 0.0 and sag > SAGS * fall
 
 
 def _launches(run: Run, drop: Dropout) -> bool:
     """Whether it is at the start of a step, where a controller's limits may act."""
     return bool(0.0 <= run.time[drop.first] - run.time[find_step_start(run)] < LAUNCH)
-
-
-def _returns(voltage: Array, first: int, last: int, expected: Array) -> bool:
-    """Whether the voltage has its expected value on both sides, within two samples."""
-    sides = (slice(max(first - 2, 0), first), slice(last + 1, last + 3))
-    return all(
-        bool(np.any(np.abs(voltage[side] - expected[side]) <= FALL * np.abs(expected[side])))
-        for side in sides
-    )
 
 
 def measure_loss(run: Run, drop: Dropout) -> tuple[float, int, float]:
@@ -140,14 +117,6 @@ def measure_loss(run: Run, drop: Dropout) -> tuple[float, int, float]:
     until = int(np.searchsorted(run.time, run.time[drop.last] + ECHO)) + 1
     slowest = drop.first + int(np.argmin(speed[drop.first : until]))
     return 1.0 - float(speed[slowest]) / before if before > 0.0 else 0.0, slowest, before
-
-
-def _find_least_loss(run: Run, drop: Dropout, timescale: float) -> float:
-    """[share of the speed] loss from which on the velocity follows the drop-out."""
-    lasted = float(run.time[drop.last + 1] - run.time[drop.first])
-    lost = 1.0 - abs(float(np.mean(run.voltage[drop.first : drop.last + 1]) / drop.expected))
-    due = lost * -np.expm1(-lasted / timescale) if timescale > 0.0 else 0.0
-    return max(ANSWER * float(due), CLEAR)
 
 
 def _group_drops(
