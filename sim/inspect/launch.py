@@ -19,7 +19,6 @@ LAUNCH = 0.8  # [s] after the step, in which a robot starts
 REST = 0.4  # [s] of the run after that, at least, for comparison
 ON, STAYS = 0.3, 2  # [share of the largest voltage, samples] from which on a step is applied
 UP = 0.3  # [share of the top speed] below it the motor crosses a backlash
-CLIMBING = 0.5  # [share of the top speed] above it a wait counts
 LEAST = 0.12  # [share of the speed] a fall, [of the top speed] the climb after a wait
 WAITS = 0.03  # [share of the top speed] largest rise in a wait
 LASTS = 0.15  # [s] length of a wait
@@ -121,7 +120,7 @@ def _largest_climb(
     for k in _between(since, (within[0], within[1] - LASTS)).tolist():
         ends = int(np.searchsorted(since, since[k] + LASTS))
         behind = int(np.searchsorted(since, min(since[k] + LAUNCH, within[1] + LASTS)))
-        if speed[k] < CLIMBING * top or behind <= ends:
+        if behind <= ends:
             continue
         waits = float(speed[k : ends + 1].max() - speed[k]) <= WAITS * top
         reached = float(speed[ends:behind].max())

@@ -35,7 +35,6 @@ SKIPS = 0.25  # [share] of slips that are skipped teeth
 LOSS = 0.7  # [1] the sensor reads exp(-LOSS·severity) of the speed: one half at severity 1
 SKIP = 1.3  # [times the speed] that a skipped tooth at severity 1 subtracts or adds
 BRIEF = 0.15  # [s] longest anomaly that grows and fades and is still a slip
-LEAST = 0.15  # [share of the speed] least loss: a smaller one may be an effect
 BELIEVED = 0.92  # [share explained] least of a slip
 FEWEST = 3  # [samples] fewer are a wild reading
 MOST = 2.0  # [s] longest slip: longer is a wrong scale
@@ -70,7 +69,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
         run = features.log.runs[anomaly.run]
         back = anomaly.begin + last <= len(run) - BACK
         start, end = (float(run.time[anomaly.begin + i]) for i in (first, last - 1))
-        if share < BELIEVED or abs(loss) < LEAST or not back or end - start > MOST:
+        if share < BELIEVED or not back or end - start > MOST:
             continue
         evidence, advice = _explain(
             abs(loss), low=loss > 0, samples=last - first, lasts=end - start

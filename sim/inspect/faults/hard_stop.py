@@ -40,7 +40,6 @@ AT_END = 0.02  # [share of the travel] distance from its end at which a run star
 GIVEN = (0.005, 0.05)  # [share of the travel] by which a rubber stop or a slack chain gives
 CREPT, CREEPS = 0.2, 1.0  # [share of the creep, s] after which the rest lasts so long, at least
 PRESSES = 1.5  # [times kS] least gravity that presses a mechanism onto a stop
-LATE = 0.25  # [V] least voltage above that which would move it, when it leaves the stop
 LEANS = 0.7  # [1] confidence: a chain that is pulled tight looks the same
 LARGEST_REBOUND = 0.25  # [share of the way without a stop] largest motion after the impact
 
@@ -136,7 +135,7 @@ def _find_pressed_starts(features: LogFeatures) -> Iterable[Damage]:
             and abs(float(run.position[0]) - end) < AT_END * (highest - lowest)
             and GIVEN[0] < given < GIVEN[1]
             and creeps > CREEPS
-            and volts - pressed - baseline.ks > max(LATE, PRESSES * baseline.ks)
+            and volts - pressed - baseline.ks > PRESSES * baseline.ks
         ):
             yield Damage(
                 fault="hard-stop",
@@ -155,14 +154,10 @@ def _find_impact(run: Run, *, speed: float, still: float) -> int | None:
     fast = np.flatnonzero(np.abs(run.velocity) > speed)
     if not fast.size or fast[-1] + 2 >= len(run):
         return None
-    way = np.sign(run.velocity[fast[-1]])
-    forward = np.flatnonzero(run.velocity * way > speed)
-    if not forward.size:
-        return None
-    impact = int(forward[-1]) + 1
-    settled = run.time > run.time[min(impact, len(run) - 1)] + SETTLES
+    impact = int(fast[-1]) + 1
+    settled = run.time > run.time[impact] + SETTLES
     tail = np.abs(run.velocity[settled])
-    if impact >= len(run) or (tail.size and float(np.median(tail)) > still):
+    if tail.size and float(np.median(tail)) > still:
         return None
     return impact
 
