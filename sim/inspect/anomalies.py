@@ -7,7 +7,7 @@ the anomaly's sum of squares that the shape explains is the confidence in that f
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -41,8 +41,6 @@ class Anomaly:
         residual: (end - begin,) [m/s or rad/s] measured minus predicted velocity, minus the run's
             usual residual.
         expected: (end - begin,) [m/s or rad/s] predicted velocity.
-        recurs: whether another run has one at the same position, or as long after its start: then
-            the mechanism is the cause, not a fault.
     """
 
     run: int
@@ -52,7 +50,6 @@ class Anomaly:
     end: int
     residual: Array
     expected: Array
-    recurs: bool = False
 
     def list_candidate_spans(self, *, margin: int) -> list[tuple[int, int]]:
         """Candidate (begin, end) samples of the disturbance within the anomaly.
@@ -125,6 +122,9 @@ def find_anomalies(
 ) -> tuple[Anomaly, ...]:
     """Find the intervals in which runs do not follow the prediction.
 
+    One that another run has at the same position, or as long after its start, is left out: there
+    the mechanism is the cause, not a fault.
+
     Args:
         runs: the runs of a log.
         expected: per run, (n,) [m/s or rad/s] predicted velocity.
@@ -166,8 +166,7 @@ def find_anomalies(
                 )
             )
     return tuple(
-        replace(one, recurs=any(_recur(one, other, runs, still=still) for other in found))
-        for one in found
+        one for one in found if not any(_recur(one, other, runs, still=still) for other in found)
     )
 
 

@@ -10,7 +10,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.core.log import Array, Log, Run, find_majority_sign
+from sim.core.log import Array, Log, Run, find_majority_sign, integrate_velocity
 from sim.estimation.measurements import compute_noise_deviation
 from sim.inspect.anomalies import Anomaly, find_anomalies, predict_velocity
 from sim.inspect.baseline_model import BaselineModel, fit_baseline
@@ -203,8 +203,7 @@ def _distance_ratio(run: Run) -> float:
     if parts < LEAST:
         return 1.0
     ends = np.linspace(motion[0], motion[-1], parts + 1).astype(int)
-    steps = np.diff(run.time) * 0.5 * (run.velocity[1:] + run.velocity[:-1])
-    summed = np.diff(np.concatenate(([0.0], np.cumsum(steps)))[ends])
+    summed = np.diff(integrate_velocity(run.time, run.velocity)[ends])
     changed = np.diff(run.position[ends])
     far = np.abs(changed) > FAR * np.abs(changed).max()
     if far.sum() < parts // 2:

@@ -88,7 +88,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
     cuts = [found for index in range(len(features.log.runs)) for found in _cuts(features, index)]
     yield from cuts
     for anomaly in features.anomalies:
-        found = None if anomaly.recurs else _unpowered(features, anomaly)
+        found = _unpowered(features, anomaly)
         if found and not any(_overlap(found.where, other.where) for other in cuts):
             yield found
 

@@ -63,8 +63,6 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
 def detect(features: LogFeatures) -> Iterable[Damage]:
     """Find intervals in which the velocity is abruptly off by a fixed share, then right again."""
     for anomaly in features.anomalies:
-        if anomaly.recurs:
-            continue
         share, loss, first, last = _fit_slip(anomaly, features.period)
         run = features.log.runs[anomaly.run]
         back = anomaly.begin + last <= len(run) - BACK

@@ -7,7 +7,7 @@ from typing import TypeAlias
 import numpy as np
 
 from sim.bench.routine import LOOPS_BEFORE_DRIVE
-from sim.core.log import Array, Log, Run
+from sim.core.log import Array, Log, Run, integrate_velocity
 from sim.inspect.fault import FaultStrike, replace_run, rescale_motion
 from sim.inspect.faults import find_fault
 from sim.inspect.step_rise import spin_wheels
@@ -172,5 +172,5 @@ def _add_slip(run: Run, setup: Setup) -> Run:
         limits=np.full(2, np.inf),
     ).speed
     more = np.sign(run.voltage[0]) * np.interp(run.time, time, slipping - plain)
-    moved = np.concatenate(([0.0], np.cumsum(0.5 * (more[1:] + more[:-1]) * np.diff(run.time))))
-    return replace(run, velocity=run.velocity + more, position=run.position + moved)
+    moved = run.position + integrate_velocity(run.time, more)
+    return replace(run, velocity=run.velocity + more, position=moved)
