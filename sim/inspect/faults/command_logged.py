@@ -43,7 +43,7 @@ PERFECT = 0.002  # [share of the step] largest deviation of a commanded voltage
 ROUNDING = 0.0051  # [V] the same, for voltages written with two digits
 
 FEWEST = 8  # [samples] of a start that is evaluated
-BENT = 0.0012  # [share of ``length``] RMS error of a start without a limit, at least
+BENT = 0.0012  # [share of speed times time constant] RMS error of a start without a limit, at least
 BETTER = 0.3  # [share] of its squared error that a limit leaves, at most
 
 

@@ -149,9 +149,11 @@ def _fit_slip(features: LogFeatures, index: int, run: Run) -> Damage | None:
     rise = find_rise(run, baseline, period=features.period) if baseline else None
     if rise is None:
         return None
-    free, limited = rise.fit(), rise.fit("current", LIMITS)
-    plain = min(free.error, limited.error)
-    if plain <= CLEAR * float(rise.signal.max()):
+    least = CLEAR * float(rise.signal.max())
+    plain = rise.fit().error
+    if plain > least:
+        plain = min(plain, rise.fit("current", LIMITS).error)
+    if plain <= least:
         return None
     loose = rise.fit("grip", GRIPS)
     share = 1.0 - (loose.error / plain) ** 2
