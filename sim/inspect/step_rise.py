@@ -18,7 +18,7 @@ from sim.inspect.launch import find_step_start
 from sim.inspect.log_features import find_held_samples
 
 LIGHT = 0.1  # [share of kA] inertia of wheels and rotors
-STEPS = 80  # of the simulation
+STEPS = 120  # of the simulation
 SCALES = np.geomspace(0.15, 2.5, 32)  # [times the time constant] that are tried
 DELAYS = 25  # between voltage and motion that are tried
 LATEST = 0.08  # [s] the longest of them
@@ -29,7 +29,7 @@ SAMPLES = 60  # [samples] of a rise that are used
 FEWEST = 8  # [samples] of a rise that is fitted
 STALE = 2  # [samples] median length of a repeated reading in a log of slow frames
 ALL, NEVER = np.ones(1), np.full(1, np.inf)
-FINER = (1.0, 0.3, 0.1)  # [share of the coarse grid's cells] the finer grids
+FINER = (1.0, 0.5, 0.2, 0.07)  # [share of the coarse grid's cells] the finer grids
 CELLS = np.linspace(-1.0, 1.0, 9)  # of a finer grid, around the best point so far
 
 
