@@ -114,7 +114,8 @@ def test_an_oddity_is_spoken_of(code):
 @pytest.mark.parametrize("name", MECHANISMS)
 def test_a_clean_log_gives_no_reason_to_speak(name, seed, period):
     log = drawn(name, seed, period=period)
-    too_quick = LogFeatures(log).timescale < 1.2 * period  # kA of an intake is beyond a 20 ms log
+    # kA of an intake is beyond a 20 ms log
+    too_quick = LogFeatures(log).baseline.timescale < 1.2 * period
 
     codes = set(doubts_by_code(log))
 

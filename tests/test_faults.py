@@ -21,9 +21,9 @@ from sim.core.errors import BadRequest
 from sim.core.log import Log
 from sim.inspect.contaminate import contaminate
 from sim.inspect.detect_faults import inspect
-from sim.inspect.fault import load_fault
+from sim.inspect.fault import Fault
 from sim.inspect.faults import FAULTS
-from sim.support.catalogue import list_members
+from sim.support.catalogue import load_catalogue
 
 pytestmark = pytest.mark.slow
 
@@ -164,12 +164,11 @@ FAULT = Fault(
     ("change", "said"),
     [
         (("FAULT = ", "FALT = "), "offers no FAULT = Fault(...)"),
-        (('name="gremlins"', 'name="goblins"'), "is named 'goblins' and not 'gremlins'"),
+        (('name="gremlins"', 'name="goblins"'), "has the name 'goblins' in it, and not 'gremlins'"),
         (("Fingerprint", "Looks"), "begins with Fingerprint:"),
         (('summary="they bite"', 'summary=""'), "has no summary of one line"),
         (('"they bite"', '"they\\nbite"'), "has no summary of one line"),
         (("3 bites", "many bites"), "says what severity 1 means without digits"),
-        (("detect=lambda features: ()", "detect=None"), "has a detect that cannot be called"),
         (("detect=", 'kinds=("static",), detect='), "strikes kinds ('static',)"),
         (("detect=", "kinds=(), detect="), "strikes no kind of test"),
         (("detect=", 'types=("crane",), detect='), "strikes types ('crane',)"),
@@ -186,7 +185,7 @@ def test_a_bad_file_in_the_folder_is_refused_with_a_sentence_that_says_why(
     monkeypatch.delitem(sys.modules, "sim.inspect.faults.gremlins", raising=False)
 
     with pytest.raises(BadRequest) as refused:
-        [load_fault(module, name=name) for name, module in list_members(sim.inspect.faults).items()]
+        load_catalogue(sim.inspect.faults, Fault, Fault.find_contract_breaches)
 
     sys.modules.pop("sim.inspect.faults.gremlins", None)
     assert said in str(refused.value)

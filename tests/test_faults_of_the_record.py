@@ -104,13 +104,3 @@ def test_a_weight_that_beats_the_voltage_has_no_sign_wrong():
     log = replace(log, runs=tuple(sinks if run is forward else run for run in log.runs))
 
     assert found("sign-flip", log) == []
-
-
-def test_ramp_that_starts_in_motion_is_given_a_standstill_to_tremble_in():
-    log = recorded("shooter")
-    log = each(log, lambda run: run.select(np.abs(run.velocity) > 0.0))
-
-    spoilt = contaminate(log, "noisy-standstill", rng=np.random.default_rng(2))
-
-    assert len(spoilt.log.runs[0]) - len(log.runs[0]) > 10
-    assert missed("noisy-standstill", spoilt) == []

@@ -78,17 +78,14 @@ def test_a_drivetrain_is_the_mean_of_its_sides_or_the_one_asked_for(
         assert (run.bus_voltage is None) == (width == 9)
 
 
-@pytest.mark.parametrize("words", [{"test": "Elevator", "units": "Feet"}, {"units": "Feet"}])
-def test_a_row_of_ten_whose_right_side_is_unused_is_one_mechanism(
-    tmp_path: Path, words: dict[str, str]
-) -> None:
-    made = document(10, **words)
+def test_a_row_of_ten_of_an_elevator_is_one_mechanism(tmp_path: Path) -> None:
+    made = document(10, test="Elevator", units="Feet")
     for key in RUNS:
         scaled(made, key, 4, 6, 8, by=0.0)
 
     log = read_json(tmp_path, made)
 
-    assert log.type == words.get("test", "").lower()
+    assert log.type == "elevator"
     assert log.list_runs_of_test("dynamic-forward")[0].voltage[-1] == 6.0
     assert log.doubts == ()
 
@@ -108,16 +105,10 @@ def test_the_nine_columns_of_2019_are_distinguished_from_sysids_by_the_battery(
     assert run.bus_voltage is None
 
 
-def test_an_empty_run_and_an_unknown_one_are_doubted(tmp_path: Path) -> None:
+def test_empty_and_unknown_runs_are_left_out(tmp_path: Path) -> None:
     made = sysid(4, "Simple") | {"slow-forward": [], "fast_forward": [[1, 2, 3, 4]]}
 
-    log = read_json(tmp_path, made)
-
-    assert len(log.runs) == 3
-    assert {doubt.code: "fast_forward" in doubt.message for doubt in log.doubts} == {
-        "empty-run": False,
-        "unknown-run": True,
-    }
+    assert len(read_json(tmp_path, made).runs) == 3
 
 
 class Real(NamedTuple):
@@ -168,7 +159,6 @@ BROKEN = {
     "truncated": TEXT[: len(TEXT) // 2],
     "a comma lost": TEXT.replace("0.0,\n", "0.0\n", 1),
     "nested without end": '{"slow-forward": ' + "[" * 100_000,
-    "a run twice": '{"slow-forward": [[1,2,3,4]], "slow-forward": [[1,2,3,4]]}',
     "no row": with_row("slow"),
     "null for a run": sysid(4, "Simple") | {"slow-forward": None},
     "a width no tool wrote": {"slow-forward": [[1, 2, 3, 4, 5]]},
@@ -343,14 +333,3 @@ def test_sides_that_move_differently_are_doubted(tmp_path: Path) -> None:
     assert doubt.code == "sides-differ"
     assert "dynamic-forward" in doubt.message
     assert "Fit each side alone" in doubt.message
-
-
-def test_signs_that_come_and_go_are_doubted(tmp_path: Path) -> None:
-    made = sysid(9, "Drivetrain")
-    for row in made["fast-forward"][::2]:
-        row[5] *= -1
-
-    log = read_json(tmp_path, made, motor="left")
-
-    assert only_doubt(log).code == "unclear-sign"
-    assert "left, dynamic-forward" in only_doubt(log).message

@@ -4,12 +4,27 @@ import json
 from collections.abc import Iterable
 from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
 from sim.bench.mechanism import Mechanism
 from sim.bench.routine import Routine
 from sim.core.units import convert_gains, find_unit
 from sim.inspect.fault import LogInterval
 from sim.support.os_errors import refuse_os_errors
+
+
+def describe_truth(mechanism: Mechanism) -> dict[str, Any]:
+    """True gains and hidden effects of a mechanism, in the unit of its logs, as plain data."""
+    per = find_unit(mechanism.units)
+    return {
+        "mechanism": mechanism.name,
+        "type": mechanism.type,
+        "units": per.name,
+        "gains": convert_gains(mechanism.gains, factor=per.si),
+        "hidden": [
+            {"effect": part.effect, "parameters": part.to_json(per)} for part in mechanism.hidden
+        ],
+    }
 
 
 def write_ground_truth(
@@ -30,16 +45,9 @@ def write_ground_truth(
     Raises:
         BadRequest: the file cannot be written.
     """
-    per = find_unit(mechanism.units)
     content = {
-        "mechanism": mechanism.name,
-        "type": mechanism.type,
-        "units": per.name,
-        "gains": convert_gains(mechanism.gains, factor=per.si),
+        **describe_truth(mechanism),
         "routine": asdict(routine),
-        "hidden": [
-            {"effect": part.effect, "parameters": part.to_json(per)} for part in mechanism.hidden
-        ],
         "faults": [
             {"fault": name, "severity": severity, "run": where.run, "test": where.test,
              "start_s": where.start, "end_s": where.end}

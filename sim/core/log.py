@@ -40,6 +40,7 @@ AT_REST = 0.03  # [share of the top speed] slower samples are at rest
 STANDSTILL = 0.02  # [share of the top speed] slower, static friction decides the speed
 CONSTANT_KINDS = frozenset({"dynamic", "coast", "multistep"})  # tests with a constant command
 LONE_STEP = 2.0  # [1] ratio to the changes before and after, from which on a change is a step
+AGREED = 0.6  # [1] mean of the signs if 4 of 5 samples agree
 LEAST_STEP = 0.25  # [share of the largest voltage] least step of a command
 
 
@@ -254,6 +255,12 @@ class Log:
     def add_doubts(self, *doubts: Doubt) -> "Log":
         """A copy with more doubts."""
         return replace(self, doubts=self.doubts + doubts)
+
+
+def find_majority_sign(values: Array) -> int:
+    """The sign of at least four fifths of the values: 1, -1, or 0 if there is none."""
+    mean = float(np.sign(values).mean()) if values.size else 0.0
+    return 0 if abs(mean) < AGREED else int(np.sign(mean))
 
 
 def integrate_velocity(time: Array, velocity: Array) -> Array:

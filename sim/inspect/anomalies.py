@@ -7,7 +7,7 @@ the anomaly's sum of squares that the shape explains is the confidence in that f
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -18,7 +18,6 @@ WITHIN = 0.1  # [V] usual error of a linear model,
 SHARE = 0.1  # [share of the back-EMF] additional with speed,
 ONSET, SETTLED = 0.35, 0.6  # [V, s] additional for a time after the start, because of friction
 LATE = 0.03  # [s] age that a reading may have
-STARTING = 1.5, 0.06  # [timescales, s] after its first motion, in which a run is still starting
 SIGMAS = 3.0  # [standard deviations of the averaged noise]
 AVERAGE = 0.04  # [s] over which noise is averaged, at least two samples
 SLACK = 0.06  # [s] uncertainty of an anomaly's begin and end
@@ -42,10 +41,6 @@ class Anomaly:
         residual: (end - begin,) [m/s or rad/s] measured minus predicted velocity, minus the run's
             usual residual.
         expected: (end - begin,) [m/s or rad/s] predicted velocity.
-        at_start: whether it is at the start of the motion, where delays and current limits cause
-            similar residuals.
-        recurs: whether another run has one at the same position, or as long after its start: then
-            the mechanism is the cause, not a fault.
     """
 
     run: int
@@ -55,8 +50,6 @@ class Anomaly:
     end: int
     residual: Array
     expected: Array
-    at_start: bool
-    recurs: bool = False
 
     def list_candidate_spans(self, *, margin: int) -> list[tuple[int, int]]:
         """Candidate (begin, end) samples of the disturbance within the anomaly.
@@ -129,6 +122,9 @@ def find_anomalies(
 ) -> tuple[Anomaly, ...]:
     """Find the intervals in which runs do not follow the prediction.
 
+    One that another run has at the same position, or as long after its start, is left out: there
+    the mechanism is the cause, not a fault.
+
     Args:
         runs: the runs of a log.
         expected: per run, (n,) [m/s or rad/s] predicted velocity.
@@ -167,12 +163,10 @@ def find_anomalies(
                     part.stop,
                     residual[part],
                     expected[index][part],
-                    at_start=bool(since[first] < STARTING[0] * baseline.timescale + STARTING[1]),
                 )
             )
     return tuple(
-        replace(one, recurs=any(_recur(one, other, runs, still=still) for other in found))
-        for one in found
+        one for one in found if not any(_recur(one, other, runs, still=still) for other in found)
     )
 
 

@@ -45,9 +45,9 @@ class BaselineModel:
     gravity_terms: Array
     spread: float
 
-    def compute_steady_speed(self, run: Run) -> Array:
-        """(n,) [m/s or rad/s] steady-state velocity under each voltage of a run."""
-        pull = run.voltage - self.compute_gravity(run.position)
+    def compute_steady_speed(self, voltage: Array, position: Array) -> Array:
+        """(n,) [m/s or rad/s] steady-state velocity under each voltage (n,) at a position (n,)."""
+        pull = voltage - self.compute_gravity(position)
         return np.asarray(np.sign(pull) * np.maximum(np.abs(pull) - self.ks, 0.0) / self.kv)
 
     def replay(self, run: Run, *, voltage: Array, first: int, last: int, velocity: float) -> Array:

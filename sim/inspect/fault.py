@@ -7,12 +7,10 @@ damage, and ``detect`` finds it.
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
-from types import ModuleType
 from typing import Self
 
 import numpy as np
 
-from sim.core.errors import BadRequest
 from sim.core.log import Array, Log, Run
 from sim.core.vocabulary import KINDS, TYPES
 from sim.inspect.log_features import LogFeatures
@@ -132,6 +130,27 @@ class Fault:
     when: tuple[float, float] = (0.3, 0.6)
     least_voltage: float = 0.0
 
+    def find_contract_breaches(self, caption: str) -> list[str]:
+        """Sentences that say how this fault breaks the contract; empty if it does not.
+
+        Args:
+            caption: the text at the top of its file.
+        """
+        earliest, latest = self.when
+        rules = {
+            "has no line in the module's text that begins with Fingerprint:": (
+                "Fingerprint:" in caption
+            ),
+            "has no summary of one line": len(self.summary) > 0 and "\n" not in self.summary,
+            "says what severity 1 means without digits": any(c.isdigit() for c in self.ordinary),
+            f"strikes kinds {self.kinds}, which are not all tests": {*self.kinds} <= {*KINDS},
+            "strikes no kind of test": bool(self.kinds),
+            f"strikes types {self.types}, which are not all types": {*self.types} <= {*TYPES},
+            f"is about {self.about!r}, which is neither motion nor time": self.about in ABOUT,
+            f"may start at {self.when}, which are no shares in order": 0 <= earliest <= latest <= 1,
+        }
+        return [rule for rule, kept in rules.items() if not kept]
+
 
 def rescale_motion(run: Run, pace: Array) -> Run:
     """A run with its velocity and position steps multiplied by factors ``pace``.
@@ -158,49 +177,3 @@ def rescale_motion(run: Run, pace: Array) -> Run:
 def replace_run(log: Log, index: int, run: Run) -> Log:
     """The log with another run in the place of that at ``index``."""
     return replace(log, runs=(*log.runs[:index], run, *log.runs[index + 1 :]))
-
-
-def load_fault(module: ModuleType, *, name: str) -> Fault:
-    """The fault that a module of ``sim/inspect/faults`` defines, checked against the contract.
-
-    Args:
-        module: the imported module.
-        name: name of its file, with which the fault's name begins: ``encoder-slip``.
-
-    Raises:
-        BadRequest: the file breaks the contract; the sentence says where.
-    """
-    found = getattr(module, "FAULT", None)
-    if isinstance(found, Fault):
-        broken = _contract_breaches(found, name=name, caption=module.__doc__ or "")
-    else:
-        broken = ["offers no FAULT = Fault(...)"]
-    if broken or not isinstance(found, Fault):
-        raise BadRequest(
-            "; ".join(broken),
-            where=f"sim/inspect/faults/{name.replace('-', '_')}.py",
-            advice="Correct it as sim/inspect/fault.py says, or take it out of the folder.",
-        )
-    return found
-
-
-def _contract_breaches(fault: Fault, *, name: str, caption: str) -> list[str]:
-    """Sentences that say how a fault's file breaks the contract."""
-    earliest, latest = fault.when
-    rules = {
-        f"is named {fault.name!r} and not {name!r}, as its file says": (
-            f"{fault.name}-".startswith(f"{name}-")
-        ),
-        "opens with no sentence that says what it is": bool(caption.strip()),
-        "has no line in the module's text that begins with Fingerprint:": "Fingerprint:" in caption,
-        "has no summary of one line": len(fault.summary) > 0 and "\n" not in fault.summary,
-        "says what severity 1 means without digits": any(c.isdigit() for c in fault.ordinary),
-        f"strikes kinds {fault.kinds}, which are not all tests": {*fault.kinds} <= {*KINDS},
-        "strikes no kind of test": bool(fault.kinds),
-        f"strikes types {fault.types}, which are not all types": {*fault.types} <= {*TYPES},
-        f"is about {fault.about!r}, which is neither motion nor time": fault.about in ABOUT,
-        f"may start at {fault.when}, which are no shares in order": 0 <= earliest <= latest <= 1,
-        "has a spoil that cannot be called": callable(fault.spoil),
-        "has a detect that cannot be called": callable(fault.detect),
-    }
-    return [rule for rule, kept in rules.items() if not kept]

@@ -19,8 +19,8 @@ LAUNCH = 0.8  # [s] after the step, in which a robot starts
 REST = 0.4  # [s] of the run after that, at least, for comparison
 ON, STAYS = 0.3, 2  # [share of the largest voltage, samples] from which on a step is applied
 UP = 0.3  # [share of the top speed] below it the motor crosses a backlash
-CLIMBING = 0.5  # [share of the top speed] above it a wait counts
-FALLS, WAITS, CLIMBS = 0.12, 0.03, 0.12  # [share of the speed] a fall; [of the top] wait, climb
+LEAST = 0.12  # [share of the speed] a fall, [of the top speed] the climb after a wait
+WAITS = 0.03  # [share of the top speed] largest rise in a wait
 LASTS = 0.15  # [s] length of a wait
 LARGER = 1.5  # [times] the size of the same event later in the run
 SAGS = 0.15  # [share of the voltage] if it falls by more, the speed falls with the voltage
@@ -32,20 +32,18 @@ class LaunchEvent:
     """An interval in which the speed fell or stood still while it should have risen.
 
     Args:
-        kind: ``fall`` or ``wait``.
-        start: [s] time of the voltage step, on the log's clock.
-        end: [s] time of the lowest speed of a fall, or of the end of a wait.
+        size: [1] share of the speed by which it fell, or of the top speed by which it then rose.
+        begin: index of the highest speed before a fall, or of the begin of a wait.
+        end: index of the lowest speed of a fall, or of the end of a wait.
         speed: [m/s or rad/s] speed before the fall, or at the end of the wait.
-        size: [1] share of that speed by which it fell, or of the top speed by which it then rose.
-        later: [1] the largest such share in the rest of the run.
+        kind: ``fall`` or ``wait``.
     """
 
-    kind: str
-    start: float
-    end: float
-    speed: float
     size: float
-    later: float
+    begin: int
+    end: int
+    speed: float
+    kind: str
 
 
 def find_launch_event(run: Run) -> LaunchEvent | None:
@@ -55,21 +53,19 @@ def find_launch_event(run: Run) -> LaunchEvent | None:
     if len(run) <= first + 2 * STAYS or since[-1] < LAUNCH + REST:
         return None
     period = float(np.median(np.diff(run.time)))
-    speed = _position_slope(run, half=max(HALF, period), period=period)
-    top = float(np.percentile(speed[since > 0.0], 90))
+    top = float(np.percentile(_position_slope(run, half=max(HALF, period))[since > 0.0], 90))
     if not top > 0.0:
         return None
-    falls = _largest_fall(since, speed, (0.0, LAUNCH), top=top)
-    later = _largest_fall(since, speed, (LAUNCH, float(since[-1]) - 2.0 * WAIT_HALF), top=top)
-    if falls.size >= max(FALLS, LARGER * later.size) and not _voltage_sags(run, first, falls):
-        return _event("fall", run, first, falls, later.size)
-    smooth = _position_slope(run, half=max(WAIT_HALF, period), period=period)
-    climbs = _largest_climb(since, smooth, (0.0, LAUNCH), top=top)
-    later = _largest_climb(
-        since, smooth, (LAUNCH + LASTS, float(since[-1]) - 2.0 * WAIT_HALF), top=top
-    )
-    if climbs.size >= max(CLIMBS, LARGER * later.size) and not _voltage_sags(run, first, climbs):
-        return _event("wait", run, first, climbs, later.size)
+    for find, half, wait in ((_largest_fall, HALF, 0.0), (_largest_climb, WAIT_HALF, LASTS)):
+        speed = _position_slope(run, half=max(half, period))
+        event = find(since, speed, (0.0, LAUNCH), top=top)
+        later = find(since, speed, (LAUNCH + wait, float(since[-1]) - 2.0 * WAIT_HALF), top=top)
+        if (
+            event
+            and event.size >= max(LEAST, LARGER * later.size if later else 0.0)
+            and not _voltage_sags(run, first, event)
+        ):
+            return event
     return None
 
 
@@ -83,20 +79,7 @@ def find_step_start(run: Run) -> int:
     return int(np.argmax(stays)) if stays.any() else int(np.argmax(on))
 
 
-@dataclass(frozen=True)
-class _Found:
-    """Size [1] of an event, index of its begin and of its end, and its speed [m/s or rad/s]."""
-
-    size: float
-    begin: int
-    low: int
-    speed: float
-
-
-NO_EVENT = _Found(0.0, 0, 0, 0.0)
-
-
-def _position_slope(run: Run, *, half: float, period: float) -> Array:
+def _position_slope(run: Run, *, half: float) -> Array:
     """(n,) [m/s or rad/s] slope of the position over twice ``half`` [s], positive on the way."""
     early = np.clip(run.time - half, run.time[0], run.time[-1])
     late = np.clip(run.time + half, run.time[0], run.time[-1])
@@ -105,17 +88,19 @@ def _position_slope(run: Run, *, half: float, period: float) -> Array:
     moving = int(np.count_nonzero(run.velocity))
     changes = int(np.count_nonzero(np.diff(run.position[run.velocity != 0.0])))
     if half > HALF or moving >= HELD * max(changes, 1):
-        wide = 2 * round(half / period) + 1
+        wide = 2 * round(half / float(np.median(np.diff(run.time)))) + 1
         padded = np.pad(speed, wide // 2, mode="edge")
         speed = np.median(np.lib.stride_tricks.sliding_window_view(padded, wide), axis=1)
     return np.asarray(speed)
 
 
-def _largest_fall(since: Array, speed: Array, within: tuple[float, float], *, top: float) -> _Found:
+def _largest_fall(
+    since: Array, speed: Array, within: tuple[float, float], *, top: float
+) -> LaunchEvent | None:
     """The largest fall below an earlier speed that the run reaches again."""
     at = _between(since, within)
     if not at.size:
-        return NO_EVENT
+        return None
     inside = speed[at]
     peak = np.maximum.accumulate(inside)
     recovers = np.maximum.accumulate(inside[::-1])[::-1] >= peak
@@ -123,25 +108,26 @@ def _largest_fall(since: Array, speed: Array, within: tuple[float, float], *, to
     fall = np.where((peak > UP * top) & recovers, share, 0.0)
     low = int(np.argmax(fall))
     begin = int(np.argmax(inside[: low + 1] >= peak[low]))
-    return _Found(float(fall[low]), int(at[begin]), int(at[low]), float(peak[low]))
+    return LaunchEvent(float(fall[low]), int(at[begin]), int(at[low]), float(peak[low]), "fall")
 
 
 def _largest_climb(
     since: Array, speed: Array, within: tuple[float, float], *, top: float
-) -> _Found:
+) -> LaunchEvent | None:
     """The largest rise after an interval of ``LASTS`` in which the speed hardly rose."""
-    best = NO_EVENT
+    best = None
     at_end = since > since[-1] - REST  # a rise until the end is a load that changes
     for k in _between(since, (within[0], within[1] - LASTS)).tolist():
         ends = int(np.searchsorted(since, since[k] + LASTS))
         behind = int(np.searchsorted(since, min(since[k] + LAUNCH, within[1] + LASTS)))
-        if speed[k] < CLIMBING * top or behind <= ends:
+        if behind <= ends:
             continue
         waits = float(speed[k : ends + 1].max() - speed[k]) <= WAITS * top
         reached = float(speed[ends:behind].max())
         climb = (reached - float(speed[ends])) / top if waits else 0.0
-        if climb > best.size and float(np.median(speed[at_end])) < reached + WAITS * top:
-            best = _Found(climb, k, ends, float(speed[ends]))
+        larger = climb > (best.size if best else 0.0)
+        if larger and float(np.median(speed[at_end])) < reached + WAITS * top:
+            best = LaunchEvent(climb, k, ends, float(speed[ends]), "wait")
     return best
 
 
@@ -150,21 +136,10 @@ def _between(since: Array, within: tuple[float, float]) -> NDArray[np.intp]:
     return np.flatnonzero((since >= within[0]) & (since <= within[1]))
 
 
-def _voltage_sags(run: Run, first: int, found: _Found) -> bool:
+def _voltage_sags(run: Run, first: int, found: LaunchEvent) -> bool:
     """Whether the voltage drops, too, a little before the speed or with it."""
     begin = int(np.searchsorted(run.time, run.time[found.begin] - 2.0 * HALF))
     size = np.abs(run.voltage)
     usual = float(np.median(size[first:]))
-    meanwhile = size[max(begin, first + STAYS) : found.low + 1]
+    meanwhile = size[max(begin, first + STAYS) : found.end + 1]
     return bool(meanwhile.min(initial=usual) < (1.0 - SAGS) * usual)
-
-
-def _event(kind: str, run: Run, first: int, found: _Found, later: float) -> LaunchEvent:
-    return LaunchEvent(
-        kind,
-        float(run.time[first]),
-        float(run.time[found.low]),
-        found.speed,
-        found.size,
-        later,
-    )

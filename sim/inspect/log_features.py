@@ -10,7 +10,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.core.log import Array, Log, Run
+from sim.core.log import Array, Log, Run, find_majority_sign, integrate_velocity
 from sim.estimation.measurements import compute_noise_deviation
 from sim.inspect.anomalies import Anomaly, find_anomalies, predict_velocity
 from sim.inspect.baseline_model import BaselineModel, fit_baseline
@@ -20,14 +20,10 @@ STANDING = 0.03  # [share of the log's top speed] slower samples are at rest
 MIN_SAMPLES = 10  # of a run that is evaluated, or damaged
 FEWEST = 6  # [samples] of voltage that tell a ramp from a step
 RAMP, STEP = 0.55, 0.7  # median voltage of the first half over that of the second: 1/3 in a ramp
-STRAIGHT = 0.05  # [share of the largest voltage] median deviation of a ramp from its line
 DRIVEN = 0.05  # [share of a run's largest voltage] less is before or after the test
-AGREED = 0.6  # [1] mean of the signs if 4 of 5 samples agree
-RISEN = 0.632  # [share of the top speed] after one time constant
 STEPS, CREEP = 1.5, 2e-5  # [smallest steps of the position, share of its way] a position at rest
 PARTS = 10  # of a run's motion, evaluated one by one: a slip or a stop changes one or two of them
 COPIED = 0.01  # [share of the variance] largest residual of a velocity that copies the position
-CLOSER = 0.1  # [1] largest ratio of that residual to the residual of a real velocity
 TINY = 1e-12  # [1] smallest scale, for its logarithm
 LEAST = 3  # samples in a part, and parts of a motion
 FAR = 0.1  # [share of the longest part's distance] shorter parts are left out
@@ -157,16 +153,6 @@ class LogFeatures:
             period=self.period,
         )
 
-    @cached_property
-    def timescale(self) -> float:
-        """[s] time from rest to 63 % of the top speed, the median of the dynamic tests.
-
-        It includes delays, and is 0 if no dynamic test starts at rest.
-        """
-        rises = [_rise_time(run) for run in self.log.runs if run.kind == "dynamic" and len(run)]
-        rises = [rise for rise in rises if rise > 0.0]
-        return float(np.median(rises)) if rises else 0.0
-
 
 def find_held_samples(values: Array) -> tuple[Counts, Counts]:
     """Intervals in which a signal repeats one value.
@@ -181,12 +167,6 @@ def find_held_samples(values: Array) -> tuple[Counts, Counts]:
     return starts, np.diff(np.append(starts, values.size))
 
 
-def find_majority_sign(values: Array) -> int:
-    """The sign of at least four fifths of the values: 1, -1, or 0 if there is none."""
-    mean = float(np.sign(values).mean()) if values.size else 0.0
-    return 0 if abs(mean) < AGREED else int(np.sign(mean))
-
-
 def _recognize_test(run: Run) -> str:
     """The test recognized from voltage and motion; see ``LogFeatures.recognized_tests``."""
     if run.kind not in ("quasistatic", "dynamic"):
@@ -198,7 +178,7 @@ def _recognize_test(run: Run) -> str:
     first, last = np.array_split(driven, 2)  # without the samples at rest before and after
     rise = float(np.median(size[first]) / (np.median(size[last]) or 1.0))
     kind = run.kind
-    if rise < RAMP and _is_line(run.time[driven], size[driven]):
+    if rise < RAMP:
         kind = "quasistatic"
     elif rise > STEP:
         kind = "dynamic"
@@ -207,14 +187,6 @@ def _recognize_test(run: Run) -> str:
     if pushed * moved <= 0:
         return f"{kind}-{run.direction}"
     return f"{kind}-{'forward' if pushed > 0 else 'reverse'}"
-
-
-def _is_line(time: Array, volts: Array) -> bool:
-    """Whether a voltage grows linearly: its median deviation from a line is small."""
-    middle = np.array_split(np.arange(time.size), 2)
-    (t0, v0), (t1, v1) = ((np.median(time[half]), np.median(volts[half])) for half in middle)
-    deviations = np.abs(volts - v0 - (v1 - v0) * (time - t0) / (t1 - t0))
-    return bool(np.median(deviations) < STRAIGHT * volts.max())
 
 
 def _rest_length(run: Run, *, step: float) -> int:
@@ -231,8 +203,7 @@ def _distance_ratio(run: Run) -> float:
     if parts < LEAST:
         return 1.0
     ends = np.linspace(motion[0], motion[-1], parts + 1).astype(int)
-    steps = np.diff(run.time) * 0.5 * (run.velocity[1:] + run.velocity[:-1])
-    summed = np.diff(np.concatenate(([0.0], np.cumsum(steps)))[ends])
+    summed = np.diff(integrate_velocity(run.time, run.velocity)[ends])
     changed = np.diff(run.position[ends])
     far = np.abs(changed) > FAR * np.abs(changed).max()
     if far.sum() < parts // 2:
@@ -246,22 +217,13 @@ def _distance_ratio(run: Run) -> float:
 
 def _copy_factor(run: Run) -> float:
     """[1/s] factor by which the velocity is a copy of the position; 0 if it is not."""
-    found = estimate_velocity_lag([run])
-    if found is None:
+    if not run.moving.any():
         return 0.0
     place, speed = run.position - run.position.mean(), run.velocity - run.velocity.mean()
     along, total = float(place @ speed), float(speed @ speed)
     factor = along / max(float(place @ place), TINY)
     left = 1.0 - factor * along / total if total > 0.0 else 1.0
-    return factor if left < min(COPIED, CLOSER * found.unexplained) else 0.0
-
-
-def _rise_time(run: Run) -> float:
-    """[s] from rest to 63 % of the top speed; 0 if the run does not start at rest."""
-    speed = np.abs(run.velocity)
-    up = int(np.argmax(speed > RISEN * run.top_speed))
-    still = np.flatnonzero(~run.moving[:up])
-    return float(run.time[up] - run.time[still[-1]]) if still.size else 0.0
+    return factor if left < COPIED else 0.0
 
 
 def _smallest_step(signals: list[Array]) -> float:

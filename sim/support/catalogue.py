@@ -1,5 +1,6 @@
 """Catalogues: packages in which each module is one member, without a registry."""
 
+from collections.abc import Callable, Iterable
 from importlib import import_module
 from pkgutil import iter_modules
 from types import ModuleType
@@ -40,35 +41,33 @@ def refuse_member(package: ModuleType, name: str, what: str) -> BadRequest:
     )
 
 
-def list_members(package: ModuleType) -> dict[str, ModuleType]:
-    """The modules of a catalogue by name, with dashes: ``encoder-slip`` for ``encoder_slip``.
-
-    Args:
-        package: the package of the catalogue.
-    """
-    return {
-        found.name.replace("_", "-"): import_member(package, found.name)
-        for found in sorted(iter_modules(package.__path__), key=lambda module: module.name)
-    }
-
-
-def load_catalogue(package: ModuleType, kind: type[Member]) -> dict[str, Member]:
+def load_catalogue(
+    package: ModuleType,
+    kind: type[Member],
+    find_breaches: Callable[[Member, str], Iterable[str]] = lambda _member, _caption: (),
+) -> dict[str, Member]:
     """The members of a catalogue by name: what each module offers as ``EFFECT`` for an ``Effect``.
+
+    A name has dashes where its file has underscores: ``encoder-slip`` in ``encoder_slip.py``.
 
     Args:
         package: the package of the catalogue.
         kind: the class of its members, which have a ``name``.
+        find_breaches: member and text at the top of its file -> what is wrong with them.
 
     Raises:
-        BadRequest: a module offers none, or one with another name than its file.
+        BadRequest: a module offers none, one with another name than its file, or a wrong one.
     """
     members: dict[str, Member] = {}
-    for name, module in list_members(package).items():
+    for found in sorted(iter_modules(package.__path__), key=lambda module: module.name):
+        name, module = found.name.replace("_", "-"), import_member(package, found.name)
         member = getattr(module, kind.__name__.upper(), None)
         if not isinstance(member, kind):
             what = f"offers no {kind.__name__.upper()} = {kind.__name__}(...)"
             raise refuse_member(package, name, what)
         if (said := getattr(member, "name", "")) != name:
             raise refuse_member(package, name, f"has the name {said!r} in it, and not {name!r}")
+        if broken := "; ".join(find_breaches(member, module.__doc__ or "")):
+            raise refuse_member(package, name, broken)
         members[name] = member
     return members

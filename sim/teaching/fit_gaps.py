@@ -5,14 +5,16 @@ a = α·v + β·V + γ·sgn(v)        kS = −γ/β, kV = −α/β, kA = 1/β
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from textwrap import fill
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from sim.core.log import Array
 
-WIDTH = 80  # [characters] of a printed line; JupyterLab breaks longer ones inside a word
 SAMPLES = 12  # rows on which a student's line is compared with the right one
+WIDTH = 80  # [characters] of a printed line; JupyterLab breaks longer ones inside a word
 CLOSE = 1e-9  # [1] relative tolerance for rounding errors
 
 Signals = Callable[[Array, Array, Array], object]
@@ -61,58 +63,71 @@ def fill_gaps(*, left: Signals, columns: Signals, gains: Solved) -> FilledGaps:
     """
     rng = np.random.default_rng(7)
     rows = tuple(rng.standard_normal(SAMPLES) for _ in range(3))
-    solved = (-8.0, 3.0, -0.5)
-    first = judge_gap(
-        lambda: left(*rows), put_acceleration_left(*rows), "Which signal is noisiest?"
+    (first, second, third), report = judge_gaps(
+        "Gap",
+        Gap(left, put_acceleration_left, rows, "Which signal is noisiest?"),
+        Gap(
+            columns,
+            make_columns,
+            rows,
+            "What is γ multiplied by in the equation for a? NumPy calls it np.sign(v).",
+        ),
+        Gap(gains, compute_gains, (-8.0, 3.0, -0.5), "Use kV = −α/β and kA = 1/β."),
     )
-    second = judge_gap(
-        lambda: columns(*rows),
-        make_columns(*rows),
-        "What is γ multiplied by in the equation for a? NumPy calls it np.sign(v).",
-    )
-    third = judge_gap(
-        lambda: _in_order(gains(*solved)),
-        list(compute_gains(*solved).values()),
-        "Use kV = −α/β and kA = 1/β.",
-    )
-    feedback = (first, second, third)
-    right = [one == RIGHT for one in feedback]
-    return FilledGaps(
-        left if right[0] else put_acceleration_left,  # type: ignore[arg-type]  # judged to return such an array
-        columns if right[1] else make_columns,  # type: ignore[arg-type]  # the same
-        gains if right[2] else compute_gains,  # type: ignore[arg-type]  # the same
-        format_report("Gap", feedback),
-    )
-
-
-def format_report(label: str, feedback: Sequence[str]) -> str:
-    """The feedback to each blank, numbered and wrapped."""
-    return "\n".join(fill(f"{label} {k}: {one}", WIDTH) for k, one in enumerate(feedback, start=1))
+    return FilledGaps(first, second, third, report)
 
 
 RIGHT, EMPTY = "right.", "still empty. Put your answer in place of the three dots."
 
 
-def _in_order(gains: object) -> object:
-    """The gains kS, kV and kA as a list, if they are a dict; other values unchanged."""
-    return [gains[name] for name in ("kS", "kV", "kA")] if isinstance(gains, dict) else gains
+class Gap(NamedTuple):
+    """A blank: the student's function, the right one, example arguments, and a hint."""
+
+    mine: Callable[..., object]
+    right: Callable[..., Any]
+    example: tuple[Any, ...]
+    hint: str
 
 
-def judge_gap(answer: Callable[[], object], expected: object, hint: str) -> str:
+def judge_gaps(label: str, *gaps: Gap) -> tuple[list[Callable[..., Any]], str]:
+    """The student's functions, each replaced by the right one if it is wrong, and the feedback.
+
+    Args:
+        label: name of a blank in the feedback.
+        gaps: the blanks.
+    """
+    found = [
+        judge_gap(partial(gap.mine, *gap.example), gap.right(*gap.example), gap.hint)
+        for gap in gaps
+    ]
+    functions = [
+        gap.mine if text == RIGHT else gap.right for gap, text in zip(gaps, found, strict=True)
+    ]
+    lines = (fill(f"{label} {k}: {text}", WIDTH) for k, text in enumerate(found, start=1))
+    return functions, "\n".join(lines)
+
+
+def judge_gap(
+    answer: Callable[[], object], expected: object, hint: str | Callable[[float], str]
+) -> str:
     """The feedback to one blank: right, still empty, an error, or not yet with a hint.
 
     Args:
         answer: returns the student's answer.
-        expected: the right answer: a number, or arrays of one shape.
-        hint: the hint for a wrong answer.
+        expected: the right answer: a number, arrays of one shape, or a dict of numbers.
+        hint: the hint for a wrong answer, or a function that chooses it by the answer.
     """
     try:
         found = answer()
+        if isinstance(expected, dict):
+            found = [found[name] for name in expected] if isinstance(found, dict) else found
+            expected = list(expected.values())
         if found is ... or (isinstance(found, list | tuple) and any(one is ... for one in found)):
             return EMPTY
         same = np.allclose(np.asarray(found, dtype=float), np.asarray(expected), rtol=CLOSE)
+        said = hint(float(found)) if callable(hint) else hint  # type: ignore[arg-type]  # a number, as what is expected
     except Exception as error:  # noqa: BLE001 - a student's line may fail in any way
         if "inhomogeneous" in str(error):
             return f"not yet. A column needs a number for each row; one of yours has not. {hint}"
         return f"it stops with an error: {error}."
-    return RIGHT if same else f"not yet. {hint}"
+    return RIGHT if same else f"not yet. {said}"

@@ -23,7 +23,7 @@ from sim.core.units import BATTERY
 from sim.physics.engine import NO_WIRES, simulate_run
 from sim.physics.engine import State as Body
 from sim.physics.model import Model
-from sim.teaching.fit_gaps import EMPTY, WIDTH
+from sim.teaching.fit_gaps import CLOSE, RIGHT, WIDTH, judge_gap
 
 LOOP = 0.02  # [s] loop period of the robot program
 SETTLING = 0.5  # [s] simulated after the end of the profile
@@ -285,8 +285,7 @@ Loop = Callable[[ElevatorFeedforward, PIDController, LoopInput], float]
 
 # All numbers differ, so that mistakes can be told apart
 EXAMPLE = LoopInput(Setpoint(0.4, 0.8), Setpoint(0.418, 0.92), 0.37, 0.74)
-CLOSE = 1e-9  # [1] relative tolerance for rounding errors
-RIGHT = "Your loop: right."
+OURS = "The next cells use our loop until then."
 
 
 @dataclass(frozen=True)
@@ -295,7 +294,7 @@ class CheckedLoop:
 
     Args:
         loop: the student's function if it is right, else ``compute_loop_voltage``.
-        report: the feedback to it.
+        report: the feedback to it, one line.
     """
 
     loop: Loop
@@ -314,27 +313,19 @@ def check_loop(mine: Callable[..., object]) -> CheckedLoop:
     Args:
         mine: the student's function of feedforward, PID controller and ``LoopInput``; returns [V].
     """
-    try:
-        answer = mine(*_controllers(), EXAMPLE)
-        if answer is ... or answer is None:
-            return _refuse_loop(EMPTY)
-        found = float(answer)  # type: ignore[arg-type]  # whatever it is, the next lines say so
-    except Exception as error:  # noqa: BLE001 - a student's line may fail in any way
-        return _refuse_loop(f"it stops with an error: {error}.")
     wanted = compute_loop_voltage(*_controllers(), EXAMPLE)
-    if math.isclose(found, wanted, rel_tol=CLOSE):
-        return CheckedLoop(mine, RIGHT)  # type: ignore[arg-type]  # judged to answer with a number
-    hint = next(
+    said = judge_gap(lambda: mine(*_controllers(), EXAMPLE), wanted, _choose_hint)
+    if said == RIGHT:
+        return CheckedLoop(mine, f"Your loop: {said}")  # type: ignore[arg-type]  # judged to answer with a number
+    return CheckedLoop(compute_loop_voltage, fill(f"Your loop: {said} {OURS}", WIDTH))
+
+
+def _choose_hint(found: float) -> str:
+    """The hint for a wrong output [V]."""
+    return next(
         (says for value, says in _wrong_loops() if math.isclose(found, value, rel_tol=CLOSE)),
         "Add two things: ff.calculateWithVelocities(…) and pid.calculate(…).",
     )
-    return _refuse_loop(f"not yet. {hint}")
-
-
-def _refuse_loop(feedback: str) -> CheckedLoop:
-    """Our loop, with the feedback to the student's."""
-    report = f"Your loop: {feedback} The next cells use our loop until then."
-    return CheckedLoop(compute_loop_voltage, fill(report, WIDTH))
 
 
 def _controllers() -> tuple[ElevatorFeedforward, PIDController]:

@@ -9,7 +9,7 @@ from sim.bench.mechanism import Mechanism
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.core.log import Log, Run
+from sim.core.log import Log, integrate_velocity
 from sim.physics.model import Part
 from sim.teaching.answers import hide_effects
 from sim.teaching.logs import apply_mistake
@@ -67,9 +67,5 @@ def record_limited_robot() -> dict[str, Log]:
 
 def forget_position(log: Log) -> Log:
     """A log whose positions are the integral of its velocities: they say nothing of their own."""
-    return replace(log, runs=tuple(map(_integrate_velocity, log.runs)))
-
-
-def _integrate_velocity(run: Run) -> Run:
-    ways = 0.5 * (run.velocity[1:] + run.velocity[:-1]) * np.diff(run.time)
-    return replace(run, position=np.concatenate(([0.0], np.cumsum(ways))))
+    runs = (replace(r, position=integrate_velocity(r.time, r.velocity)) for r in log.runs)
+    return replace(log, runs=tuple(runs))

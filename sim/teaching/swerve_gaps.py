@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from sim.core.units import GRAVITY
-from sim.teaching.fit_gaps import RIGHT, format_report, judge_gap
+from sim.teaching.fit_gaps import Gap, judge_gaps
 
 WHEELS = 4
 SPIN = (31.4, 0.41, 40.0)  # rotation of the robot [rad], lever arm [m], turns of the wheel
@@ -61,27 +61,26 @@ def check_formulas(*, radius: Formula, inertia: Formula, grip: Formula) -> Fille
         inertia: formula 2, as ``FilledFormulas.inertia``.
         grip: formula 3, as ``FilledFormulas.grip``.
     """
-    first = judge_gap(
-        lambda: radius(*SPIN),
-        compute_radius(*SPIN),
-        "angle · lever is the distance in meters. One turn of the wheel is 2π · radius.",
+    (first, second, third), report = judge_gaps(
+        "Formula",
+        Gap(
+            radius,
+            compute_radius,
+            SPIN,
+            "angle · lever is the distance in meters. One turn of the wheel is 2π · radius.",
+        ),
+        Gap(
+            inertia,
+            compute_inertia,
+            TURNS,
+            "kA of turning belongs on top, and the unit has to be kg·m².",
+        ),
+        Gap(
+            grip,
+            compute_grip,
+            PUSH,
+            "torque · ratio / radius is the push of one wheel. There are four, and they hold "
+            "µ · mass · 9.81.",
+        ),
     )
-    second = judge_gap(
-        lambda: inertia(*TURNS),
-        compute_inertia(*TURNS),
-        "kA of turning belongs on top, and the unit has to be kg·m².",
-    )
-    third = judge_gap(
-        lambda: grip(*PUSH),
-        compute_grip(*PUSH),
-        "torque · ratio / radius is the push of one wheel. There are four, and they hold "
-        "µ · mass · 9.81.",
-    )
-    feedback = (first, second, third)
-    right = [one == RIGHT for one in feedback]
-    return FilledFormulas(
-        radius if right[0] else compute_radius,  # type: ignore[arg-type]  # judged to return a number
-        inertia if right[1] else compute_inertia,  # type: ignore[arg-type]  # the same
-        grip if right[2] else compute_grip,  # type: ignore[arg-type]  # the same
-        format_report("Formula", feedback),
-    )
+    return FilledFormulas(first, second, third, report)

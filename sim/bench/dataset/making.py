@@ -10,12 +10,12 @@ from pathlib import Path
 from typing import Any
 
 from sim.bench.dataset.plan import DAMAGE, MECHANISM, RECORD, Choice, LogJob
+from sim.bench.ground_truth import describe_truth
 from sim.bench.mechanism import Mechanism
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import simulate
 from sim.core.errors import Refusal, refusals_at
 from sim.core.log import Log, Run
-from sim.core.units import convert_gains, find_unit
 from sim.inspect.contaminate import contaminate
 from sim.inspect.fault import LogInterval
 from sim.io import write
@@ -154,22 +154,13 @@ def _describe_log(
     faults: list[dict[str, object]],
 ) -> dict[str, object]:
     """The ground truth of a log, for the key."""
-    per = find_unit(built.units)
+    truth = describe_truth(built)
+    for part in truth["hidden"]:  # an effect that every such mechanism has has no size
+        part["size"] = effects.get(part["effect"])
     return {
+        **truth,
         "student": job.student,
-        "mechanism": built.name,
-        "type": built.type,
-        "units": per.name,
-        "gains": convert_gains(built.gains, factor=per.si),
         "built": {name: getattr(built, name) for name in built.spread},
-        "hidden": [  # an effect that every such mechanism has has no size
-            {
-                "effect": part.effect,
-                "size": effects.get(part.effect),
-                "parameters": part.to_json(per),
-            }
-            for part in built.hidden
-        ],
         "faults": faults,
         "routine": asdict(job.table.routine),
         "seed": f"{job.seed:064x}",

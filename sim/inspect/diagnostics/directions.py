@@ -78,9 +78,6 @@ def _line(features: LogFeatures, way: str) -> _Line | None:
     load = np.zeros(len(run))
     if features.log.type in ("elevator", "arm"):
         load = baseline.compute_gravity(run.position)
-    elif find_unit(features.log.units).angular:  # it may be an arm: without the mean of its gravity
-        load = baseline.compute_gravity(run.position)
-        load = load - load.mean()
     volts = (sign * (run.voltage - load - baseline.ka * _acceleration(run, features.period)))[fast]
     speed = np.abs(run.velocity[fast])
     if not np.ptp(speed):  # the sensor is so coarse that there is only one speed

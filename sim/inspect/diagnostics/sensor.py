@@ -10,7 +10,6 @@ from sim.inspect.log_features import MIN_SAMPLES, LogFeatures
 from sim.inspect.log_units import FAR
 
 LAG = 0.02, 1.5  # [s, periods] largest delay without a filter
-SIGMAS = 3.0  # [standard errors] of a significant delay
 ROUNDED = 0.01  # [s] to which a delay is rounded: the runs of a log do not agree more closely
 FILTERS = {  # [s] WPILib's figures for the delay of a velocity
     "REV's own encoder of a NEO": 0.112,
@@ -28,8 +27,6 @@ def check_velocity_lag(features: LogFeatures) -> list[Doubt]:
         return []
     least = max(LAG[0], LAG[1] * features.period)
     if found is None or not found.matched or found.lag <= least:
-        return []
-    if SIGMAS * found.error > found.lag:
         return []
     lag = found.lag
     rounded = round(lag / ROUNDED) * ROUNDED

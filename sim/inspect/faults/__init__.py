@@ -2,17 +2,11 @@
 
 import sys
 
-from sim.core.errors import BadRequest
-from sim.inspect.fault import Fault, load_fault
-from sim.support.catalogue import list_members
+from sim.core.errors import refuse_unknown
+from sim.inspect.fault import Fault
+from sim.support.catalogue import load_catalogue
 
-FAULTS: dict[str, Fault] = {
-    found.name: found
-    for found in (
-        load_fault(module, name=name)
-        for name, module in list_members(sys.modules[__name__]).items()
-    )
-}
+FAULTS = load_catalogue(sys.modules[__name__], Fault, Fault.find_contract_breaches)
 
 
 def find_fault(name: str) -> Fault:
@@ -21,6 +15,5 @@ def find_fault(name: str) -> Fault:
     Raises:
         BadRequest: no such fault; the message lists those there are.
     """
-    if name not in FAULTS:
-        raise BadRequest(f"unknown fault {name!r}", advice=f"Choose one of: {', '.join(FAULTS)}.")
+    refuse_unknown("fault", name, FAULTS)
     return FAULTS[name]

@@ -44,14 +44,11 @@ TOGETHER = 2.0  # [s] cuts closer than this are one brownout
 BUS_CONFIDENCE = 0.98  # if the bus voltage shows it
 CUT_CONFIDENCE = 0.9  # if only the applied voltage shows it
 LOWEST = 2.3  # [V] a lower command does not load a battery so much; a deadband looks the same
-MOVED = 5  # [samples] before a cut in which the mechanism moves
 ENDS = 12  # ends of the cut that are tried at first
 SHORTEST = 0.14  # [s] of a cut that only the motion shows: controllers cut for longer
-AGREES = 0.5  # [share] of the velocity's missing distance that the position must miss as well
 BELIEVED = 0.7  # [share explained] least of a brownout
 FREE = 4.0  # [1] factor on the evidence of a shape without a free size
 NOT_BACK = 0.9  # [1] factor on the confidence of a cut to the end of the run: it may be a stop
-SURE = 0.9  # [share explained] least at the start of a run, where current limits look the same
 FASTEST = 1.2  # [times the usual speed] limit for a load that falls without motor
 
 
@@ -91,7 +88,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
     cuts = [found for index in range(len(features.log.runs)) for found in _cuts(features, index)]
     yield from cuts
     for anomaly in features.anomalies:
-        found = None if anomaly.recurs else _unpowered(features, anomaly)
+        found = _unpowered(features, anomaly)
         if found and not any(_overlap(found.where, other.where) for other in cuts):
             yield found
 
@@ -171,15 +168,11 @@ def _unpowered(features: LogFeatures, anomaly: Anomaly) -> Damage | None:
     """A brownout that explains an anomaly; None if it does not, or something contradicts it."""
     share, first, last = _fit_cut(features, anomaly)
     run = features.log.runs[anomaly.run]
-    before = np.abs(run.velocity[max(first - MOVED, 0) : first])
-    moved = before.size > 0 and float(np.median(before)) > features.still_speed
-    if share < (SURE if anomaly.at_start else BELIEVED) or not moved:
+    if share < BELIEVED:
         return None
     volts = float(np.median(np.abs(run.voltage[first:last])))
     bus = None if run.bus_voltage is None else float(run.bus_voltage[first:last].min())
     if volts < LOWEST or (bus is not None and bus > RECOVERED):
-        return None
-    if not _position_agrees(features, anomaly.run, first, last):
         return None
     start = float(run.time[first])
     end = float(run.time[min(last, len(run) - 1)])
@@ -195,18 +188,6 @@ def _unpowered(features: LogFeatures, anomaly: Anomaly) -> Damage | None:
         f"but the log still shows {volts:.1f} V{said}.",
         advice=f"{_advice(run)} Log the applied voltage instead of the commanded voltage.",
     )
-
-
-def _position_agrees(features: LogFeatures, index: int, first: int, last: int) -> bool:
-    """Whether the position, like the velocity, misses some of the predicted distance."""
-    run, part = features.log.runs[index], slice(first, min(last + 1, len(features.log.runs[index])))
-    time, expected = run.time[part], features.predicted_velocities[index][part]
-    predicted, integrated = (
-        float(np.sum(0.5 * np.diff(time) * (speed[1:] + speed[:-1])))
-        for speed in (expected, run.velocity[part])
-    )
-    went = float(run.position[part][-1] - run.position[part][0])
-    return bool((predicted - went) * np.sign(predicted) >= AGREES * abs(predicted - integrated))
 
 
 def _confidence(share: float, *, back: bool, has_bus: bool) -> float:

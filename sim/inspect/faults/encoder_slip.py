@@ -16,7 +16,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from sim.core.log import Array, Log
+from sim.core.log import Log
 from sim.inspect.anomalies import SLACK, Anomaly
 from sim.inspect.fault import (
     Damage,
@@ -35,13 +35,10 @@ SKIPS = 0.25  # [share] of slips that are skipped teeth
 LOSS = 0.7  # [1] the sensor reads exp(-LOSS·severity) of the speed: one half at severity 1
 SKIP = 1.3  # [times the speed] that a skipped tooth at severity 1 subtracts or adds
 BRIEF = 0.15  # [s] longest anomaly that grows and fades and is still a slip
-LEAST = 0.15  # [share of the speed] least loss: a smaller one may be an effect
 BELIEVED = 0.92  # [share explained] least of a slip
-SURE = 0.97  # [share explained] least at the start of a run, and of a few samples
-FEWEST = 3  # [samples] with fewer, ``SURE`` is required
+FEWEST = 3  # [samples] fewer are a wild reading
 MOST = 2.0  # [s] longest slip: longer is a wrong scale
 BACK = 2  # [samples] with right readings before the run ends
-AT_END = 0.005  # [share of the travel] from its end within which it is at a stop
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
@@ -66,16 +63,11 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
 def detect(features: LogFeatures) -> Iterable[Damage]:
     """Find intervals in which the velocity is abruptly off by a fixed share, then right again."""
     for anomaly in features.anomalies:
-        if anomaly.recurs:
-            continue
         share, loss, first, last = _fit_slip(anomaly, features.period)
         run = features.log.runs[anomaly.run]
         back = anomaly.begin + last <= len(run) - BACK
-        proof = SURE if anomaly.at_start or last - first < FEWEST else BELIEVED
         start, end = (float(run.time[anomaly.begin + i]) for i in (first, last - 1))
-        if share < proof or abs(loss) < LEAST or not back or end - start > MOST:
-            continue
-        if _is_at_stop(features, run.position[anomaly.begin + first : anomaly.begin + last]):
+        if share < BELIEVED or not back or end - start > MOST:
             continue
         evidence, advice = _explain(
             abs(loss), low=loss > 0, samples=last - first, lasts=end - start
@@ -112,15 +104,6 @@ def _explain(loss: float, *, low: bool, samples: int, lasts: float) -> tuple[str
         ),
         "Fix the sensor to its shaft, and run this test again. Until then, cut these seconds out.",
     )
-
-
-def _is_at_stop(features: LogFeatures, position: Array) -> bool:
-    """Whether it is at the end of the travel in the log: a stop changes the velocity, too."""
-    every = np.concatenate([run.position for run in features.log.runs])
-    lowest, highest = float(every.min()), float(every.max())
-    near = AT_END * (highest - lowest)
-    usual = float(np.median(position))
-    return usual - lowest < near or highest - usual < near
 
 
 def _fit_slip(anomaly: Anomaly, period: float) -> tuple[float, float, int, int]:

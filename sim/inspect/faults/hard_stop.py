@@ -33,9 +33,6 @@ PRESSED = 0.6  # [s] against the stop at severity 1
 BOUNCE, FADES = 0.15, 0.02  # [share of the speed, s] speed of the bounce, and its time constant
 SHORTEST = 0.06  # [s] against the stop, at least three samples
 FAST = 4.0  # [times the threshold of standstill] speed before an impact
-BRISK = 2.0  # [times the threshold of standstill] the same, if it stops from one sample to the next
-WHOLE = 0.7  # [share of that speed] one sample before such an impact
-ON, LATELY = 0.5, 0.2  # [share of the voltage in the last s before the impact] after it, at least
 PUSHED = 0.1  # [share of the largest voltage] with less it came to rest without a stop
 SETTLES = 0.1  # [s] after the impact, for the bounce and the sensor's filter
 BEFORE = 0.1  # [s] before the impact, of which the speed is the median
@@ -43,7 +40,6 @@ AT_END = 0.02  # [share of the travel] distance from its end at which a run star
 GIVEN = (0.005, 0.05)  # [share of the travel] by which a rubber stop or a slack chain gives
 CREPT, CREEPS = 0.2, 1.0  # [share of the creep, s] after which the rest lasts so long, at least
 PRESSES = 1.5  # [times kS] least gravity that presses a mechanism onto a stop
-LATE = 0.25  # [V] least voltage above that which would move it, when it leaves the stop
 LEANS = 0.7  # [1] confidence: a chain that is pulled tight looks the same
 LARGEST_REBOUND = 0.25  # [share of the way without a stop] largest motion after the impact
 
@@ -75,31 +71,24 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
     """Find runs that end at a stop with the voltage on, or start pressed against one."""
     yield from _find_pressed_starts(features)
     for index, run in enumerate(features.log.runs):
-        for fast in (FAST, BRISK):
-            found = _find_stop(
-                index, run, fast=fast, still=features.still_speed, period=features.period
-            )
-            if found:
-                yield found
-                break
+        found = _find_stop(index, run, still=features.still_speed, period=features.period)
+        if found:
+            yield found
 
 
-def _find_stop(index: int, run: Run, *, fast: float, still: float, period: float) -> Damage | None:
-    """The first stop after motion above ``fast`` times the speed at rest; None if there is none."""
-    impact = _find_impact(run, speed=fast * still, still=still)
+def _find_stop(index: int, run: Run, *, still: float, period: float) -> Damage | None:
+    """The stop at which a run ends; None if there is none."""
+    impact = _find_impact(run, speed=FAST * still, still=still)
     if impact is None:
         return None
     before = (run.time >= run.time[impact] - BEFORE) & (run.time < run.time[impact])
     speed = float(np.median(np.abs(run.velocity[before]))) if before.any() else 0.0
     lasts = float(run.time[-1] - run.time[impact])
     volts = np.abs(run.voltage)
-    lately = (run.time >= run.time[impact] - LATELY) & (run.time < run.time[impact])
-    pushed = float(volts[lately].max(initial=0.0))
     if (
-        speed < fast * still
-        or (fast < FAST and not _stops_at_once(run, impact, speed=speed, still=still))
+        speed < FAST * still
         or lasts < max(SHORTEST, 2.5 * period)
-        or volts[impact:].min() < max(ON * pushed, PUSHED * volts.max())
+        or volts[impact:].min() < PUSHED * volts.max()
     ):
         return None
     moved = abs(float(run.position[-1] - run.position[impact]))
@@ -124,12 +113,6 @@ def _distance(run: Run, impact: int) -> float:
     return abs(float(run.position[impact] - run.position[0]))
 
 
-def _stops_at_once(run: Run, impact: int, *, speed: float, still: float) -> bool:
-    """Whether it stops from full speed within a sample, faster than by friction."""
-    size = np.abs(run.velocity)
-    return bool(size[impact - 1] > WHOLE * speed and np.all(size[impact + 1 :] < still))
-
-
 def _find_pressed_starts(features: LogFeatures) -> Iterable[Damage]:
     """Find runs that start pressed against a soft stop, and leave it at too high a voltage."""
     baseline = features.baseline
@@ -152,7 +135,7 @@ def _find_pressed_starts(features: LogFeatures) -> Iterable[Damage]:
             and abs(float(run.position[0]) - end) < AT_END * (highest - lowest)
             and GIVEN[0] < given < GIVEN[1]
             and creeps > CREEPS
-            and volts - pressed - baseline.ks > max(LATE, PRESSES * baseline.ks)
+            and volts - pressed - baseline.ks > PRESSES * baseline.ks
         ):
             yield Damage(
                 fault="hard-stop",
@@ -171,14 +154,10 @@ def _find_impact(run: Run, *, speed: float, still: float) -> int | None:
     fast = np.flatnonzero(np.abs(run.velocity) > speed)
     if not fast.size or fast[-1] + 2 >= len(run):
         return None
-    way = np.sign(run.velocity[fast[-1]])
-    forward = np.flatnonzero(run.velocity * way > speed)
-    if not forward.size:
-        return None
-    impact = int(forward[-1]) + 1
-    settled = run.time > run.time[min(impact, len(run) - 1)] + SETTLES
+    impact = int(fast[-1]) + 1
+    settled = run.time > run.time[impact] + SETTLES
     tail = np.abs(run.velocity[settled])
-    if impact >= len(run) or (tail.size and float(np.median(tail)) > still):
+    if tail.size and float(np.median(tail)) > still:
         return None
     return impact
 

@@ -24,8 +24,6 @@ from sim.inspect.log_features import LogFeatures
 ORDINARY = 0.06  # [share of the log's top speed] standard deviation at severity 1
 LOUD = 0.014  # [share of the log's top speed] less noise is a doubt, not a fault
 FEWEST = 8  # [samples] at rest; fewer do no harm
-ADDED = 0.8  # [s] of standstill added before a test that starts in motion, within the log's pause
-HERE = 0.3  # [share of the log's noise at rest] of a run that is reported
 SURE = 3.0  # [times LOUD] noise at which the confidence is 0.95
 
 
@@ -33,10 +31,6 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
     """Add noise to the velocity at rest, in every quasistatic test."""
     ramps = [i for i, run in enumerate(log.runs) if run.kind == "quasistatic"]
     still = LogFeatures(log).rest_lengths
-    if all(still[i] < FEWEST for i in ramps):
-        rested = (_with_rest(run) if i in ramps else run for i, run in enumerate(log.runs))
-        log = replace(log, runs=tuple(rested))
-        still = LogFeatures(log).rest_lengths
     runs = list(log.runs)
     size = ORDINARY * strike.severity * log.top_speed
     where = []
@@ -63,35 +57,13 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
         return
     confidence = 1.0 - 0.5 * 10.0 ** (-noise / (SURE * LOUD * top))
     for index, rest in rests.items():
-        if _noise([rest]) > HERE * noise:
-            yield _damage(index, features.log.runs[index], rest, noise, confidence)
+        yield _damage(index, features.log.runs[index], rest, noise, confidence)
 
 
 def _noise(rests: list[Array]) -> float:
     """[m/s or rad/s] standard deviation of the noise at rest, without drift; 0 if nothing rests."""
     steps = np.concatenate([np.diff(rest) for rest in rests] or [np.zeros(1)])
     return float(np.sqrt(np.mean(steps**2) / 2.0))
-
-
-def _with_rest(run: Run) -> Run:
-    """The run with a standstill added before it, without voltage."""
-    period = float(np.median(np.diff(run.time)))
-    count = int(min(ADDED, 0.5 * float(run.time[0])) / period) if run.time[0] > 0.0 else 0
-    before = run.time[0] - period * np.arange(count, 0, -1)
-
-    def prepend(values: Array, rest: float) -> Array:
-        return np.concatenate((np.full(count, rest), values))
-
-    current, bus = run.current, run.bus_voltage
-    return replace(
-        run,
-        time=np.concatenate((before, run.time)),
-        voltage=prepend(run.voltage, 0.0),
-        position=prepend(run.position, float(run.position[0])),
-        velocity=prepend(run.velocity, 0.0),
-        current=None if current is None else prepend(current, 0.0),
-        bus_voltage=None if bus is None else prepend(bus, float(bus[0])),
-    )
 
 
 def _damage(index: int, run: Run, rest: Array, noise: float, confidence: float) -> Damage:

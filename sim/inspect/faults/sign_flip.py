@@ -16,9 +16,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from sim.core.log import Array, Log, Run
+from sim.core.log import Array, Log, Run, find_majority_sign
 from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterval
-from sim.inspect.log_features import Flags, LogFeatures, find_majority_sign
+from sim.inspect.log_features import Flags, LogFeatures
 
 ONE_WAY, BOTH_WAYS = 0.7, 2.0  # [severity] from which on all tests of a direction, or all, flip
 HARD = 0.5  # [share of the largest voltage] less may be below gravity and friction

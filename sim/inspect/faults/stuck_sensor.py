@@ -27,7 +27,6 @@ SHORTEST = 0.06  # [s] shortest freeze: three status frames of 20 ms
 UNUSUAL = 2.5  # [times] the usual length of a repeated reading, at least
 FAR = 5.0  # [smallest steps of the position] distance during a freeze, at least
 WENT = 0.4  # [share] of the distance predicted from the speeds, which the jump must have
-AFTER = 3  # [samples] after a freeze, of which the speed is the median
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:  # noqa: ARG001 - the contract
@@ -90,13 +89,8 @@ def _compute_hidden_distance(run: Run, first: int, last: int, *, step: float) ->
     if last + 1 >= len(run):
         return 0.0
     jump = abs(float(run.position[last + 1] - run.position[last]))
-    if frozen > slow and predicted > FAR * step:
-        return predicted if jump > WENT * predicted else 0.0
-    if last + AFTER >= len(run):
-        return 0.0
-    after = float(np.median(np.abs(run.velocity[last + 1 : last + 1 + AFTER])))
-    predicted = 0.5 * (frozen + after) * lasted
-    return jump if after > slow and jump > max(WENT * predicted, FAR * step) else 0.0
+    moved = frozen > slow and predicted > FAR * step and jump > WENT * predicted
+    return predicted if moved else 0.0
 
 
 def _damage(index: int, run: Run, first: int, last: int, hidden: float) -> Damage:

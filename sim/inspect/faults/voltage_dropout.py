@@ -17,7 +17,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from sim.core.log import Array, Log, Run
+from sim.core.log import Log, Run
 from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterval
 from sim.inspect.launch import find_step_start
 from sim.inspect.log_features import LogFeatures
@@ -31,18 +31,15 @@ AROUND = 0.22  # [s] window of the running median, the expected voltage
 NARROWEST = 7  # [samples] of that window, at least
 FALL = 0.25  # [share of the expected voltage] least drop
 FLOOR = 0.08  # [V] least drop
-NOISE = 6.0  # [times the voltage's median deviation] least drop
 LONGEST = 0.08  # [s] longest drop-out; longer is a brownout or a released button
 ECHO = 0.06  # [s] in which the velocity would follow
-ANSWER = 0.5  # [share of the predicted loss of speed] from which on the velocity follows
 CLEAR = 0.1  # [share of the speed] a smaller loss is noise
-SAGS = 0.5  # [share of the voltage's drop] by which the bus voltage drops as well, in a sag
 LAUNCH = 0.2  # [s] after a step, in which a single drop of the voltage is no lost reading
 SERIES = 3  # drop-outs that are reported together
 
 
 @dataclass(frozen=True)
-class _Drop:
+class Dropout:
     """A drop-out from sample ``first`` to ``last``, with the expected voltage [V]."""
 
     first: int
@@ -61,7 +58,7 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
     moment = float(run.time[0]) + strike.start
     while (first := int(np.searchsorted(run.time, moment))) + width < len(run) - 1:
         if first and abs(run.voltage[first]) > VISIBLE * most:
-            drops.append(_Drop(first, first + width - 1, float(run.voltage[first])))
+            drops.append(Dropout(first, first + width - 1, float(run.voltage[first])))
             voltage[first : first + width] *= HALF if strike.severity < MILD else 0.0
         moment += max(EVERY * rng.uniform(0.9, 1.1), 3.0 * width * period)
     runs = tuple(replace(r, voltage=voltage) if r is run else r for r in log.runs)
@@ -75,82 +72,56 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
     for index, run in enumerate(features.log.runs):
         if run.kind not in FAULT.kinds or len(run) < NARROWEST:
             continue
-        drops = _drops(run, features.period)
-        answers = [_measure_loss(run, drop) for drop in drops]
+        drops = find_dropouts(run, features.period)
+        answers = [measure_loss(run, drop)[0] for drop in drops]
         if len(drops) < SERIES:
             drops = [
                 drop
                 for drop, answer in zip(drops, answers, strict=True)
                 if run.moving[max(drop.first - 1, 0)]  # only motion can contradict it
-                and answer < _find_least_loss(run, drop, features.timescale)
+                and answer < CLEAR
                 and not _launches(run, drop)
             ]
         for where, group in _group_drops(index, run, drops):
             yield _damage(run, where, group, answer=float(np.median(answers)))
 
 
-def _drops(run: Run, period: float) -> list[_Drop]:
+def find_dropouts(run: Run, period: float) -> list[Dropout]:
     """Short drops of the voltage below its running median, after which it returns."""
     window = max(NARROWEST, 2 * round(AROUND / period / 2.0) + 1)
     padded = np.pad(run.voltage, window // 2, mode="reflect" if len(run) > window else "edge")
     expected = np.median(np.lib.stride_tricks.sliding_window_view(padded, window), axis=1)
     short = (expected - run.voltage) * np.sign(expected)
-    least = max(FLOOR, NOISE * float(np.median(np.abs(short))))
+    least = FLOOR
     low = np.flatnonzero((short > FALL * np.abs(expected)) & (short > least))
     groups = np.split(low, np.flatnonzero(np.diff(low) > 1) + 1) if low.size else []
     drops = []
     for group in groups:
         first, last = int(group[0]), int(group[-1])
         lasted = float(run.time[min(last + 1, len(run) - 1)] - run.time[first])
-        inside = first > 0 and last < len(run) - 1 and not _sags(run, first, last)
-        if inside and lasted <= LONGEST and _returns(run.voltage, first, last, expected):
-            drops.append(_Drop(first, last, float(expected[first])))
+        inside = first > 0 and last < len(run) - 1
+        if inside and lasted <= LONGEST:
+            drops.append(Dropout(first, last, float(expected[first])))
     return drops
 
 
-def _sags(run: Run, first: int, last: int) -> bool:
-    """Whether the bus voltage drops as well: then the battery sags, and no reading is lost."""
-    if run.bus_voltage is None:
-        return False
-    before = max(first - 2, 0)
-    bus, volts = run.bus_voltage, np.abs(run.voltage)
-    sag = 1.0 - float(bus[first : last + 1].min()) / max(float(bus[before]), FLOOR)
-    fall = 1.0 - float(volts[first : last + 1].min()) / max(float(volts[before]), FLOOR)
-    return fall > 0.0 and sag > SAGS * fall
-
-
-def _launches(run: Run, drop: _Drop) -> bool:
+def _launches(run: Run, drop: Dropout) -> bool:
     """Whether it is at the start of a step, where a controller's limits may act."""
     return bool(0.0 <= run.time[drop.first] - run.time[find_step_start(run)] < LAUNCH)
 
 
-def _returns(voltage: Array, first: int, last: int, expected: Array) -> bool:
-    """Whether the voltage has its expected value on both sides, within two samples."""
-    sides = (slice(max(first - 2, 0), first), slice(last + 1, last + 3))
-    return all(
-        bool(np.any(np.abs(voltage[side] - expected[side]) <= FALL * np.abs(expected[side])))
-        for side in sides
-    )
-
-
-def _measure_loss(run: Run, drop: _Drop) -> float:
-    """[share of the speed] loss of speed in and after a drop-out."""
+def measure_loss(run: Run, drop: Dropout) -> tuple[float, int, float]:
+    """Loss of speed [share] in and after a drop-out, index of the slowest sample, speed before."""
     speed = np.abs(run.velocity)
     before = float(np.median(speed[max(drop.first - 2, 0) : drop.first + 1]))
     until = int(np.searchsorted(run.time, run.time[drop.last] + ECHO)) + 1
-    slowest = float(np.min(speed[drop.first : until]))
-    return 1.0 - slowest / before if before > 0.0 else 0.0
+    slowest = drop.first + int(np.argmin(speed[drop.first : until]))
+    return 1.0 - float(speed[slowest]) / before if before > 0.0 else 0.0, slowest, before
 
 
-def _find_least_loss(run: Run, drop: _Drop, timescale: float) -> float:
-    """[share of the speed] loss from which on the velocity follows the drop-out."""
-    lasted = float(run.time[drop.last + 1] - run.time[drop.first])
-    lost = 1.0 - abs(float(np.mean(run.voltage[drop.first : drop.last + 1]) / drop.expected))
-    due = lost * -np.expm1(-lasted / timescale) if timescale > 0.0 else 0.0
-    return max(ANSWER * float(due), CLEAR)
-
-
-def _group_drops(index: int, run: Run, drops: list[_Drop]) -> list[tuple[LogInterval, list[_Drop]]]:
+def _group_drops(
+    index: int, run: Run, drops: list[Dropout]
+) -> list[tuple[LogInterval, list[Dropout]]]:
     """The drop-outs as they are reported: a series together, a few one by one."""
     reports = [drops] if len(drops) >= SERIES else [[drop] for drop in drops]
     return [
@@ -164,7 +135,7 @@ def _group_drops(index: int, run: Run, drops: list[_Drop]) -> list[tuple[LogInte
     ]
 
 
-def _damage(run: Run, where: LogInterval, group: list[_Drop], *, answer: float) -> Damage:
+def _damage(run: Run, where: LogInterval, group: list[Dropout], *, answer: float) -> Damage:
     """The damage of some drop-outs; ``answer`` is the median loss of speed [share]."""
     lasts = 1e3 * sum(float(run.time[drop.last + 1] - run.time[drop.first]) for drop in group)
     deepest = min(

@@ -35,22 +35,19 @@ from sim.inspect.fault import (
     replace_run,
     rescale_motion,
 )
-from sim.inspect.launch import CLIMBS, FALLS, find_launch_event, find_step_start
-from sim.inspect.log_features import Counts, LogFeatures, find_held_samples
-from sim.inspect.wheel_model import SAMPLES, StepRise, spin_wheels
+from sim.inspect.launch import LEAST, find_launch_event, find_step_start
+from sim.inspect.log_features import LogFeatures
+from sim.inspect.step_rise import find_rise, spin_wheels
 
 HELD = 0.4  # [share of the step] grip of the tires at severity 1
 SPIN = 8.0  # [times the speed without slip] largest speed of spinning wheels
 LIMITED = 0.9  # [share of the push] a step that never has more starts under a current limit
 SHOWS = 5.0  # [samples] shortest slip
 STARTS = 0.1  # [time constants] after which a motion shows
-ALL = np.array((10.0,))  # [share of the step] grip of tires that do not slip
-SOME = np.arange(0.05, 0.75, 0.05)  # [share of the step] grips that are tried
+GRIPS = np.arange(0.05, 0.75, 0.05)  # [share of the step] grips that are tried
+LIMITS = np.linspace(0.1, 1.0, 10)  # [share of the step] current limits that are tried
 SETTLED = 30.0  # [time constants] after which a slip is over
 FINE = 8  # simulation steps per sample
-LASTS = 6.0  # [time constants] of a step that are evaluated
-LEAST = 15  # [samples] of a step that are evaluated, at least
-STALE = 2  # [samples] median length of a repeated reading in a log of slow frames
 FEWEST = 6  # [samples] of a rise, at least
 BELIEVED = 0.8  # [share] of the squared error without slip that slip must explain
 CLEAR = 0.04  # [share of the top speed] least error without slip
@@ -81,8 +78,8 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
         command,
         grid,
         scales=np.array((baseline.timescale,)),
-        held=np.array((held * limit,)),
-        limit=limit if limited else math.inf,
+        grips=np.array((held * limit,)),
+        limits=np.array((limit if limited else math.inf,)),
     )
     loose = np.flatnonzero(spun.loose[0])
     grips = float(grid[loose[-1]]) + late if loose.size else 0.0
@@ -125,9 +122,9 @@ def _find_event(index: int, run: Run) -> Damage | None:
     event = find_launch_event(run)
     if event is None:
         return None
-    least = FALLS if event.kind == "fall" else CLIMBS
-    volts = float(np.median(np.abs(run.voltage[find_step_start(run) :])))
-    lasts = event.end - event.start
+    first = find_step_start(run)
+    start, end = float(run.time[first]), float(run.time[event.end])
+    volts, lasts = float(np.median(np.abs(run.voltage[first:]))), end - start
     happened = (
         f"falls by {event.size:.0%} within the first {lasts:.2f} s, and then recovers"
         if event.kind == "fall"
@@ -136,8 +133,8 @@ def _find_event(index: int, run: Run) -> Damage | None:
     )
     return Damage(
         fault="wheel-slip",
-        where=LogInterval(index, run.test, event.start, event.end),
-        confidence=1.0 - 0.5 * least / event.size,
+        where=LogInterval(index, run.test, start, end),
+        confidence=1.0 - 0.5 * LEAST / event.size,
         evidence=f"The speed rises to {event.speed:.3g} m/s, {happened}, at a constant "
         f"{volts:.1f} V: the wheels spin, and the robot catches up later.",
         advice=f"Run the dynamic tests again with half the step, {0.5 * volts:.1f} V, on the "
@@ -148,53 +145,39 @@ def _find_event(index: int, run: Run) -> Damage | None:
 
 def _fit_slip(features: LogFeatures, index: int, run: Run) -> Damage | None:
     """Wheel slip that explains a step much better than a rise without slip; else None."""
-    if features.baseline is None:
+    baseline = features.baseline
+    rise = find_rise(run, baseline, period=features.period) if baseline else None
+    if rise is None:
         return None
-    first = find_step_start(run)
-    lasts = max(LASTS * features.baseline.timescale, LEAST * features.period)
-    end = int(np.searchsorted(run.time, run.time[first] + lasts))
-    part = _fresh(run, first, end) if end - first >= FEWEST else np.zeros(0, dtype=np.intp)
-    if part.size < FEWEST:
+    least = CLEAR * float(rise.signal.max())
+    plain = rise.fit().error
+    if plain > least:
+        plain = min(plain, rise.fit("current", LIMITS).error)
+    if plain <= least:
         return None
-    rise = StepRise(
-        np.abs(run.velocity[part]),
-        run.time[part] - run.time[first],
-        _push(run, features.baseline)[part],
-        features.baseline.timescale,
-    )
-    plain = min(rise.fit(ALL)[0], rise.fit_limited())
-    if plain <= CLEAR * float(rise.speed.max()):
-        return None
-    loose, held, grips = rise.fit(SOME)
-    share = 1.0 - (loose / plain) ** 2
+    loose = rise.fit("grip", GRIPS)
+    share = 1.0 - (loose.error / plain) ** 2
     if share < BELIEVED:
         return None
-    start = float(run.time[first])
-    most = CAUTION * held * float(np.abs(run.voltage).max())
+    start, lasts = float(run.time[find_step_start(run)]), rise.find_slip_end(loose)
+    most = CAUTION * loose.share * float(np.abs(run.voltage).max())
     return Damage(
         fault="wheel-slip",
-        where=LogInterval(index, run.test, start, min(start + grips, float(run.time[-1]))),
+        where=LogInterval(index, run.test, start, min(start + lasts, float(run.time[-1]))),
         confidence=share,
-        evidence=f"The speed jumps to {1.0 - held:.0%} of its top and stops rising for about "
-        f"{grips:.2f} s. After that it rises like the speed of a heavy robot. So the wheels "
+        evidence=f"The speed jumps to {1.0 - loose.share:.0%} of its top and stops rising for "
+        f"about {lasts:.2f} s. After that it rises like the speed of a heavy robot. So the wheels "
         "spin first, and grip later.",
         advice=f"Run the dynamic tests again with a smaller step, at most {most:.1f} V, on the "
         "carpet it will drive on.",
     )
 
 
-def _fresh(run: Run, first: int, last: int) -> Counts:
-    """Indices of the samples to evaluate: at most about ``SAMPLES``, and no repeated readings."""
-    starts, lengths = find_held_samples(run.velocity[first:last])
-    if float(np.median(lengths)) < STALE:
-        starts = np.arange(last - first)
-    return first + starts[:: max(1, starts.size // SAMPLES)]
-
-
 def _push(run: Run, baseline: BaselineModel) -> Array:
     """(n,) [m/s or rad/s] steady-state speed of each voltage, in the step's direction."""
     return np.asarray(
-        baseline.compute_steady_speed(run) * np.sign(run.voltage[find_step_start(run)])
+        baseline.compute_steady_speed(run.voltage, run.position)
+        * np.sign(run.voltage[find_step_start(run)])
     )
 
 

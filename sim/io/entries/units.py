@@ -55,6 +55,7 @@ PIGEON = {"position": "degrees", "velocity": "degrees per second"}
 """Units of CTRE's gyro, which differ from those of other Phoenix 6 devices."""
 _PIGEON = re.compile(r"pigeon", re.IGNORECASE)
 _RATE = re.compile(r"rotational[ _]?rate", re.IGNORECASE)
+ACTIONS = {"units-assumed": Action("units"), "contradicting-units": Action("own-units")}
 SHORT = {
     "rpm": "rotation per minute",
     "rps": "rotation per second",
@@ -169,33 +170,52 @@ def choose_scale(signals: Mapping[str, Entry], *, options: ReadOptions, where: s
             advice=Action("units", before="Let the robot log both in the same unit."),
         )
     units = options.units or (stated[0] if stated else options.units_or_default)
-    factors, doubts = {}, []
+    factors: dict[str, float] = {}
+    doubts: dict[str, Doubt] = {}  # of a contradiction, one for all signals
     for signal, text in texts.items():
-        wanted = VOLTS if signal == "voltage" else units
-        factors[signal] = _choose_factor(parsed[signal], wanted, ordered=options.units is not None)
-        problem = _describe_problem(text, parsed[signal], wanted, ordered=options.units is not None)
-        if problem:
-            code, what = problem
-            name = signals[signal].name
-            action = Action("units") if code == "units-assumed" else None
-            doubts.append(Doubt(code, f"{where}: the unit of {name!r} {what}", action=action))
-    others = [
-        (found.units, signals[name].name)
-        for name in ("position", "velocity")
-        if (found := parsed.get(name)) and found.units != units
-    ]
-    if options.units is not None and others:
-        other, name = others[0]
-        doubts.append(
-            Doubt(
-                "contradicting-units",
-                f"{where}: the file says {other} for {name!r}, but you chose {units}.",
-                action=Action("own-units"),
-            )
+        unit = VOLTS if signal == "voltage" else units
+        ordered = options.units is not None and unit != VOLTS
+        factors[signal], code, what = _scale_signal(
+            signals[signal].name, parsed[signal], text, unit, ordered=ordered
         )
+        doubt = Doubt(code, f"{where}: {what}", action=ACTIONS.get(code))
+        if code:
+            doubts.setdefault(code if code == "contradicting-units" else signal, doubt)
     if _RATE.search(signals["voltage"].name):
-        doubts.append(_rate_doubt(signals["voltage"].name, where))
-    return EntryScale(units, factors, tuple(doubts))
+        doubts["rate"] = _rate_doubt(signals["voltage"].name, where)
+    return EntryScale(units, factors, tuple(doubts.values()))
+
+
+def _scale_signal(
+    name: str, found: StatedUnit | None, text: str, unit: str, *, ordered: bool
+) -> tuple[float, str, str]:
+    """The factor to ``unit``, and code and text of the doubt about it, empty if there is none.
+
+    Args:
+        name: name of the entry.
+        found: the stated unit, if it is known.
+        text: the stated unit as it is written.
+        unit: the unit of the log.
+        ordered: whether the user chose it, so that it replaces the file's.
+    """
+    if found is None and text:
+        what = f"the unit of {name!r} is {text!r}, which is not understood; it was taken as {unit}."
+        return 1.0, "unknown-unit", what
+    if found is None:
+        what = f"the unit of {name!r} is not stated and was taken as {unit}."
+        return 1.0, "" if ordered or unit == VOLTS else "units-assumed", what
+    if found.units != unit and ordered:
+        what = f"the file says {found.units} for {name!r}, but you chose {unit}."
+        return 1.0, "contradicting-units", what
+    if found.units == unit:
+        factor = found.factor
+    else:
+        factor = found.factor * (UNITS[found.units].si / UNITS[unit].si)
+    what = (
+        f"the unit of {name!r} is {text!r} and was converted to {unit}. SysId itself does not "
+        "convert: there, log all signals in one unit, and velocities per second."
+    )
+    return factor, "" if found.units == unit and factor == 1.0 else "converted-units", what
 
 
 def _rate_doubt(name: str, where: str) -> Doubt:
@@ -206,29 +226,4 @@ def _rate_doubt(name: str, where: str) -> Doubt:
         "routine asks for. The gains describe how the modules follow it: kV is about 1 for "
         "each rad/s, and you cannot compute a moment of inertia from this kA. For that, take "
         "the MotorVoltage of a drive motor as the voltage.",
-    )
-
-
-def _choose_factor(stated_unit: StatedUnit | None, units: str, *, ordered: bool) -> float:
-    """The factor to ``units``; a unit that the user chose (``ordered``) replaces the file's."""
-    if stated_unit is None or stated_unit.units == units:
-        return stated_unit.factor if stated_unit else 1.0
-    return 1.0 if ordered else stated_unit.factor * (UNITS[stated_unit.units].si / UNITS[units].si)
-
-
-def _describe_problem(
-    text: str, stated_unit: StatedUnit | None, units: str, *, ordered: bool
-) -> tuple[str, str] | None:
-    """Code and text of the doubt about a unit; None if there is none."""
-    if stated_unit is None and text:
-        return "unknown-unit", f"is {text!r}, which is not understood; it was taken as {units}."
-    if stated_unit is None and units != VOLTS and not ordered:
-        return "units-assumed", (f"is not stated and was taken as {units}.")
-    if stated_unit is None or (stated_unit.units == units and stated_unit.factor == 1.0):
-        return None
-    if stated_unit.units != units and ordered and units != VOLTS:
-        return None  # there is one doubt for all signals
-    return "converted-units", (
-        f"is {text!r} and was converted to {units}. SysId itself does not convert: there, log all "
-        "signals in one unit, and velocities per second."
     )

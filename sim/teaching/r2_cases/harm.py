@@ -7,9 +7,10 @@ from typing import TypeAlias
 import numpy as np
 
 from sim.bench.routine import LOOPS_BEFORE_DRIVE
-from sim.core.log import Array, Log, Run
+from sim.core.log import Array, Log, Run, integrate_velocity
 from sim.inspect.fault import FaultStrike, replace_run, rescale_motion
 from sim.inspect.faults import find_fault
+from sim.inspect.step_rise import spin_wheels
 from sim.teaching.r2_cases.drivetrains import Setup
 
 Harm: TypeAlias = Callable[[Log, np.random.Generator], Log]
@@ -25,8 +26,7 @@ CUT = FaultStrike(FORWARD_RAMP, start=1.5, severity=1.0)
 LATE = 0.2  # [share of the loops] that are late
 SHORTEST = 0.04  # [s] shortest late loop
 GRIP = 1.1 * 9.81  # [m/s²] largest acceleration on carpet
-LIGHT = 0.1  # [share of kA] due to wheels and rotors
-FINE = 50  # integration steps per sample
+FINE = 20  # simulation steps per sample
 RATIO = 1.25  # error of the gear ratio
 
 
@@ -159,32 +159,18 @@ def _drop_late_loops(run: Run, *, longest: float, rng: np.random.Generator) -> R
 
 
 def _add_slip(run: Run, setup: Setup) -> Run:
-    """The step with wheel slip: kA_w·v' = V - kS - kV·v - F, with the grip of the carpet F [V].
-
-    The noise of the encoder does not change.
-    """
+    """The step with wheel slip, with the grip of the carpet; the encoder's noise stays."""
     gains = setup.mechanism.gains
-    plain = _wheel_speed(run, gains, holds=np.inf)
-    slipping = _wheel_speed(run, gains, holds=gains["kA"] * GRIP)
-    more = np.sign(run.voltage[0]) * (slipping - plain)
-    moved = np.concatenate(([0.0], np.cumsum(0.5 * (more[1:] + more[:-1]) * np.diff(run.time))))
-    return replace(run, velocity=run.velocity + more, position=run.position + moved)
-
-
-def _wheel_speed(run: Run, gains: "dict[str, float]", *, holds: float) -> Array:
-    """The speed of the wheels (n,) [m/s] on carpet whose grip is ``holds`` [V]."""
-    ka, wheels, robot, loose = gains["kA"], 0.0, 0.0, False
-    speeds = [0.0]
-    for span, volts in zip(np.diff(run.time).tolist(), np.abs(run.voltage).tolist(), strict=False):
-        step = span / FINE
-        for _ in range(FINE):
-            push = volts - gains["kS"] - gains["kV"] * wheels
-            loose = loose or push > holds
-            if loose:
-                wheels += step * (push - holds) / (LIGHT * ka)
-                robot += step * holds / ka
-                loose, wheels = robot < wheels, max(robot, wheels)
-            else:
-                wheels = robot = wheels + step * push / ka
-        speeds.append(wheels)
-    return np.array(speeds)
+    time = np.linspace(run.time[0], run.time[-1], FINE * len(run))
+    held = np.abs(run.voltage)[np.searchsorted(run.time, time, side="right") - 1]
+    push = (held - gains["kS"]) / gains["kV"]
+    plain, slipping = spin_wheels(
+        push,
+        time,
+        scales=np.full(2, gains["kA"] / gains["kV"]),
+        grips=np.array([np.inf, gains["kA"] * GRIP / gains["kV"]]),
+        limits=np.full(2, np.inf),
+    ).speed
+    more = np.sign(run.voltage[0]) * np.interp(run.time, time, slipping - plain)
+    moved = run.position + integrate_velocity(run.time, more)
+    return replace(run, velocity=run.velocity + more, position=moved)

@@ -7,26 +7,29 @@ logs two sides, which are averaged unless one is chosen. The format is only read
 """
 
 import re
+from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 
+from sim.core.advice import Action
 from sim.core.doubt import Doubt
-from sim.core.errors import BadRequest
-from sim.core.log import Array, Log
-from sim.core.units import find_unit
+from sim.core.errors import BadRequest, UnreadableFile
+from sim.core.log import LARGEST, Log
+from sim.core.units import UNITS, find_unit
 from sim.io.format import ReadOptions, make_run, refuse_pick, warn_of_motor_choice
-from sim.io.formats.sysid_json.drivetrain import SIDES, read_drivetrain
-from sim.io.formats.sysid_json.file_header import FileHeader, read_header
-from sim.io.formats.sysid_json.rows import (
-    RowForm,
-    check_numbers,
-    detect_form,
-    load_json,
-    parse_tables,
-)
-from sim.io.formats.sysid_json.side import Side, read_one_side
+from sim.io.formats.sysid_json.rows import detect_columns, load_json, parse_tables
+from sim.io.formats.sysid_json.sides import SIDES, Side, align_signs, choose_side
 
 SUFFIXES = (".json",)
 _KEY = re.compile(rb'"(slow-forward|slow-backward|fast-forward|fast-backward|track-width|sysid)"')
+_TYPES = {
+    "simple": "simple",
+    "simple motor": "simple",
+    "elevator": "elevator",
+    "arm": "arm",
+    "drivetrain": "simple",
+    "drivetrain (angular)": "simple",
+}
 
 
 def recognizes(head: bytes) -> bool:
@@ -55,52 +58,94 @@ def read(path: Path, options: ReadOptions) -> dict[str, Log]:
         )
     refuse_pick(options.pick, where=where)
     document = load_json(path)
-    header = read_header(document, options, where=where)
-    tables, doubts = parse_tables(document, where=where)
-    form = detect_form(tables, header, where=where)
-    check_numbers(tables, form, where=where)
-    single = len(form.sides) == 1 or options.motor or not options.each_motor
-    motors = {"": options.motor} if single else {side: side for side in SIDES}
-    return {
-        name: _make_log(tables, form, header, motor, where=where).add_doubts(*doubts)
-        for name, motor in motors.items()
-    }
+    empty, scale = _read_header(document, options, where=where)
+    tables = parse_tables(document, where=where)
+    columns, battery = detect_columns(tables, document, named=empty.type, where=where)
+    sides = [{test: table[:, list(side)].T for test, table in tables.items()} for side in columns]
+
+    def make_log(side: Side, *doubts: Doubt) -> Log:
+        """The log with the runs of a side, in the order in which they were recorded."""
+        runs, found = [], [*doubts]
+        for test in sorted(tables, key=lambda test: float(tables[test][0, 0])):
+            voltage, position, velocity = side[test]
+            signals = {"time": tables[test][:, 0], "voltage": voltage}
+            signals |= {"position": position * scale, "velocity": velocity * scale}
+            if battery is not None:
+                signals["bus_voltage"] = tables[test][:, battery]
+            run, repeated = make_run(test, signals, si=find_unit(empty.units).si, where=where)
+            runs.append(run)
+            found.extend(repeated)
+        return replace(empty, runs=tuple(runs)).add_doubts(*found)
+
+    if len(sides) == 1:
+        (side,), (doubts,) = align_signs(sides, where=where)
+        return {"": make_log(side, *doubts, *warn_of_motor_choice(options.motor, where=where))}
+    empty = replace(empty, type=empty.type or "simple")
+    angular = "angular" in empty.mechanism.lower()
+    sides, found = align_signs(sides, angular=angular, where=where)
+    each = options.each_motor and not options.motor
+    logs = {}
+    for motor in SIDES if each else (options.motor or "combined",):
+        side, odd = choose_side(sides, found, motor=motor, angular=angular, where=where)
+        logs[motor if each else ""] = make_log(side, *odd)
+    return logs
 
 
-def _make_log(
-    tables: dict[str, Array], form: RowForm, header: FileHeader, motor: str | None, *, where: str
-) -> Log:
-    """The log of one side, or of the mean of both."""
-    sides, odd = _read_sides(tables, form, header, motor, where=where)
-    runs = []
-    doubts = [*header.doubts, *odd]
-    for test in sorted(tables, key=lambda test: float(tables[test][0, 0])):
-        signals = sides[test].signals(time=tables[test][:, 0], scale=header.per_rotation)
-        if form.battery is not None:
-            signals["bus_voltage"] = tables[test][:, form.battery]
-        run, repeated = make_run(test, signals, si=find_unit(header.units).si, where=where)
-        runs.append(run)
-        doubts.extend(repeated)
-    return Log(
-        tuple(runs),
-        units=header.units,
-        mechanism=header.mechanism,
-        # two sides: a drivetrain
-        type=header.type or ("simple" if len(form.sides) > 1 else ""),
-        source=where,
-        doubts=tuple(doubts),
-    )
+def _read_header(
+    document: Mapping[str, object], options: ReadOptions, *, where: str
+) -> tuple[Log, float]:
+    """A log without runs, and the units per rotation of the rows.
+
+    Raises:
+        UnreadableFile: a value has the wrong type or range, or the units are unknown.
+    """
+    mechanism, scale = document.get("test", ""), document.get("unitsPerRotation", 1.0)
+    if not isinstance(mechanism, str):
+        raise UnreadableFile(
+            'its "test" is no text, and should name the kind of mechanism',
+            where=where,
+            advice='Write "Simple", "Elevator" or "Arm".',
+        )
+    if not isinstance(scale, float) or not 0.0 < scale < LARGEST:
+        raise UnreadableFile(
+            f"unitsPerRotation is {scale!r}",
+            where=where,
+            advice="Write how far the mechanism goes in one rotation, a positive number.",
+        )
+    type_ = _TYPES.get(mechanism.lower(), "")
+    units, doubts = _read_units(document.get("units"), options, type_=type_, where=where)
+    return Log((), units, mechanism, type=type_, source=where, doubts=doubts), scale
 
 
-def _read_sides(
-    tables: dict[str, Array], form: RowForm, header: FileHeader, motor: str | None, *, where: str
-) -> tuple[dict[str, Side], list[Doubt]]:
-    """One side for every test: the only one, the chosen one, or the mean of both."""
-    found = [
-        {test: Side(*(table[:, column] for column in columns)) for test, table in tables.items()}
-        for columns in form.sides
-    ]
-    if len(found) == 1:
-        sides, doubts = read_one_side(found[0], where=where)
-        return sides, [*doubts, *warn_of_motor_choice(motor, where=where)]
-    return read_drivetrain(found, motor=motor or "combined", angular=header.angular, where=where)
+def _read_units(
+    found: object, options: ReadOptions, *, type_: str, where: str
+) -> tuple[str, tuple[Doubt, ...]]:
+    """The unit of position, and a doubt if it was assumed or contradicts the user's.
+
+    Raises:
+        UnreadableFile: the file's units are unknown.
+    """
+    known = found.strip().lower() if isinstance(found, str) else ""
+    if options.units:
+        doubt = Doubt(
+            "contradicting-units",
+            f"{where}: the file says {found}, but you chose {options.units}.",
+            action=Action("own-units"),
+        )
+        return options.units, (doubt,) if found is not None and known != options.units else ()
+    if found is None:
+        default = "radians" if "arm" in (type_, options.type) else "meters"
+        doubt = Doubt(
+            "units-unknown",
+            f"{where} does not say in which units it is, as no file of 2019 and 2020 does: taken "
+            f"as {default}.",
+            action=Action("units"),
+        )
+        return default, (doubt,)
+    if known not in UNITS:
+        raise UnreadableFile(
+            f"its units are {found!r}, which are not known here",
+            where=where,
+            advice=Action("which-units", ", ".join(UNITS)),
+        )
+    return known, ()

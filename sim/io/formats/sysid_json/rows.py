@@ -3,16 +3,12 @@
 import json
 from collections import Counter
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from itertools import chain
 from pathlib import Path
 
 import numpy as np
 
-from sim.core.doubt import Doubt
 from sim.core.errors import BadSample, UnreadableFile
 from sim.core.log import LARGEST, Array
-from sim.io.formats.sysid_json.file_header import FileHeader
 
 RUNS = {
     "slow-forward": "quasistatic-forward",
@@ -20,30 +16,18 @@ RUNS = {
     "fast-forward": "dynamic-forward",
     "fast-backward": "dynamic-reverse",
 }
-TRACK_WIDTH = "track-width"  # a turn that measured the track width; not one of the tests
 EMPTIEST = 4.0  # [V] lowest battery voltage of a running robot
 
+Columns = tuple[tuple[tuple[int, int, int], ...], int | None]
+"""For each side, its columns of voltage, position and velocity; the column of the battery."""
 
-@dataclass(frozen=True)
-class RowForm:
-    """The meaning of each column of a row; the first is always the time.
-
-    Args:
-        sides: for each side, its columns of voltage, position and velocity.
-        battery: the column of the battery voltage; None if there is none.
-    """
-
-    sides: tuple[tuple[int, int, int], ...]
-    battery: int | None = None
-
-
-_FORMS = {
-    4: RowForm(((1, 2, 3),)),  # SysId 2021 to 2023, one mechanism
-    6: RowForm(((3, 4, 5),), battery=1),  # 2019 and 2020, one mechanism; [2] is the commanded speed
-    9: RowForm(((1, 3, 5), (2, 4, 6))),  # SysId 2021 to 2023, drivetrain; [7], [8] are the gyro's
-    10: RowForm(((3, 5, 7), (4, 6, 8)), battery=1),  # 2020, drivetrain; [9] is the gyro's angle
+_COLUMNS: dict[int, Columns] = {  # by the width of a row, whose first number is always the time
+    4: (((1, 2, 3),), None),  # SysId 2021 to 2023, one mechanism
+    6: (((3, 4, 5),), 1),  # 2019 and 2020, one mechanism; [2] is the commanded speed
+    9: (((1, 3, 5), (2, 4, 6)), None),  # SysId 2021 to 2023, drivetrain; [7], [8] are the gyro's
+    10: (((3, 5, 7), (4, 6, 8)), 1),  # 2020, drivetrain; [9] is the gyro's angle
 }
-_NINE_OF_2019 = RowForm(((3, 5, 7), (4, 6, 8)), battery=1)  # as with ten columns, without the gyro
+_NINE_OF_2019 = _COLUMNS[10]  # without the gyro
 
 
 def load_json(path: Path) -> dict[str, object]:
@@ -52,22 +36,20 @@ def load_json(path: Path) -> dict[str, object]:
     Raises:
         UnreadableFile: it is not a JSON object; the message says where the damage is.
     """
+    again = "Copy it again from the computer that recorded it."
     try:
         # Integers as floats, too: then no number is too long, and a row has one type.
-        document = json.loads(path.read_bytes(), parse_int=float, object_pairs_hook=_make_object)
+        document = json.loads(path.read_bytes(), parse_int=float)
     except json.JSONDecodeError as error:
         ends = error.pos >= len(error.doc.rstrip())
         raise UnreadableFile(
             "the file ends in the middle" if ends else f"damaged JSON ({error.msg})",
             where=f"{path}, line {error.lineno}, column {error.colno}",
-            advice="Copy it again from the computer that recorded it.",
+            advice=again,
         ) from None
     except UnicodeDecodeError as error:
-        raise UnreadableFile(
-            f"byte {error.start} is not text",
-            where=str(path),
-            advice="Copy it again from the computer that recorded it.",
-        ) from None
+        what = f"byte {error.start} is not text"
+        raise UnreadableFile(what, where=str(path), advice=again) from None
     except RecursionError:
         document = None
     if not isinstance(document, dict):
@@ -79,19 +61,17 @@ def load_json(path: Path) -> dict[str, object]:
     return document
 
 
-def parse_tables(
-    document: Mapping[str, object], *, where: str
-) -> tuple[dict[str, Array], list[Doubt]]:
-    """Test -> its (n, columns) table, and doubts about what was left out.
+def parse_tables(document: Mapping[str, object], *, where: str) -> dict[str, Array]:
+    """Test -> its (n, columns) table.
 
     Raises:
         UnreadableFile: there is no run, or rows are not lists of equally many numbers.
     """
-    present = [key for key in RUNS if key in document]
+    present = {key: document[key] for key in RUNS if key in document}
     tables = {
-        RUNS[key]: _read_table(document[key], where=f"{where}, {key}")
-        for key in present
-        if document[key] != []
+        RUNS[key]: _read_table(rows, where=f"{where}, {key}")
+        for key, rows in present.items()
+        if rows != []
     }
     if not tables:
         raise UnreadableFile(
@@ -99,31 +79,23 @@ def parse_tables(
             where=where,
             advice=f"Give a file with rows under {', '.join(RUNS)}.",
         )
-    doubts = [
-        Doubt("empty-run", f"{where}: {key} is there but has no rows; record that test again.")
-        for key in present
-        if document[key] == []
-    ]
-    strange = [
-        key
-        for key, value in document.items()
-        if isinstance(value, list) and key not in (*RUNS, TRACK_WIDTH)
-    ]
-    if strange:
-        doubts.append(
-            Doubt(
-                "unknown-run",
-                f"{where}: {', '.join(map(repr, strange))}: no tool wrote such a run; left out.",
-            )
-        )
-    return tables, doubts
+    return tables
 
 
-def detect_form(tables: Mapping[str, Array], header: FileHeader, *, where: str) -> RowForm:
-    """The form of the rows, by their width, their values and the header.
+def detect_columns(
+    tables: Mapping[str, Array], document: Mapping[str, object], *, named: str, where: str
+) -> Columns:
+    """The columns of each side and of the battery, by the width of the rows and their values.
+
+    Args:
+        tables: test -> its table.
+        document: the file.
+        named: the type of mechanism that the file names; may be empty.
+        where: the file, for messages.
 
     Raises:
         UnreadableFile: the width is unknown, does not match the mechanism, or differs between runs.
+        BadSample: a number that is used is missing, not finite or absurdly large.
     """
     widths = {test: table.shape[1] for test, table in tables.items()}
     if len(set(widths.values())) > 1:
@@ -134,48 +106,25 @@ def detect_form(tables: Mapping[str, Array], header: FileHeader, *, where: str) 
             advice="Give a file as the tool saved it, not two joined.",
         )
     width = next(iter(widths.values()))
-    if width not in _FORMS:
+    if width not in _COLUMNS:
+        known = ", ".join(map(str, _COLUMNS))
         raise UnreadableFile(
             f"no tool wrote rows of {width} numbers",
             where=where,
-            advice=f"Give a tool's own file: its rows have {', '.join(map(str, _FORMS))} numbers.",
+            advice=f"Give a tool's own file: its rows have {known} numbers.",
         )
-    form = _FORMS[width]
-    if (
-        form.battery is None
-        and len(form.sides) > 1
-        and not header.sysid
-        and _has_battery_column(tables)
-    ):
-        form = _NINE_OF_2019
-    if len(form.sides) == 1 or header.drivetrain:
-        return form
-    if header.type and form.battery is None:
-        raise UnreadableFile(
-            f"its rows are those of a drivetrain, but its test is {header.mechanism!r}",
-            where=where,
-            advice='Write "Drivetrain" there if it is one.',
-        )
-    # The tools of 2020 wrote a drivetrain's row for every mechanism, the right side all zero.
-    unused = not any(np.any(table[:, list(form.sides[1])]) for table in tables.values())
-    return replace(form, sides=form.sides[:1]) if header.type or unused else form
-
-
-def _has_battery_column(tables: Mapping[str, Array]) -> bool:
-    """Whether the second column can be a battery voltage and the third a speed from -1 to 1."""
-    return all(
-        bool(np.all(table[:, 1] > EMPTIEST) and np.all(np.abs(table[:, 2]) <= 1.0))
-        for table in tables.values()
-    )
-
-
-def check_numbers(tables: Mapping[str, Array], form: RowForm, *, where: str) -> None:
-    """Refuse numbers that cannot be measurements; those of a gyro are not read.
-
-    Raises:
-        BadSample: a number is missing, not finite or absurdly large.
-    """
-    used = [0, *chain(*form.sides), *(() if form.battery is None else (form.battery,))]
+    sides, battery = _COLUMNS[width]
+    if len(sides) > 1 and "sysid" not in document and _has_battery_column(tables):
+        sides, battery = _NINE_OF_2019
+    if len(sides) > 1 and named and not str(document["test"]).lower().startswith("drivetrain"):
+        if battery is None:
+            raise UnreadableFile(
+                f"its rows are those of a drivetrain, but its test is {document['test']!r}",
+                where=where,
+                advice='Write "Drivetrain" there if it is one.',
+            )
+        sides = sides[:1]  # the tools of 2020 wrote a drivetrain's row for every mechanism
+    used = [0, *(column for side in sides for column in side), *([battery] if battery else ())]
     for test, table in tables.items():
         for row, place in np.argwhere(~(np.abs(table[:, used]) < LARGEST)).tolist():
             column = used[place]
@@ -184,20 +133,15 @@ def check_numbers(tables: Mapping[str, Array], form: RowForm, *, where: str) -> 
                 where=f"{where}, {test}",
                 advice="Remove that row, or record the run again.",
             )
+    return sides, battery
 
 
-def _make_object(pairs: list[tuple[str, object]]) -> dict[str, object]:
-    """A JSON object from its pairs.
-
-    Raises:
-        UnreadableFile: a name appears twice.
-    """
-    (name, times) = Counter(name for name, _ in pairs).most_common(1)[0] if pairs else ("", 0)
-    if times > 1:
-        raise UnreadableFile(
-            f"{name[:40]!r} appears in it {times} times", advice="Keep one, and remove the others."
-        )
-    return dict(pairs)
+def _has_battery_column(tables: Mapping[str, Array]) -> bool:
+    """Whether the second column can be a battery voltage and the third a speed from -1 to 1."""
+    return all(
+        bool(np.all(table[:, 1] > EMPTIEST) and np.all(np.abs(table[:, 2]) <= 1.0))
+        for table in tables.values()
+    )
 
 
 def _read_table(rows: object, *, where: str) -> Array:
@@ -211,13 +155,12 @@ def _read_table(rows: object, *, where: str) -> Array:
             "not a list of rows", where=where, advice="Give the JSON that SysId saved, unchanged."
         )
     width = Counter(map(len, rows)).most_common(1)[0][0]
-    kinds = {float, type(None)}  # SysId wrote null for a missing sensor
-    if set(map(len, rows)) != {width} or not set(map(type, chain.from_iterable(rows))) <= kinds:
-        for number, row in enumerate(rows):
-            if len(row) != width or not all(type(value) in kinds for value in row):
-                raise UnreadableFile(
-                    f"{json.dumps(row)[:60]} is not a row of {width} numbers like the others",
-                    where=f"{where}, row {number}",
-                    advice="Remove the row, or copy the file again.",
-                )
+    for number, row in enumerate(rows):
+        # SysId wrote null for a missing sensor
+        if len(row) != width or not set(map(type, row)) <= {float, type(None)}:
+            raise UnreadableFile(
+                f"{json.dumps(row)[:60]} is not a row of {width} numbers like the others",
+                where=f"{where}, row {number}",
+                advice="Remove the row, or copy the file again.",
+            )
     return np.array(rows, dtype=np.float64)
