@@ -6,7 +6,7 @@
 It runs the tests of that folder's contract for what was added, then the linters.
 """
 
-import re
+import shlex
 import subprocess
 import sys
 from pathlib import Path
@@ -30,50 +30,50 @@ class Contract(NamedTuple):
 CONTRACTS = {
     "sim/bench/mechanisms": Contract("simulate physics wpilib_simulations"),
     "sim/physics/effects": Contract("effects"),
-    "sim/inspect/faults": Contract("faults contaminate", "sound or list"),
+    "sim/inspect/faults": Contract(
+        "faults contaminate sentences", "struck sound catalogue each_fault"
+    ),
     "sim/io/formats": Contract("formats", "formats"),
     "sim/report/robot_code": Contract("controller_snippet fit_command", "paste"),
     "exercises": Contract(
         "exercises traceability instructors readme package_keys package_files guessing",
-        "every_exercise or guide or item or list_of_starters",
+        "every_exercise guide item list_of_starters",
     ),
     "lessons": Contract("lessons traceability readme", "lessons"),
     "tests/robotcode": Contract("robotcode_corpus", "every_row"),
     "grader/classroom/exports": Contract("class_exports instructors", "export"),
 }
 
+LINTERS = (["ruff", "check", "."], ["ruff", "format", "--check", "."], ["mypy"])
 
-def check_addition(path: Path) -> bool:
-    """Run all checks of an addition; whether it is in order.
+
+def list_tests(path: Path) -> list[list[str]]:
+    """The modules to run, with their arguments, that check an addition.
 
     Args:
         path: what was added, from the course's folder: a file or a folder.
     """
     folder = path.parent.as_posix()
     if folder not in CONTRACTS or not (ROOT / path).exists():
-        print(f"{path.as_posix()}: name what you added in one of: {', '.join(CONTRACTS)}")
-        return False
+        sys.exit(f"{path.as_posix()}: name what you added in one of: {', '.join(CONTRACTS)}")
     contract = CONTRACTS[folder]
-    name = re.match(r"\d\d|[^.]+", path.name)[0]  # a lesson goes by its number
-    words = " or ".join(filter(None, (name, name.replace("_", "-"), contract.words)))
+    name = path.name[:2] if folder == "lessons" else path.stem
+    words = dict.fromkeys([name, name.replace("_", "-"), *contract.words.split()])
     files = [f"tests/test_{one}.py" for one in contract.tests.split()]
-    commands = [
-        ["pytest", "-q", "-n", "0", "--tb=short", "-k", words, *files],
-        ["ruff", "check", "."],
-        ["ruff", "format", "--check", "."],
-        ["mypy"],
-    ]
-    if folder == "exercises":
-        commands.insert(0, ["grader", "check-course", name])
-    return not [one for one in commands if not _run(one)]
+    tests = ["pytest", "-q", "-n", "0", "--tb=short", "-k", " or ".join(words), *files]
+    return [["grader", "check-course", name], tests] if folder == "exercises" else [tests]
 
 
-def _run(command: list[str]) -> bool:
-    print(f"== {' '.join(command)}", flush=True)
-    return subprocess.run([sys.executable, "-m", *command], cwd=ROOT, check=False).returncode == 0
+def run_module(command: list[str]) -> bool:
+    """Run a module of Python with its arguments; whether it succeeded."""
+    print(f"== python -m {shlex.join(command)}", flush=True)
+    done = subprocess.run([sys.executable, "-m", *command], cwd=ROOT, check=False)
+    return done.returncode == 0
 
 
 if __name__ == "__main__":
-    passed = [check_addition(Path(given)) for given in sys.argv[1:]]
-    print("In order." if passed and all(passed) else "Not in order: see above.")
-    sys.exit(not (passed and all(passed)))
+    commands = [one for given in sys.argv[1:] for one in list_tests(Path(given))]
+    failed = [one for one in (*commands, *LINTERS) if not run_module(one)]
+    for one in failed:
+        print(f"not in order, see above: python -m {shlex.join(one)}")
+    sys.exit(1 if failed else 0)
