@@ -112,9 +112,9 @@ def test_severity_zero_changes_nothing(name, sound_logs):
 
 @pytest.mark.parametrize("name", FAULTS)
 def test_the_same_state_of_chance_gives_the_same_damage(name, sound_logs):
-    log = sound_logs(1, FAULTS[name].types)
+    log = sound_logs(2, FAULTS[name].types)
 
-    one, two = (damaged(log, name, seed=1) for _ in range(2))
+    one, two = (damaged(log, name, seed=2) for _ in range(2))
 
     assert one.where == two.where
     assert same(one.log, two.log)
