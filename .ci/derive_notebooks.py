@@ -21,7 +21,7 @@ LONGEST_IN_SIGHT = 12  # [lines] of a cell
 # What a cell does whose code nobody needs to read: import, ask, show a widget, animate, list.
 PLUMBING = re.compile(
     r"^(?:import|from) "
-    r"|\b(?:ask_question|animate_charts|animate_mechanism|ExerciseQuestions|Table|tabulate_\w+)\(",
+    r"|\b(?:ask_question|animate_\w+|ExerciseQuestions|Table|tabulate_\w+)\(",
     re.MULTILINE,
 )
 INSTALL = """\

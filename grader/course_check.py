@@ -5,6 +5,7 @@ Beside ``exercises/NAME`` is ``solutions/NAME``: the solved files, or ``solve.py
 ``MISTAKES`` (``grader.mistake``).
 """
 
+import fnmatch
 import re
 import shutil
 import tempfile
@@ -168,7 +169,7 @@ def _find_check_flaws(one: Exercise) -> Iterator[str]:
     if len(mistakes) < FEWEST_MISTAKES:
         yield f"solutions/{one.name}/mistakes.py needs at least {FEWEST_MISTAKES} mistakes"
     for mistake in mistakes:
-        if mistake.check not in names:
+        if not fnmatch.filter(names, mistake.check):
             yield f"the mistake {mistake.name!r} names no check of checks.py: {mistake.check!r}"
         if mistake.misconception not in {"", *MISCONCEPTIONS}:
             yield f"the mistake {mistake.name!r} names no misconception: {mistake.misconception!r}"
@@ -225,7 +226,8 @@ def find_mistake_flaws(solved: SolvedExercise, mistake: Mistake) -> Iterator[str
         yield f"{says}, cannot be made: {error}"
         return
     grade = solved.grade(mistake.file, {mistake.file: text})
-    result = next(one for one in grade.checks if one.id == mistake.check)
+    named = [one for one in grade.checks if fnmatch.fnmatchcase(one.id, mistake.check)]
+    result = next((one for one in named if one.status == "failed"), named[0])
     said = f"{result.seen} {result.hint}"
     if grade.status != "failed" or result.status != "failed":
         yield f"{says}, must fail {mistake.check}, but that is {result.status} ({said.strip()})"

@@ -20,7 +20,7 @@ class Mistake:
         name: what the learner did, in words.
         file: the solution's file it is made from.
         edit_text: the right text -> the wrong text.
-        check: id of the check that has to fail.
+        check: id of the check that has to fail; ``*`` stands for what depends on the student.
         says: part of the feedback to the learner.
         misconception: its code, or empty.
     """

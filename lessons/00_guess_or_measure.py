@@ -75,7 +75,7 @@ from sim.bench.mechanism import Mechanism
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import move_gains_only, simulate
 from sim.fit import fit
-from sim.plot import Table, plot_misses, plot_time_series
+from sim.plot import Table, plot_time_series
 from sim.plot.animation import (
     Animation,
     Choice,
@@ -87,6 +87,7 @@ from sim.plot.animation import (
     Score,
     animate_mechanism,
 )
+from sim.plot.animation.charts import animate_charts, chart_line_errors
 
 # %% [markdown]
 # ## 2 Your robot
@@ -105,7 +106,7 @@ def robot_of(name: str) -> Mechanism:
 
 
 robot = robot_of(NAME)
-print(f"{NAME}'s robot is similar to this one: {robot.summary}.")
+print(f"{NAME}'s robot is similar to this one:\n{robot.summary}.")
 print("You will see this robot's gains after the race.")
 
 # %% [markdown]
@@ -335,9 +336,8 @@ def steady_speed(volts: float) -> float:
 
 speeds = np.array([steady_speed(volts) for volts in VOLTS])
 slope, start = np.polyfit(speeds, VOLTS, 1)  # the ruler: the straight line that fits best
-plot_misses(
-    speeds, VOLTS, intercept=start, slope=slope, xlabel="velocity [m/s]", ylabel="voltage [V]"
-)
+labels = {"xlabel": "velocity [m/s]", "ylabel": "voltage [V]"}
+animate_charts(lambda: chart_line_errors(speeds, VOLTS, intercept=start, slope=slope, **labels))
 
 # %% [markdown]
 # (The *error* of a dot is its vertical distance from the line. Here the errors are too small to
@@ -476,7 +476,7 @@ heavy, again = with_brace(BRACE)
 before = typical_error(robot, guessed)
 after = typical_error(heavy, guessed)
 
-print(f"Typical error of {YOU}: {before:.3f} m/s before the brace, {after:.3f} m/s with it.")
+print(f"Typical error of {YOU}: {before:.3f} m/s, with the brace {after:.3f} m/s.")
 Table(
     ("gain", "true before", "true with the brace", "measured before", "measured again", "unit"),
     tuple(
@@ -711,12 +711,12 @@ display(ask_question("lesson0.quick"), enable_checkboxes())
 # accelerates.
 # </details>
 #
-# **3.** The robot gets 4 kg heavier in week 3. Which of its gains change, and which do not?
+# **3.** The carriage of an elevator gets heavier. Which of its gains change, and which do not?
 #
 # <details><summary>Answer</summary>
 #
-# kA grows in proportion to the mass. kV depends on motor, gears and wheels, so kV stays the same.
-# kS depends on friction, so kS hardly changes. (For an elevator or an arm, kG grows, too.)
+# kA and kG grow in proportion to the mass. kV depends on motor and gears, so kV stays the same. kS
+# depends on friction, so kS hardly changes.
 # </details>
 #
 # **4.** "We measured our gains, so we do not need PID." What do you say?

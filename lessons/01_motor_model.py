@@ -117,14 +117,15 @@ ask_question("lesson1.seven")
 
 # %%
 left = 7.0 - sum(bill(2.0, 0.0).values())
-price = f"{gains['kS']:.2f} V (friction) − {gains['kV'] * 2:.2f} V (speed)"
-print(f"7 V − {price}: {left:.2f} V are left.")
-print(f"They make the robot faster by {left / gains['kA']:.1f} m/s every second.")
-print(f"If the speed were steady, kV would have to be {(7.0 - gains['kS']) / 2:.2f} V·s/m.")
+Table(
+    ("left of 7 V [V]", "if kA·a takes these volts, a is [m/s²]", "if a is zero, kV is [V·s/m]"),
+    ((left, left / gains["kA"], (7.0 - gains["kS"]) / 2),),
+)
 
 # %% [markdown]
-# So "7 V at 2 m/s" has two possible explanations: the speed is not steady, or the robot has a
-# different kV. To decide, check whether the velocity is still changing.
+# So "7 V at 2 m/s" has two possible explanations. Either kA·a takes the volts that are left: then
+# the robot is getting faster. Or the speed is steady: then the robot has a larger kV. To decide,
+# check whether the velocity is still changing.
 
 # %% [markdown]
 # ## 3 Doing it: the voltage budget
@@ -632,12 +633,12 @@ display(ask_question("lesson1.quick"), enable_checkboxes())
 # steady speed there is no acceleration.
 # </details>
 #
-# **2.** Convert kV = 0.12 V·s/rot into V·s/rad.
+# **2.** A turret has kA = 0.05 V·s²/rad. How large is this kA in V·s²/rot?
 #
 # <details><summary>Answer</summary>
 #
-# Divide by 2π: 0.12 / 6.283 = 0.0191 V·s/rad. 1 rad/s is a smaller speed than 1 rot/s, so it needs
-# fewer volts.
+# Multiply by 2π: 0.05 · 6.283 = 0.314 V·s²/rot. 1 rot/s² is a larger acceleration than 1 rad/s², so
+# it needs more volts.
 # </details>
 #
 # **3.** A drivetrain's kV is 25 % above the theoretical kV. A teammate says: "It is the new

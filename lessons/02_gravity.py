@@ -42,6 +42,7 @@
 
 # %%
 from dataclasses import replace
+from textwrap import fill
 
 import numpy as np
 from IPython.display import display
@@ -117,8 +118,8 @@ Table(
 # simulation kS does not change either. On a real robot, more weight can press harder on a bearing
 # and increase the friction.)
 #
-# So test an elevator with the load that it will carry: otherwise kG and kA are wrong. Change
-# `TIMES` above to 3. Which rows of the table change?
+# So test an elevator with the load that it will carry: otherwise kG and kA are wrong. Click the bar
+# above the table, change `TIMES` to 3, and run the cell again. Which rows of the table change?
 #
 # <details><summary>For mentors: does kV change with the load?</summary>
 #
@@ -164,7 +165,7 @@ print(f"elevator: kG/kA = {truth['kG'] / truth['kA']:.2f} m/s². Gravity is 9.81
 # %%
 for name in ("cascade-elevator", "counterweight-elevator"):
     other = MECHANISMS[name]
-    print(f"{other.summary}: kG/kA = {other.gains['kG'] / other.gains['kA']:.1f} m/s²")
+    print(f"{other.summary}:\n    kG/kA = {other.gains['kG'] / other.gains['kA']:.1f} m/s²")
 
 # %% [markdown]
 # ## 3 Doing it: hold it still
@@ -178,8 +179,8 @@ for name in ("cascade-elevator", "counterweight-elevator"):
 ask_question("lesson2.hold", kG=truth["kG"], kS=truth["kS"], less=truth["kG"] - 0.15)
 
 # %%
-little_less = let_go(truth["kG"] - 0.15)
-print(f"{truth['kG'] - 0.15:.2f} V: after 0.4 s the carriage moves at {little_less:.3f} m/s.")
+less = truth["kG"] - 0.15
+print(f"{less:.2f} V: after 0.4 s the carriage moves at {let_go(less):.3f} m/s.")
 
 # %% [markdown]
 # The carriage stays. Friction acts against *any* motion, even falling, so friction helps
@@ -297,7 +298,7 @@ Table(
 ask_question("lesson2.angle")
 
 # %%
-print(f"np.cos(60) = {np.cos(60):.3f}, not 0.5: NumPy, Java and C++ need angles in radians.")
+print(f"np.cos(60) = {np.cos(60):.3f}: NumPy, Java and C++ need angles in radians.")
 for angle in (0, 60, 120):
     print(f"At {angle}° the motor needs {np.cos(np.radians(angle)):g} · kG.".replace("-", "−"))
 
@@ -547,7 +548,7 @@ up_only = replace(log, runs=tuple(run for run in log.runs if run.direction == "f
 try:
     fit(up_only)
 except sim.Refusal as refusal:
-    print(refusal)
+    print(fill(str(refusal)))
 
 # %% [markdown]
 # On the way up sgn(v) is always +1, so every row of the log gives the equation
@@ -630,10 +631,7 @@ Table(("log", "kS ± [%]", "kG ± [%]"), tuple(rows), caption="± is one standar
 falls = (truth["kG"] - truth["kS"]) / truth["kV"]
 down_run = log.list_runs_of_test("quasistatic-reverse")[0]
 print(f"At 0 V the carriage goes down at {falls:.2f} m/s.")
-print(
-    f"The slow ramp down lasted {down_run.time[-1] - down_run.time[0]:.1f} s. Then the carriage "
-    "was at the bottom."
-)
+print(f"The slow ramp down, to the bottom, lasted {down_run.time[-1] - down_run.time[0]:.1f} s.")
 print(f"The slow ramp up lasted {log.runs[0].time[-1] - log.runs[0].time[0]:.1f} s.")
 
 # %% [markdown]
@@ -672,8 +670,8 @@ ask_question("lesson2.order")
 
 # %%
 wrong = truth["kV"]  # at rest, an ElevatorFeedforward gives its second argument
-print(f"At rest the motor gets {wrong:.2f} V instead of {truth['kG']:.2f} V, ", end="")
-print(f"and the carriage moves at {let_go(wrong, height=0.3):.2f} m/s.")
+print(f"At rest the motor gets {wrong:.2f} V instead of {truth['kG']:.2f} V.")
+print(f"The carriage moves at {let_go(wrong, height=0.3):.2f} m/s.")
 
 # %% [markdown]
 # So check the order of the arguments in your robot's code today.

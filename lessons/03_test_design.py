@@ -37,6 +37,7 @@
 
 # %%
 from dataclasses import replace
+from textwrap import fill
 
 import numpy as np
 from IPython.display import display
@@ -53,6 +54,7 @@ from sim.plot import (
     Line,
     Table,
     plot_time_series,
+    tabulate_gains,
 )
 from sim.plot.animation import (
     Choice,
@@ -71,10 +73,7 @@ from sim.teaching.gain_errors import compute_gain_errors, simulate_rows
 drivetrain, shooter = MECHANISMS["drivetrain"], MECHANISMS["shooter"]
 truth = drivetrain.gains
 print(drivetrain.summary)
-Table(
-    ("gain", "true value", "unit"),
-    (("kS", truth["kS"], "V"), ("kV", truth["kV"], "V·s/m"), ("kA", truth["kA"], "V·s²/m")),
-)
+tabulate_gains({"our drivetrain": truth})
 
 # %% [markdown]
 # ## 2 The model: two tests, four runs
@@ -299,7 +298,7 @@ three = replace(log, runs=tuple(run for run in log.runs if run.test != "dynamic-
 try:
     fit(three, method="sysid")
 except sim.Refusal as refusal:
-    print(refusal)
+    print(fill(str(refusal)))
 
 # %% [markdown]
 # So you need both ramps and steps.
@@ -482,13 +481,7 @@ for name, count, motor_name in (("4 Kraken X60", 4, "krakenX60"), ("4 NEO", 4, "
     cut = 12 * 120 / built.motor.stall_current
     rows.append((name, gains["kA"], least, slip, cut if cut < 12 else "never"))
 Table(
-    (
-        "motors",
-        "kA [V·s²/m]",
-        "smallest step [V]",
-        "wheels slip above [V]",
-        "120 A limit acts from [V]",
-    ),
+    ("motors", "kA [V·s²/m]", "smallest step [V]", "wheels slip from [V]", "120 A limit from [V]"),
     tuple(rows),
 )
 

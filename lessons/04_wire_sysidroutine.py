@@ -359,8 +359,7 @@ spun = fit(simulate(shooter, routine, rng=np.random.default_rng(5)), method="sys
 per_rotation = spun.in_units("rotations").gains["kV"]
 per_radian = spun.in_units("radians").gains["kV"]
 print(f"kV = {per_rotation:.4f} V·s/rotation = {per_radian:.5f} V·s/radian")
-print(f"These two kV differ by a factor of {per_rotation / per_radian:.4f}.", end=" ")
-print(f"2π is {2 * math.pi:.4f}.")
+print(f"Their factor is {per_rotation / per_radian:.4f}. 2π is {2 * math.pi:.4f}.")
 
 # %% [markdown]
 # If you mix up rotations and radians, your feedforward is wrong by a factor of 2π.
@@ -533,19 +532,6 @@ print(f"2π is {2 * math.pi:.4f}.")
 # %% [markdown]
 # ### Four commands, bound and guarded
 #
-# <details><summary>If your team uses YAMS: the routine is there</summary>
-#
-# A motor controller of YAMS makes the routine: `sysId(maxVoltage, stepVoltage, testDuration)`. It
-# sets the voltage, and logs voltage, position and velocity, in meters if you gave it the
-# mechanism's circumference. But the names mislead: it calls `Config(stepVoltage, maxVoltage,
-# testDuration)`. So `maxVoltage` is the *step*, and `stepVoltage` is the *ramp rate* in V/s.
-# ([SmartMotorController.java, at one
-# commit](https://github.com/Yet-Another-Software-Suite/YAMS/blob/01c4651f449e777dc133ae1cb079390ad352dfc0/yams/java/yams/motorcontrollers/SmartMotorController.java))
-#
-# **Do it:** find this call in your code. Which step does it ask for? You still bind the four
-# commands.
-# </details>
-#
 # The routine makes four commands: `quasistatic(kForward)`, `quasistatic(kReverse)`,
 # `dynamic(kForward)`, `dynamic(kReverse)`. Make them public, and bind **each to its own button**
 # (to *bind* means: this button starts this command). For each binding you need:
@@ -572,6 +558,19 @@ print(f"2π is {2 * math.pi:.4f}.")
 # // Dynamic reverse, the step backward: kA again, and the robot is back where it was.
 # testMode.and(m_sysIdController.y()).whileTrue(m_drive.sysIdDynamic(Direction.kReverse));
 # ```
+#
+# <details><summary>If your team uses YAMS: the routine is there</summary>
+#
+# A motor controller of YAMS makes the routine: `sysId(maxVoltage, stepVoltage, testDuration)`. It
+# sets the voltage, and logs voltage, position and velocity, in meters if you gave it the
+# mechanism's circumference. But the names mislead: it calls `Config(stepVoltage, maxVoltage,
+# testDuration)`. So `maxVoltage` is the *step*, and `stepVoltage` is the *ramp rate* in V/s.
+# ([SmartMotorController.java, at one
+# commit](https://github.com/Yet-Another-Software-Suite/YAMS/blob/01c4651f449e777dc133ae1cb079390ad352dfc0/yams/java/yams/motorcontrollers/SmartMotorController.java))
+#
+# **Do it:** find this call in your code. Which step does it ask for? You still bind the four
+# commands.
+# </details>
 #
 # <details><summary>For WPILib 2027: other names</summary>
 #

@@ -261,7 +261,7 @@ print(f"  The formula v²/(2·μ·g) gives {top**2 / (2 * GRIP * 9.81):.2f} m at
 #
 # ### Now skip a check
 #
-# Everything else stays the same:
+# In each row, one of the five checks was skipped. Everything else stays the same:
 #
 # | skipped | what was wrong that morning |
 # |---|---|
@@ -311,10 +311,9 @@ animate_mechanism(
 
 # %% [markdown]
 # With "2 battery", the step test draws so much current that the battery voltage falls below 6.75 V.
-# Then the robot controller turns the motors off to protect itself:
-# this is a *brownout*. The battery recovers, the motors start, and the voltage falls again. The
-# robot hardly moves. (On a real robot, you would see the same, but more slowly.) Then skip other
-# checks.
+# Then the robot controller turns the motors off to protect itself: this is a *brownout*. The
+# battery recovers, the motors start, and the voltage falls again. The robot hardly moves. (On a
+# real robot, you would see the same, but more slowly.) Then choose the other checks.
 #
 # ### Which logs are good?
 #
@@ -515,9 +514,8 @@ animate_charts(
 # </details>
 
 # %%
-limited = simulate(
-    replace(ROBOT, stator=40.0), routine, rng=np.random.default_rng(5), electrical=True
-)
+weak = replace(ROBOT, stator=40.0)
+limited = simulate(weak, routine, rng=np.random.default_rng(5), electrical=True)
 highest = max(float(np.abs(run.current).max()) for run in limited.runs)
 arrived, asked = (
     fit(one, method="sysid").gains["kA"] / TRUTH["kA"]
@@ -637,8 +635,7 @@ print(f"{len(mine.runs)} runs, {len(checked.damages) or 'no'} fault found")
 plot_time_series(mine, dynamic_seconds=1.0)
 
 # %%
-gains = fit(mine, method="sysid").in_log_units()
-tabulate_gains({"the log": gains.gains})
+tabulate_gains({"the log": fit(mine, method="sysid").in_log_units().gains})
 
 # %% [markdown]
 # In a terminal, with your own file, type:

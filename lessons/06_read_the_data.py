@@ -71,10 +71,7 @@ sound = simulate(ROBOT, ROUTINE, rng=np.random.default_rng(6))
 
 TAU = TRUTH["kA"] / TRUTH["kV"]
 print(f"The truth: kS {TRUTH['kS']:.3f} V, kV {TRUTH['kV']:.3f} V·s/m, kA {TRUTH['kA']:.3f} V·s²/m")
-print(
-    f"kA/kV = {1000 * TAU:.0f} ms: this long after a step of voltage, the robot has reached nearly "
-    "two thirds of its final speed"
-)
+print(f"kA/kV = {1000 * TAU:.0f} ms after a step of voltage, it has two thirds of its final speed.")
 
 # %% [markdown]
 # ## 2 The model: what a good log looks like
@@ -387,10 +384,10 @@ for share, longest in ((0.0, 0.02), (0.05, 0.04), (0.05, 0.08), (0.05, 0.2)):
         log = select_rows(whole, lambda run, how=(share, longest, rng): written(run, *how))
         found.append(fit(log, method="sysid").gains)
     kv, ka = (np.array([one[gain] / TRUTH[gain] for one in found]) for gain in ("kV", "kA"))
-    name = f"{100 * share:.0f} % of the rows, {1000 * longest:.0f} ms are missing"
+    name = f"{1000 * longest:.0f} ms after {100 * share:.0f} % of the rows" if share else "none"
     rows.append((name, kv.mean(), ka.mean(), ka.min(), ka.max()))
 
-Table(("after", "kV ÷ true", "kA ÷ true, mean of ten", "smallest", "largest"), tuple(rows))
+Table(("gaps", "kV ÷ true", "kA ÷ true, mean of ten", "smallest", "largest"), tuple(rows))
 
 # %% [markdown]
 # kV hardly changes. kA changes if a gap falls into the few samples in which the velocity rises.
@@ -669,7 +666,7 @@ seen = inspect(gallery["encoder slip"])
 for damage in seen.damages:
     print(f"{damage.fault} in {damage.where.test}, confidence {damage.confidence:.2f}")
     for text in (damage.evidence, damage.advice):
-        print(fill(text, width=90, initial_indent="  ", subsequent_indent="  "))
+        print(fill(text, width=80, initial_indent="  ", subsequent_indent="  "))
 plot_time_series(gallery["encoder slip"], dynamic_seconds=0.6, damages=seen.damages)
 
 # %% [markdown]

@@ -55,14 +55,19 @@ from sim.physics.replay import replay_log
 from sim.plot import (
     Line,
     Table,
-    plot_curves,
     plot_time_series,
     plot_voltage_velocity,
     tabulate_fits,
     tabulate_gains,
 )
 from sim.plot.animation import Choice, Knob
-from sim.plot.animation.charts import Chart, Curve, animate_charts, compare_values
+from sim.plot.animation.charts import (
+    Chart,
+    Curve,
+    animate_charts,
+    chart_curves,
+    compare_values,
+)
 from sim.plot.animation.of_logs import animate_model
 from sim.teaching.fit_gaps import fill_gaps
 from sim.teaching.logs import apply_mistake, read_own_log, select_rows
@@ -73,6 +78,15 @@ drivetrain = MECHANISMS["drivetrain"]
 def shaking(noise: float) -> Mechanism:
     """The drivetrain with this noise [m/s] in its velocity while it moves."""
     return replace(drivetrain, sensor=replace(drivetrain.sensor, velocity_noise=noise))
+
+
+def signals(log: sim.Log) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Voltage, velocity and acceleration of every row that moves."""
+    volts = np.concatenate([run.voltage for run in log.runs])
+    v = np.concatenate([run.velocity for run in log.runs])
+    a = np.concatenate([np.gradient(run.velocity, run.time) for run in log.runs])
+    moving = np.abs(v) > 0.05
+    return volts[moving], v[moving], a[moving]
 
 
 robot = shaking(0.02)
@@ -229,19 +243,11 @@ print(f"{intercept:.2f} V at v = 0, {slope:.2f} V per m/s, sum of squares {small
 # %% [markdown]
 # ## 4 The whole fit in five lines
 #
-# Now do the same with three columns. Use every row of all four tests in which the robot moves:
+# Now do the same with three columns. `signals` gives V, v and a of every row of all four tests in
+# which the robot moves:
 
 
 # %%
-def signals(log: sim.Log) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Voltage, velocity and acceleration of every row that moves."""
-    volts = np.concatenate([run.voltage for run in log.runs])
-    v = np.concatenate([run.velocity for run in log.runs])
-    a = np.concatenate([np.gradient(run.velocity, run.time) for run in log.runs])
-    moving = np.abs(v) > 0.05
-    return volts[moving], v[moving], a[moving]
-
-
 def fit_voltage(volts: np.ndarray, v: np.ndarray, a: np.ndarray) -> dict[str, float]:
     """The model as it is written: V = kS·sgn(v) + kV·v + kA·a."""
     columns = np.column_stack([np.sign(v), v, a])
@@ -362,13 +368,8 @@ for level in NOISE:
     for name, fit_side in zip(by_side, SIDES.values(), strict=True):
         by_side[name].append(float(np.mean([fit_side(*signals(one))["kA"] for one in logs])))
 
-plot_curves(
-    NOISE,
-    by_side,
-    xlabel="noise of the velocity [m/s]",
-    ylabel="kA [V·s²/m]",
-    levels={"the truth": truth["kA"]},
-)
+labels = {"xlabel": "noise of the velocity [m/s]", "ylabel": "kA [V·s²/m]"}
+animate_charts(lambda: chart_curves(NOISE, by_side, levels={"the truth": truth["kA"]}, **labels))
 
 # %% [markdown]
 # The acceleration on the left side is the better choice, so SysId uses it. But it is not perfect:
@@ -398,7 +399,7 @@ plot_curves(
 #    sorts each value and its neighbors by size, and keeps the middle one.
 # 3. **Acceleration**: SysId takes the velocity one row later minus the velocity one row earlier. It
 #    divides this difference by twice the **mean** time step of the test.
-# 4. **Trim the dynamic tests** (*Test Duration*): Unless you change the setting, SysId keeps only
+# 4. **Trim the dynamic tests** (*Test Duration*): unless you change the setting, SysId keeps only
 #    the rows from the largest acceleration to 90 % of the top speed.
 #
 # ([SysId's source: FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
@@ -451,9 +452,8 @@ exact = fit_acceleration(volts, v, a)
 for name, gains in (("five lines: ", exact), ("SysId's:    ", recipe.gains)):
     print(name + "   ".join(f"{gain} = {value:.9f}" for gain, value in gains.items()))
 used = recipe.samples_used
-print("SysId uses", end=" ")
-print(f"{used['quasistatic-forward']} rows of the quasistatic forward test", end=" ")
-print(f"and {used['dynamic-forward']} rows of the dynamic forward test.")
+for test in ("quasistatic-forward", "dynamic-forward"):
+    print(f"SysId uses {used[test]} rows of the {test} test.")
 
 # %% [markdown]
 # The last line shows that SysId uses only a few rows of the dynamic test, because this robot
@@ -704,12 +704,9 @@ for name, level in levels.items():
         by_window[name].append(float(np.mean(fits)))
 
 print(f"kA/kV = {1000 * timescale:.0f} ms, which is {timescale / 0.02:.1f} samples of 20 ms.")
-plot_curves(
-    WINDOWS,
-    by_window,
-    xlabel="window of the median filter [samples]",
-    ylabel="kA [V·s²/m]",
-    levels={"the truth": truth["kA"]},
+labels["xlabel"] = "window of the median filter [samples]"
+animate_charts(
+    lambda: chart_curves(WINDOWS, by_window, levels={"the truth": truth["kA"]}, **labels)
 )
 
 # %% [markdown]
@@ -796,11 +793,16 @@ animate_charts(
 
 # %%
 window = compute_allowed_velocity_error(ks=0.14, kv=lesson_kv)  # a quarter of the top speed
-for name, q in (("kP of 0.62", 3.43), ("default in SysId's code", 1.5), ("SysId's window", window)):
+for name, q in (("default in SysId's code", 1.5), ("SysId's window", window)):
     kp = design_velocity_loop(kv=lesson_kv, ka=lesson_ka, velocity_error=q, volts=7.0, delay=0.0).kp
     print(f"{name}: q = {q:.2f} m/s, kP = {kp:.2f} V·s/m")
 
 # %% [markdown]
+# <details><summary>Which q gives 0.62?</summary>
+#
+# q = 3.43 m/s, with r = 7 V and no delay. That is more than twice the default.
+# </details>
+#
 # The gains are the same, but the values of kP are very different. So a suggested kP is only a first
 # guess: tune it on the robot. And if kA is wrong, kP is wrong, too, without any warning.
 #
@@ -846,7 +848,7 @@ for doubt in best.doubts:
     print(f"Warning: {doubt.text}")
 
 # %% [markdown]
-# In a terminal:
+# In a terminal, in the course's folder (if you gave a name, write it instead of `me`):
 #
 # ```
 # sysid fit exercises/exercise9/data/me/log.wpilog --method sysid

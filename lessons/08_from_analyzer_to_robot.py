@@ -69,7 +69,7 @@ from sim.teaching.profile_loop import (
 shooter, elevator, arm = (MECHANISMS[name] for name in ("shooter", "elevator", "arm"))
 log = simulate(shooter, sim.Routine(ramp=0.5, step=4.0), rng=np.random.default_rng(8))
 found = fit(log).in_log_units()
-print(f"The mechanism: {shooter.summary}. Its gains are per rotation.")
+print(f"The mechanism: {shooter.summary}.\nIts gains are per rotation.")
 
 # %% [markdown]
 # ## 2 Constants that explain themselves
@@ -211,7 +211,7 @@ Table(("arguments", "voltage at zero speed [V]", "the carriage"), tuple(rows))
 print(write_robot_code(found, target="phoenix6", name="shooter"))
 foc = replace(shooter, motor=find_motor("krakenX60FOC")).gains
 share = {gain: 100 * (foc[gain] / shooter.gains[gain] - 1) for gain in ("kV", "kA")}
-print("FOC is a mode of CTRE's motors. With FOC, the gains of the same wheel change:", end=" ")
+print("With FOC, a mode of CTRE's motors, gains change (by WPILib's table of motors):")
 print(f"kV by {share['kV']:+.1f} %, kA by {share['kA']:+.0f} %.")
 
 # %% [markdown]
@@ -413,9 +413,9 @@ animate_mechanism(
 
 # %%
 rests = {name: 4000 - float(hold_speed(times).velocity[-1]) for name, times in TIMES.items()}
-print(", ".join(f"kP = {name}: {rest:.0f} rpm remain" for name, rest in rests.items()))
-print(f"kP that the fit suggests: {found.feedback()['velocity'].kp:.3f} V per rot/s,", end=" ")
-print(f"which is {found.feedback()['velocity'].kp / wheel['kV']:.1f} · kV.")
+print("\n".join(f"kP = {name}: {rest:.0f} rpm remain" for name, rest in rests.items()))
+kp = found.feedback()["velocity"].kp
+print(f"kP that the fit suggests: {kp:.3f} V per rot/s, which is {kp / wheel['kV']:.1f} · kV.")
 
 # %% [markdown]
 # Feedback with kP acts only if there is an error. So it never removes the whole error: about

@@ -88,7 +88,8 @@ from sim.teaching.reality_gap import (
 
 truth = MECHANISMS["drivetrain"].gains
 log, validation, held_out = record_team_logs()
-print(fill(f"This course knows {len(EFFECTS)} effects: {', '.join(EFFECTS)}.", 90))
+known = f"This course knows {len(EFFECTS)} effects: {', '.join(EFFECTS)}."
+print(fill(known, 80, break_on_hyphens=False))
 
 # %% [markdown]
 # Today's robot has two of these effects. Its team does not know which. The robot is a drivetrain
@@ -136,9 +137,9 @@ animate_model(
     log,
     base.gains,
     tests={"step": ("dynamic-forward", 1.0), "ramp": ("quasistatic-forward", 3.0)},
-    alt="The solid robot is the log. The dashed robot is the model with the same voltage. After "
-    "the step the model is ahead at first, and behind later. Its velocity curve has a different "
-    "shape.",
+    alt="The solid robot is the log. The dashed robot is the model with the same voltage. For "
+    "0.3 s after the step the model is faster, then both are equally fast: the two velocity curves "
+    "have different shapes.",
 )
 
 # %% [markdown]
@@ -263,10 +264,11 @@ animate_charts(
 # 1. **Look** at the plot with the largest percentage. Which effects could cause it?
 # 2. **Choose** one of them in the menu. Read what it does, and press *Add and fit*. All gains and
 #    the parameters of the effect are fitted again. This takes one to three seconds.
-# 3. **Decide** by the gap of the *validation* log. Is it smaller? Keep the effect. If not, press
-#    *Take back*, and choose another one.
-# 4. **Look again.** Repeat this until the plots show only noise, or until no other effect makes the
-#    gap of the validation log smaller.
+# 3. **Compare** by the gap of the *validation* log: press *Take back*, and try the other effects of
+#    the same line below. Keep the one with the smallest gap. If none helps, take the plot with the
+#    next percentage.
+# 4. **Look again.** Repeat this until the gap of the validation log is about 1, or until no other
+#    effect makes it smaller.
 # 5. **Stop.** But before you press the last button, read section 5.
 #
 # Effects that can cause the largest percentage:

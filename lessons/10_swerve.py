@@ -57,6 +57,8 @@
 # Our robot has four Kraken X60, 4 inch wheels and a mass of 60 kg. Its wheels form a square.
 
 # %%
+from textwrap import fill
+
 import numpy as np
 from IPython.display import display
 
@@ -70,9 +72,9 @@ from sim.fit import fit
 from sim.fit.physics.inertia import compute_moment_of_inertia
 from sim.fit.pooled import pool_fits
 from sim.physics.motors import find_motor
-from sim.plot import Table, plot_curves
+from sim.plot import Table
 from sim.plot.animation import Choice, Knob, Motion, Panel, Scene, animate_mechanism
-from sim.plot.animation.charts import Chart, animate_charts, compare_values
+from sim.plot.animation.charts import Chart, animate_charts, chart_curves, compare_values
 from sim.teaching.answers import read_answer
 from sim.teaching.swerve_gaps import check_formulas
 
@@ -224,23 +226,15 @@ Table(
 #
 # The same distance is 2π · radius · turns of the wheel. The wheels of a square robot are at its
 # corners. With trackwidth T, the distance from the middle is half of the diagonal: **T/√2**.
+#
+# Find the four radii by hand: with the right radius, a wheel has rolled as far as the gyro says.
 
 # %%
 spin = record_spin(robot, turns=6.0, rng=np.random.default_rng(2), radii={"back-left": 0.0484})
 distance = robot.trackwidth / np.sqrt(2.0)
-rows = []
-for name, motor_turns in spin.motor_turns.items():
-    wheel_turns = motor_turns / robot.ratio
-    radius = spin.turned * distance / (2 * np.pi * wheel_turns)
-    rows.append((name, motor_turns, 1000 * radius))
 print(f"The gyro turned {np.degrees(spin.turned):.0f}°, which is {spin.turned:.2f} rad.")
-Table(("module", "turns of the motor", "radius of the wheel [mm]"), tuple(rows))
-
-# %% [markdown]
-# Find the four radii by hand: with the right radius, a wheel has rolled as far as the gyro says.
 
 
-# %%
 def roll(radius: float) -> Chart:
     """How far each wheel has rolled, if this is its radius [mm]."""
     way = 2 * np.pi * radius / 1000 / robot.ratio
@@ -250,6 +244,17 @@ def roll(radius: float) -> Chart:
 
 
 animate_charts(roll, knobs=(Knob("radius", "radius [mm]", 46.0, 54.0, 0.2, 53.0),))
+
+# %% [markdown]
+# Now compute them:
+
+# %%
+rows = []
+for name, motor_turns in spin.motor_turns.items():
+    wheel_turns = motor_turns / robot.ratio
+    radius = spin.turned * distance / (2 * np.pi * wheel_turns)
+    rows.append((name, motor_turns, 1000 * radius))
+Table(("module", "turns of the motor", "radius of the wheel [mm]"), tuple(rows))
 
 # %% [markdown]
 # The radius of the back left wheel is 2.4 mm smaller. Change the wheel, or write the right radius
@@ -328,7 +333,7 @@ Table(
 quotient = turning.gains["kV"] / straight.gains["kV"]
 print(f"kV turning / kV straight = {quotient:.3f} m. T/√2 = {distance:.3f} m.")
 for doubt in found["half the trackwidth, T/2"].doubts:
-    print(doubt.text)
+    print(fill(doubt.text, 80))
 
 # %% [markdown]
 # This check also finds an angle in degrees where you need radians: then the "lever" is 7 mm.
@@ -414,13 +419,15 @@ push = record_wall_push(robot, rng=np.random.default_rng(5))
 first = int(np.argmax(push.velocity > 0.0))
 slip_current = float(push.current[first - 1])
 print(f"Just before the wheels turn, the current of one motor is {slip_current:.0f} A.")
-plot_curves(
-    push.time,
-    {"current of a motor ÷ 10 [A]": push.current / 10, "speed of its wheel [m/s]": push.velocity},
-    xlabel="time [s]",
-    ylabel="current and speed",
-    marked=(float(push.time[first - 1]), slip_current / 10),
-    mark="just before the wheels slip",
+shown = {
+    "current of a motor ÷ 10 [A]": push.current / 10,
+    "speed of its wheel [m/s]": push.velocity,
+}
+before = {"just before the wheels slip": (float(push.time[first - 1]), slip_current / 10)}
+animate_charts(
+    lambda: chart_curves(
+        push.time, shown, xlabel="time [s]", ylabel="current and speed", marks=before
+    )
 )
 
 # %% [markdown]

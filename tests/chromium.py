@@ -2,11 +2,10 @@
 
 import contextlib
 import shutil
-from pathlib import Path
 
 import pytest
+from places import ROOT
 
-ROOT = Path(__file__).parents[1]
 AXE = ROOT / "build" / "node" / "lib" / "node_modules" / "axe-core" / "axe.min.js"
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 FLAGS = [

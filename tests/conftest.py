@@ -10,13 +10,13 @@ from pathlib import Path
 
 import pytest
 from hypothesis import settings
+from places import ROOT
 from small_course import lay_out
 
 # A machine may be busy: how long an example takes says nothing about whether it is right.
 settings.register_profile("course", deadline=None)
 settings.load_profile("course")
 
-ROOT = Path(__file__).resolve().parents[1]
 SLOW_FILE = re.compile(r"^pytestmark = \[?\s*pytest\.mark\.slow", flags=re.MULTILINE)
 
 

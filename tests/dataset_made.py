@@ -77,15 +77,6 @@ def make_dataset(path: Path, name: str = "data", *more: object) -> Path:
     return folder
 
 
-def files(folder: Path) -> dict[str, bytes]:
-    """Everything in a folder, by its path there."""
-    return {
-        path.relative_to(folder).as_posix(): path.read_bytes()
-        for path in sorted(folder.rglob("*"))
-        if path.is_file()
-    }
-
-
 def key(folder: Path) -> dict:
     """The key beside a folder."""
     return json.loads(folder.with_name(f"{folder.name}.key.json").read_bytes())

@@ -20,7 +20,6 @@ BODY = """  static class CharacterizationConstants {{
 STYLES = {
     "plain": [],
     "a library's function": [("{kV} / (2 * Math.PI)", "{kV} / Units.rotationsToRadians(1)")],
-    "radians to rotations": [("{kV} / (2 * Math.PI)", "{kV} * Units.radiansToRotations(1)")],
     "a named constant": [
         ("{kV} / (2 * Math.PI)", "{kV} * TURN"),
         ("static class", "static final double TURN = 1 / (2 * Math.PI);\n  static class"),
@@ -56,17 +55,6 @@ STYLES = {
             "  PIDController pid = new PIDController(TURN * Gains.kP, 0, 0);\n  SimpleMotor",
         ),
     ],
-    "through a variable": [
-        ("  SimpleMotor", "  double gain = CharacterizationConstants.kV;\n  SimpleMotor"),
-        (
-            "      CharacterizationConstants.kS, CharacterizationConstants.kV",
-            "      CharacterizationConstants.kS, gain",
-        ),
-    ],
-    "made in the constructor": [
-        ("  SimpleMotorFeedforward ff = new", "  SimpleMotorFeedforward ff;\n  A() {{ ff = new"),
-        ("Constants.kA);\n", "Constants.kA); }}\n"),
-    ],
 }
 
 PYTHON_BODY = """import math
@@ -87,13 +75,7 @@ class Turret(Subsystem):
 """
 PYTHON_STYLES = {
     "plain": [],
-    "a number in the class": [
-        ("    kS =", "    TURN = 2 * math.pi\n    kS ="),
-        ("{kV} / math.tau", "{kV} / TURN"),
-    ],
     "typed": [("    kS =", "    kS: float ="), ("    kV =", "    kV: Final[float] =")],
-    "by word": [("C.kS, C.kV, C.kA", "kA=C.kA, kV=C.kV, kS=C.kS")],
-    "from math": [("import math\n", "from math import pi\n"), ("math.tau", "(2 * pi)")],
     "wpimath": [
         ("import math\n", "import math\nfrom wpimath.units import radiansToRotations\n"),
         ("{kV} / math.tau", "{kV} * radiansToRotations(1)"),

@@ -34,3 +34,13 @@ def with_gaps(run, gaps):
     for place, length in gaps.items():
         steps[place] = length
     return replace(run, time=run.time[0] + np.concatenate([[0.0], np.cumsum(steps)]))
+
+
+def each(log, change):
+    """The log with a change made to each of its runs."""
+    return replace(log, runs=tuple(change(run) for run in log.runs))
+
+
+def change_signals(log, **signals):
+    """The log with some signals of each run made anew from the run."""
+    return each(log, lambda run: replace(run, **{name: of(run) for name, of in signals.items()}))

@@ -30,7 +30,6 @@ RAMP, VOLTS, LONGEST = 0.5, 3.5, 10.0  # [V/s], [V], [s]
 INERTIAS = (0.02, 0.04, 0.06, 0.1)  # [V·s²/m] kA of the lag logs
 WINDOWS = (0.02, 0.04, 0.06, 0.1)  # [s]
 LAGS = (0.0, 0.005, 0.015, 0.03)  # [s]
-LEAD = 0.3  # [s] at rest before the voltage, which a log does not show
 
 
 @dataclass(frozen=True)

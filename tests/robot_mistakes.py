@@ -1,11 +1,10 @@
 """Wrong answers in RobotPy made from the right one, and what it takes to run them."""
 
-from pathlib import Path
+from places import ROOT
 
 from grader.robotcode import python
 from grader.robotcode.bench.simulation import Mount
 
-ROOT = Path(__file__).resolve().parents[1]
 RIGHT = (ROOT / "solutions" / "exercise4" / "example_subsystem.py").read_text("utf-8")
 MOUNTS = {0: Mount(), 1: Mount(backward=True)}  # of exercise 4's own drivetrain
 

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from places import ROOT
 from robot_corpus import whole_corpus
 
-ROOT = Path(__file__).resolve().parents[1]
 FOLDERS = (*sorted((ROOT / "solutions").glob("exercise*")), whole_corpus())
 MOST_CHANGES = 4
 LONGEST = 60  # pieces that one change takes, repeats or moves

@@ -44,3 +44,11 @@ def lay_out(course):
 def answer(course, text):
     """Write the learner's answer."""
     (course / "exercises" / "exercise1" / "answers.toml").write_text(text, "utf-8")
+
+
+def put(folder, files):
+    """Write files: path within the folder -> text."""
+    for name, text in files.items():
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")

@@ -1,4 +1,4 @@
-"""Every page for everybody: axe-core finds nothing wrong, and no console has an error."""
+"""Every page for everybody: axe-core finds nothing, consoles have no error, phones have room."""
 
 import nbformat
 import numpy as np
@@ -6,7 +6,6 @@ import pytest
 from chromium import list_violations
 from open_page import drive_log, served, slipped_log, write_log
 from test_class_exports import student
-from test_edition_in_browser import CODE, WIDE
 from test_open_in_browser import DESKTOP, PHONE, drop, opened, write_strange
 
 from grader.classroom.result_pages import write_pages
@@ -20,6 +19,38 @@ from sim.cli.open.session import OpenLog
 from sim.reconcile import reconcile
 
 pytestmark = [pytest.mark.slow, pytest.mark.browser]
+
+
+CODE = (
+    "import numpy as np\nfrom sim.plot.animation import *\nt = np.arange(0.0, 1.0, 0.02)\n"
+    "animate_mechanism('arm', Scene(t, (Motion('arm', position=t),)), "
+    "panels=(Panel('position', 'angle [rad]'),), alt='An arm rises.')"
+)
+WIDE = "# Lesson\n\n| " + " | ".join(["a long heading"] * 8) + " |\n|" + "---|" * 8
+
+
+def test_pages_need_no_network_and_slides_without_one_are_a_long_page(browser, tmp_path):
+    cells = [nbformat.v4.new_markdown_cell(WIDE), nbformat.v4.new_code_cell(CODE)]
+    notebook = tmp_path / "lessons" / "01_arm.ipynb"
+    notebook.parent.mkdir()
+    nbformat.write(nbformat.v4.new_notebook(cells=cells), notebook)
+    build_pages([notebook], tmp_path / "out", print)
+
+    for name, asks in (("01_arm.html", False), ("01_arm-slides.html", True)):
+        asked, complaints = [], []
+        page = browser.new_page(viewport=PHONE, reduced_motion="reduce")
+        page.context.set_offline(True)
+        page.on("request", lambda request, asked=asked: asked.append(request.url))
+        page.on("pageerror", lambda error, said=complaints: said.append(str(error)))
+        page.goto((tmp_path / "out" / name).as_uri())
+
+        page.locator("figure[data-alive]").wait_for()
+        assert page.get_by_role("heading", name="Lesson").is_visible()
+        assert page.evaluate("document.documentElement.scrollWidth") == PHONE["width"]
+        assert complaints == []
+        assert all("/reveal.js@" in one for one in asked[1:])
+        assert (len(asked) > 1) == asks
+        page.close()
 
 
 @pytest.mark.parametrize(("viewport", "theme"), [(DESKTOP, "light"), (PHONE, "dark")])
@@ -38,6 +69,10 @@ def test_the_page_of_open_in_each_of_its_views(browser, tmp_path, viewport, them
             page.locator("#paste").click()
             page.locator("#code-text", has_text="kV").wait_for()
             found["code"] = list_violations(page)
+            page.get_by_role("button", name="Close", exact=True).click()
+            page.locator("#feedback").click()
+            page.locator("#loop-gains dd", has_text="kP").first.wait_for()
+            found["feedback"] = list_violations(page)
             page.get_by_role("button", name="Close", exact=True).click()
             assert page.complaints == []
             drop(page, write_strange(tmp_path))

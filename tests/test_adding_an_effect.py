@@ -69,7 +69,7 @@ def copy(root, tmp_path_factory):
     folder = tmp_path_factory.mktemp("project")
     shutil.copytree(root / "sim", folder / "sim", ignore=shutil.ignore_patterns("__pycache__"))
     (folder / "tests").mkdir()
-    for name in ("conftest.py", "small_course.py", "test_effects.py"):
+    for name in ("conftest.py", "places.py", "small_course.py", "test_effects.py"):
         shutil.copy(root / "tests" / name, folder / "tests" / name)
     shutil.copy(root / "pyproject.toml", folder)
     (folder / "sim" / "physics" / "effects" / "churn.py").write_text(GOOD, encoding="utf-8")
@@ -128,7 +128,7 @@ def test_new_effect_is_a_candidate_and_is_named(copy):
 
 
 @pytest.mark.parametrize("name", WRONG)
-def test_a_wrong_one_fails_with_a_sentence_that_says_why(copy, name):
+def test_a_wrong_effect_file_fails_with_a_sentence_that_says_why(copy, name):
     right, wrong, said = WRONG[name]
     file = copy / "sim" / "physics" / "effects" / "churn.py"
     assert right in GOOD

@@ -24,9 +24,11 @@ from sim.plot.animation.charts import (
     Curve,
     animate_charts,
     chart_bands,
+    chart_curves,
     chart_gain_errors,
     chart_hold_angles,
     chart_hold_window,
+    chart_line_errors,
     compare_values,
 )
 
@@ -165,3 +167,21 @@ def test_window_that_holds_an_arm_is_as_wide_at_every_angle():
     np.testing.assert_allclose(area.y[:count] - area.y[count:][::-1], 0.5)
     assert max(cosine.y) == pytest.approx(1.51, abs=1e-3)
     assert (falls.y, rises.y) == ((1.26,), (1.76,))
+
+
+def test_curves_have_their_levels_and_marks():
+    chart = chart_curves(
+        [0, 2], {"up": [1, 3]}, xlabel="x", ylabel="y", levels={"most": 3.0}, marks={"here": (1, 2)}
+    )
+    up, most, here = chart.curves
+    assert (up.y, most.x, most.y) == ([1, 3], [0, 2], [3.0, 3.0])
+    assert (here.x, here.y, here.style) == ([1], [2], "dots")
+
+
+def test_error_of_a_line_is_drawn_at_each_point_and_its_squares_are_summed():
+    x, y = np.array([1.0, 2.0]), np.array([2.0, 5.0])
+    chart = chart_line_errors(x, y, intercept=0.0, slope=2.0, xlabel="x [m]", ylabel="y [V]")
+    _, errors, samples = chart.curves
+    np.testing.assert_array_equal(errors.y, [2.0, 2.0, np.nan, 4.0, 5.0, np.nan])
+    assert list(samples.y) == [2.0, 5.0]
+    assert "is 1.00." in chart.title

@@ -15,7 +15,7 @@ from xml.etree import ElementTree as ET
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from small_course import HALF, RIGHT, lay_out
+from small_course import HALF, RIGHT, lay_out, put
 
 from grader.check import Result, Status
 from grader.classroom.grading import GradedStudent, GradingJob, grade_student
@@ -53,13 +53,6 @@ def course(tmp_path_factory):
     (top / "exercises" / "starters.toml").write_text("\n".join(lines) + "\n", encoding="utf-8")
     read_listed_files.cache_clear()
     return top
-
-
-def put(folder, files):
-    for name, text in files.items():
-        path = folder / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8")
 
 
 def read(course, folder, files):
@@ -190,7 +183,7 @@ needs_rights = pytest.mark.skipif(
 
 
 @needs_rights
-def test_a_folder_that_cannot_be_opened_is_no_empty_one(course, tmp_path):
+def test_a_folder_that_cannot_be_opened_is_not_taken_for_an_empty_one(course, tmp_path):
     put(tmp_path / "ann", {"exercise1/answers.toml": RIGHT})
     (tmp_path / "ann" / "exercise1").chmod(0)
     try:
@@ -221,7 +214,7 @@ def test_an_answer_of_ones_own_that_cannot_be_opened_is_not_graded(course, tmp_p
 
 @needs_rights
 @pytest.mark.parametrize("mode", [0, 0o400])
-def test_a_class_that_cannot_be_opened_is_one_line(course, tmp_path, monkeypatch, capsys, mode):
+def test_a_class_that_cannot_be_opened_gets_one_line(course, tmp_path, monkeypatch, capsys, mode):
     monkeypatch.chdir(course)
     put(tmp_path / "in", {"ann/exercise1/answers.toml": RIGHT})
     (tmp_path / "in").chmod(mode)
@@ -352,24 +345,21 @@ def test_partners_share_a_mark_lateness_is_shown_and_who_is_absent_has_no_mark(c
     ])  # fmt: skip
 
 
-def test_marks_set_by_hand_outlive_the_next_run_and_say_why(classroom):
-    put(
-        classroom, {"marks.csv": "student,check,points,why\nann,exercise1,3,told me at the robot\n"}
-    )
+@pytest.mark.parametrize(
+    ("text", "points"),
+    [
+        ("student,check,points,why\nann,exercise1,3,late\n", "3"),
+        ("\ufeffStudent;Check;Points;Why;by\nANN;exercise1;2,5;late;me\n", "2.5"),
+    ],
+    ids=["commas", "semicolons"],
+)
+def test_marks_set_by_hand_outlive_the_next_run_and_say_why(classroom, text, points):
+    put(classroom, {"marks.csv": text})
     for _ in range(2):
         code, rows = grade(classroom, "--overrides", str(classroom / "marks.csv"))
-        assert (code, rows[0]) == (0, "ann,3,3,3,,")
+        assert (code, rows[0]) == (0, f"ann,{points},{points},3,,")
     page = (classroom / "in-graded" / "students" / "ann.html").read_text(encoding="utf-8")
-    assert "Your instructor gave 3 points: told me at the robot" in page
-
-
-def test_marks_may_come_from_a_spreadsheet_with_semicolons(classroom):
-    put(classroom, {"marks.csv": "\ufeffStudent;Check;Points;Why;by\nANN;exercise1;2,5;late;me\n"})
-    code, rows = grade(classroom, "--overrides", str(classroom / "marks.csv"))
-
-    assert (code, rows[0]) == (0, "ann,2.5,2.5,3,,")
-    page = (classroom / "in-graded" / "students" / "ann.html").read_text(encoding="utf-8")
-    assert "Your instructor gave 2.5 points: late" in page
+    assert f"Your instructor gave {points} points: late" in page
 
 
 @pytest.mark.parametrize(
@@ -377,7 +367,7 @@ def test_marks_may_come_from_a_spreadsheet_with_semicolons(classroom):
     ["zed,exercise1,1,x", "ann,exercise9,1,x", "ann,exercise1/none,1,x", "ann,exercise1,7,x",
      "ann,exercise1,many,x", "ann,exercise1,1,"],
 )  # fmt: skip
-def test_a_mark_that_means_nothing_is_refused(classroom, capsys, reads, line):
+def test_a_mark_set_by_hand_that_makes_no_sense_is_refused(classroom, capsys, reads, line):
     put(classroom, {"marks.csv": f"student,check,points,why\n{line}\n"})
     command = ["class", str(classroom / "in"), "--exercise", "1"]
 
@@ -449,7 +439,7 @@ def test_a_folder_that_may_be_a_students_leaves_that_student_without_a_mark(clas
     assert rows[1] == "ben,,,3,2 days,unused files"
 
 
-def test_answers_that_hardly_anybody_could_share_are_told(course, tmp_path):
+def test_answers_that_share_rare_lines_are_reported(course, tmp_path):
     from grader.classroom.likeness import find_likenesses  # noqa: PLC0415 - only here
 
     common = "".join(f"common{n} = {n}\n" for n in range(20))
@@ -483,7 +473,7 @@ def test_equal_answers_that_are_right_for_both_students_are_not_reported(course,
     assert len(find_likenesses(there, exercises, graded("ann"))) == 1  # copied, and wrong for ben
 
 
-def test_a_log_that_the_class_made_for_somebody_else_is_told(root, tmp_path):
+def test_another_students_log_is_reported(root, tmp_path):
     """Under another name, too; the log of one's own package is not."""
     from grader.classroom.likeness import find_foreign_logs  # noqa: PLC0415 - only here
 

@@ -3,20 +3,18 @@
 import base64
 import json
 import tomllib
-from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
+from places import ROOT
 from small_course import lay_out
 
 from grader.answers.answer_names import find_similar_name, find_unknown_names
 from grader.cli import grade as command
 from grader.cli import run_command
-from grader.course import find_course
 from grader.exercise import find_exercise, list_exercises
 from grader.notebook import submit
 
-ROOT = find_course(Path(__file__).resolve().parent)
 ANSWERED_IN_TOML = [one for one in list_exercises(ROOT) if one.files == ("answers.toml",)]
 GAINS = ("kS", "kV", "kA")
 MISSPELLED = 'size = 3\ncolour = "green"\n'
@@ -128,7 +126,7 @@ def course(tmp_path):
     return tmp_path / "course"
 
 
-def test_the_command_says_it_under_the_verdict_and_in_its_json(course, monkeypatch):
+def test_the_command_prints_an_unknown_name_under_the_verdict_and_in_its_json(course, monkeypatch):
     monkeypatch.chdir(course)
     shown = CliRunner().invoke(command, ["exercise1"]).output.splitlines()
     told = json.loads(CliRunner().invoke(command, ["exercise1", "--json"]).output)
@@ -143,7 +141,9 @@ def test_a_notebook_shows_the_warning_and_proposes_a_name(course):
     assert "Did you mean color?" in str(submit("exercise1", course=course, colour="green"))
 
 
-def test_a_class_gets_it_on_the_students_page_and_in_exports(course, tmp_path, monkeypatch):
+def test_a_class_gets_an_unknown_name_on_the_students_page_and_in_exports(
+    course, tmp_path, monkeypatch
+):
     (tmp_path / "in" / "ann").mkdir(parents=True)
     (tmp_path / "in" / "ann" / "answers.toml").write_text(MISSPELLED, encoding="utf-8")
     monkeypatch.chdir(course)

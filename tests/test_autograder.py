@@ -311,7 +311,7 @@ def test_nothing_handed_in_is_a_result_of_zero(export):
 
 
 @needs_bash
-def test_the_workflow_of_a_wrong_answer_tells_so_and_does_not_stop(workflow, tmp_path):
+def test_the_workflow_reports_a_wrong_answer_and_does_not_stop(workflow, tmp_path):
     repository, parsed = workflow
     (step,) = [one for one in parsed["jobs"]["grade"]["steps"] if one.get("id") == "exercise4"]
     assert run_step(step, repository, tmp_path)["status"] == "fail"

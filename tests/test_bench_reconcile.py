@@ -14,8 +14,6 @@ from sim.bench.mechanisms import MECHANISMS
 from sim.core.log import Log, Run
 from sim.physics.effects import EFFECTS
 
-pytestmark = pytest.mark.slow
-
 CONTROLS = 2
 NOSY = """
 import json, pathlib, sys
@@ -63,6 +61,7 @@ def finished_run(benchmarks, tmp_path_factory):
     return where, json.loads(said[0][0])
 
 
+@pytest.mark.slow
 def test_every_effect_stands_in_every_group_and_meets_every_mechanism_that_can_have_it(modules):
     plan = modules("plan")
     names = {*EFFECTS, "encoder-slip", "hard-stop"}
@@ -84,6 +83,7 @@ def test_every_effect_stands_in_every_group_and_meets_every_mechanism_that_can_h
     assert set(modules("strangers").STRANGERS) <= {name for name, _ in met}
 
 
+@pytest.mark.slow
 def test_the_same_seed_makes_the_same_files_again(finished_run):
     where, _ = finished_run
     kept, again = (
@@ -97,6 +97,7 @@ def test_the_same_seed_makes_the_same_files_again(finished_run):
     assert len(set(kept.values())) == len(kept)
 
 
+@pytest.mark.slow
 def test_a_case_says_what_a_team_knows_and_names_nothing_hidden(finished_run, modules):
     where, _ = finished_run
     names = (*EFFECTS, *modules("strangers").STRANGERS, "encoder-slip", "hard-stop", "dirty")
@@ -109,7 +110,8 @@ def test_a_case_says_what_a_team_knows_and_names_nothing_hidden(finished_run, mo
     assert set(known) == {"type", "mechanism", "travel", "period_s"}
 
 
-def test_the_solver_is_told_no_more_and_the_key_comes_after_the_answers(finished_run):
+@pytest.mark.slow
+def test_the_solver_gets_no_key_before_its_answers(finished_run):
     where, _ = finished_run
     answers = json.loads((where / "kept" / "answers.json").read_text(encoding="utf-8"))
     key = json.loads((where / "kept" / "key.json").read_text(encoding="utf-8"))
@@ -122,6 +124,7 @@ def test_the_solver_is_told_no_more_and_the_key_comes_after_the_answers(finished
     assert (where / "kept" / "shuffled" / "key.json").exists()
 
 
+@pytest.mark.slow
 def test_a_solver_that_finds_nothing_is_right_of_complete_models_alone(finished_run):
     _, told = finished_run
 
@@ -148,6 +151,7 @@ def four_tests():
     return Log(tuple(runs))
 
 
+@pytest.mark.slow
 def test_a_permuted_control_has_all_voltages_and_hardly_one_in_its_place(modules):
     log = four_tests()
 
@@ -161,6 +165,7 @@ def test_a_permuted_control_has_all_voltages_and_hardly_one_in_its_place(modules
         assert np.array_equal(was.velocity, is_.velocity)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(20))
 def test_in_an_exchanged_case_no_run_keeps_its_own_voltage(modules, seed):
     log = four_tests()
@@ -174,7 +179,65 @@ def test_in_an_exchanged_case_no_run_keeps_its_own_voltage(modules, seed):
     assert given != [1, 0, 3, 2]  # all signs turned: damage that has a name
 
 
-STRAY = {
-    "not JSON": ("print('kV is odd. Record again.')", "kV is odd. Record again.", 0),
-    "refused": ("import sys; sys.exit('too short. Record more.')", "too short. Record more.", 1),
+@pytest.fixture
+def modules2(root, monkeypatch):
+    """The benchmark's modules2, by name."""
+    monkeypatch.syspath_prepend(root / "tests" / "benchmarks")
+    return lambda name: import_module(f"reconcile_{name}")
+
+
+def answer(*found, verdict="explained", remainder=False, case="000"):
+    """What the command says: effects, each with ``*`` behind it if it is a minor one."""
+    findings = [
+        {"effect": name.removesuffix("*"), "size": "minor" if name.endswith("*") else "major"}
+        for name in found
+    ]
+    said = {
+        "verdict": verdict, "findings": findings, "remainder": remainder,
+        "noise_floor": 0.1, "gap_before": 0.4, "gap_after": 0.11,
+    }  # fmt: skip
+    return {"case": case, "said": said, "seconds": 2.0, "busy": 1.0, "memory": 100.0}
+
+
+def truth(*effects, severity="real", dirty=False, shuffled=""):
+    return {
+        "effects": list(effects), "detail": list(effects), "severity": severity, "dirty": dirty,
+        "shuffled": shuffled,
+    }  # fmt: skip
+
+
+JUDGED = {
+    "right": (["drag"], answer("drag"), "right"),
+    "right though minor": (["drag"], answer("drag*"), "right"),
+    "right and more": (["drag"], answer("drag", "delay"), "right"),
+    "second": (["drag"], answer("delay", "drag"), "wrong"),
+    "another": (["drag"], answer("delay"), "wrong"),
+    "none": (["drag"], answer(verdict="nothing-missing"), "silent"),
+    "unexplained": (["drag"], answer(verdict="unexplained"), "silent"),
+    "refused": (["drag"], answer() | {"said": None}, "crash"),
+    "the same while it moves": (["asymmetric-friction"], answer("constant-load"), "right"),
+    "a fault": (["encoder-slip"], answer("encoder-slip"), "right"),
+    "complete": ([], answer(verdict="nothing-missing"), "right"),
+    "complete, a minor name": ([], answer("cogging*", verdict="nothing-missing"), "right"),
+    "complete, a major name": ([], answer("cogging"), "false alarm"),
+    "complete, unexplained": ([], answer(verdict="unexplained"), "right"),
+    "both": (["drag", "delay"], answer("delay", "drag"), "right"),
+    "both and more": (["drag", "delay"], answer("delay", "cogging", "drag"), "right"),
+    "one of two": (["drag", "delay"], answer("delay", "cogging"), "one of two"),
+    "neither of two": (["drag", "delay"], answer("cogging"), "wrong"),
+    "none of two": (["drag", "delay"], answer(verdict="unexplained"), "silent"),
+    "flagged": (["unknown"], answer(verdict="unexplained"), "right"),
+    "flagged beside": (["unknown"], answer("cogging*", remainder=True), "right"),
+    "a name beside": (["unknown"], answer("cogging", remainder=True), "flagged, wrong name too"),
+    "a name instead": (["unknown"], answer("cogging"), "wrong"),
+    "passed over": (["unknown"], answer("cogging*", verdict="nothing-missing"), "silent"),
 }
+
+
+@pytest.mark.parametrize("name", JUDGED)
+def test_an_answer_is_judged_as_the_acceptance_has_it(modules2, name):
+    effects, said, mark = JUDGED[name]
+
+    (one,) = modules2("scores").score([said], {"000": truth(*effects)})
+
+    assert one.mark == mark

@@ -10,10 +10,10 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+from places import ROOT
 
 from grader import __main__ as bootstrap
 
-ROOT = Path(__file__).resolve().parents[1]
 STANDALONE = ("__init__.py", "__main__.py", "exec_process.py")  # all that runs before the install
 OLD = (3, 8)
 
@@ -72,7 +72,7 @@ def test_bootstrap_needs_only_the_standard_library(file):
     assert names <= {*sys.stdlib_module_names, "grader"}
 
 
-def test_an_old_python_is_told_which_one_to_get(world, monkeypatch, capsys):
+def test_an_old_python_gets_the_version_to_install(world, monkeypatch, capsys):
     monkeypatch.setattr(sys, "version_info", (3, 8, 18))
 
     assert bootstrap.main(["start"]) == 2
@@ -82,7 +82,7 @@ def test_an_old_python_is_told_which_one_to_get(world, monkeypatch, capsys):
     assert world.quiet == []
 
 
-def test_where_everything_is_there_it_is_grade(world, monkeypatch):
+def test_with_all_packages_the_module_runs_grade(world, monkeypatch):
     world.missing = []
     given = []
     monkeypatch.setattr("grader.cli.run_command", lambda arguments: given.append(arguments) or 1)
@@ -119,7 +119,9 @@ def test_a_fresh_clone_gets_an_environment_and_goes_on_in_it(world, capsys):
     ("arguments", "what"),
     [(["start"], ".[course]"), (["exercise4"], ".[course]"), (["test", "-q"], ".[test]")],
 )
-def test_inside_an_environment_it_installs_into_that(world, monkeypatch, capsys, arguments, what):
+def test_inside_an_environment_the_module_installs_into_that(
+    world, monkeypatch, capsys, arguments, what
+):
     inside(monkeypatch)
 
     assert bootstrap.main(arguments) == 0
@@ -148,7 +150,7 @@ def test_when_pip_fails_its_last_words_are_shown_and_what_to_do(world, monkeypat
     assert world.foreground == []
 
 
-def test_without_venv_it_names_the_package_to_install(world, monkeypatch, capsys, reads):
+def test_without_venv_the_message_names_the_package_to_install(world, monkeypatch, capsys, reads):
     monkeypatch.setattr(bootstrap, "find_spec", lambda _name: None)
 
     assert bootstrap.main(["start"]) == 2

@@ -66,7 +66,7 @@ def test_a_complete_mechanism_moves_as_mujoco_moves_it(moved, name):
 
 
 @pytest.mark.parametrize("effect", EFFECTS)
-def test_an_effect_does_what_it_does_in_mujoco(moved, effect):
+def test_an_effect_moves_a_mechanism_as_in_mujoco(moved, effect):
     plain = next(
         one
         for one in map(MECHANISMS.get, ("turret", "drivetrain"))
@@ -79,7 +79,7 @@ def test_an_effect_does_what_it_does_in_mujoco(moved, effect):
     assert off(theirs, moved(plain, "bench")) > off(theirs, ours)
 
 
-def test_the_benchmarks_cases_are_made_by_it_on_request(root, tmp_path):
+def test_the_benchmarks_cases_are_made_by_mujoco_on_request(root, tmp_path):
     script = root / "tests" / "benchmarks" / "reconcile_cases.py"
     told = ["--seed", "7", "--cases", "1", "--shuffled", "1", "--physics", "mujoco"]
     where = ["--out", str(tmp_path / "cases"), "--key", str(tmp_path / "key.json")]

@@ -91,7 +91,7 @@ def results():
     return some(*(student(name, p[:2], p[2:]) for name, p in zip(NASTY, points, strict=True)))
 
 
-def test_a_question_is_counted_and_told_apart_by():
+def test_a_question_has_its_share_of_right_answers_and_its_discrimination():
     people = [student(f"s{n}", (2.0 * (n > 2), 2.0), (2.0 * (n > 3), 0.0)) for n in range(6)]
     found = {(one.exercise, one.check): one for one in analyze_items(people)}
     first = found["exercise1", "q0"]
@@ -106,7 +106,7 @@ def test_a_question_is_counted_and_told_apart_by():
     assert count_misconceptions(people) == (("M-UNITS", 6),)
 
 
-def test_too_few_students_tell_nothing_apart():
+def test_too_few_students_give_no_discrimination():
     people = [student(f"s{n}", (2.0 * n, 2.0)) for n in range(2)]
 
     assert {one.discrimination for one in analyze_items(people)} == {None}
@@ -162,7 +162,7 @@ def test_canvas_gets_its_own_columns_back(tmp_path):
     assert rows[3] == ["ben", "", "", "", "", "0"]
 
 
-def test_gradescope_reads_it(results, tmp_path):
+def test_gradescope_can_read_the_results(results, tmp_path):
     paths = list_exports()["gradescope"].write(results, tmp_path)
     totals = []
     for path in paths:
@@ -179,7 +179,7 @@ def test_gradescope_reads_it(results, tmp_path):
     assert sorted(totals) == [0, 1, 4, 7, 8]
 
 
-def test_junit_reads_it(results, tmp_path):
+def test_junit_can_read_the_results(results, tmp_path):
     odd = student("control \x00\x1b\ud800 sign", (0.0,), (2.0,))
     (path,) = list_exports()["junit"].write(some(*results.students, odd), tmp_path)
     top = ET.fromstring(path.read_text("utf-8"))  # noqa: S314 - written by us a moment ago
@@ -200,7 +200,7 @@ def test_junit_reads_it(results, tmp_path):
     assert suites[-1].get("name") == "control  sign"
 
 
-def test_github_reads_it(results, tmp_path):
+def test_github_can_read_the_results(results, tmp_path):
     paths = list_exports()["github"].write(results, tmp_path)
     found = []
     for path in paths:
@@ -282,7 +282,7 @@ def test_a_class_of_five_hundred_gives_a_page_that_can_be_opened(tmp_path):
 
 
 @pytest.mark.parametrize("name", list_exports())
-def test_what_cannot_be_written_is_one_line(name, results, tmp_path):
+def test_a_place_that_cannot_be_written_gets_one_line(name, results, tmp_path):
     (tmp_path / "in the way").write_text("", encoding="utf-8")
 
     with pytest.raises(BadRequest):

@@ -117,7 +117,7 @@ def test_an_engine_that_cannot_start_says_how_to_make_the_image(engine, handed_i
     assert BUILD.format(engine="docker") in said
 
 
-def test_an_engine_that_is_not_there_is_said(handed_in, capsys, monkeypatch):
+def test_a_missing_container_engine_is_reported(handed_in, capsys, monkeypatch):
     monkeypatch.setenv("PATH", os.devnull)
 
     assert run_command(["class", str(handed_in), "--in", "podman"]) == 2
@@ -133,7 +133,7 @@ def test_a_cluster_and_a_container_exclude_each_other(engine, handed_in, capsys)
 
 
 @pytest.mark.parametrize(("code", "found"), [(0, ["docker"]), (1, [])])
-def test_an_engine_is_there_if_it_answers(engine, code, found):
+def test_a_container_engine_counts_if_it_answers(engine, code, found):
     engine(code=code)
 
     assert find_engines() == found

@@ -69,7 +69,9 @@ def level(request, monkeypatch):
     ids=["isolated", "limited", "isolated, but told not to", "limited, but told to"],
     indirect=["level"],
 )
-def test_code_is_run_where_it_can_be_shut_in_or_as_told(tmp_path, capsys, level, options, asked):
+def test_code_is_run_where_it_can_be_isolated_or_as_the_option_asks(
+    tmp_path, capsys, level, options, asked
+):
     assert run_command(["class", str(tmp_path / "in"), "--processes", "1", *options]) == 0
     assert note(tmp_path) == f"run={asked}"
 
@@ -109,7 +111,7 @@ def test_an_exercise_that_only_reads_is_not_asked_to_run(tmp_path, monkeypatch, 
 
 
 @pytest.mark.parametrize("name", ["exercise4", "exercise5", "exercise9", "practice"])
-def test_what_runs_a_learners_code_can_be_told_not_to(name):
+def test_an_exercise_that_runs_code_can_be_graded_without_running_it(name):
     assert Exercise(name, ROOT / "exercises" / name).runs_code
 
 

@@ -52,7 +52,7 @@ def test_a_command_leaves_with_the_code_its_work_earned(outcome, code, capsys):
     ],
     ids=lambda value: type(value).__name__,
 )
-def test_whatever_goes_wrong_is_one_line_and_exit_code_2(error, said, capsys):
+def test_an_error_gets_one_line_and_exit_code_2(error, said, capsys):
     assert run_command(command(raiser(error)), name="try", arguments=[]) == 2
 
     shown = capsys.readouterr()
@@ -142,7 +142,7 @@ def change_runs(**change):
     return replace(log, runs=tuple(runs))
 
 
-def test_times_in_milliseconds_are_told_to_be_given_in_seconds_and_nothing_else(tmp_path, capsys):
+def test_times_in_milliseconds_get_the_advice_of_seconds_and_no_other(tmp_path, capsys):
     path = tmp_path / "log.csv"
     sim.write(change_runs(time=1000.0), path)
 

@@ -6,13 +6,11 @@ Config.useDataLog(rampRate, stepVoltage, timeout); Config.defaults(); SysIdMecha
 mechanism[, name]), where null is allowed for log and name.
 """
 
-from pathlib import Path
-
 import pytest
+from places import ROOT
 
 from grader.exercise import Exercise
 
-ROOT = Path(__file__).resolve().parents[1]
 EXERCISE4 = Exercise("exercise4", ROOT / "exercises" / "exercise4")
 EXERCISE5 = Exercise("exercise5", ROOT / "exercises" / "exercise5")
 
@@ -132,7 +130,7 @@ def grade_answer(exercise, text, tmp_path, *, name="ExampleSubsystem.java"):
 
 
 @pytest.mark.parametrize("mistake", WRONG)
-def test_a_wrong_answer_is_told_what_is_wrong(mistake, tmp_path):
+def test_feedback_on_a_wrong_answer_says_what_is_wrong(mistake, tmp_path):
     text, check, said = WRONG[mistake]
 
     found = grade_answer(EXERCISE4, text, tmp_path)[check]

@@ -3,16 +3,15 @@
 import os
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
+from places import ROOT
 
 from grader.exercise import list_exercises
 from sim.bench.mechanisms import MECHANISMS
 from sim.inspect.faults import FAULTS
 from sim.physics.effects import EFFECTS
 
-ROOT = Path(__file__).resolve().parents[1]
 EXERCISES = {one.name for one in list_exercises(ROOT)}
 PROGRAMS = {"grade": "grader.cli", "sysid": "sim.cli"}
 

@@ -2,36 +2,26 @@
 
 import html
 import re
-import shutil
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 from page_flaws import page_flaws
+from places import ROOT
 
 from grader import submit
 from grader.cli import run_command
 from grader.exercise import list_exercises
 
-ROOT = Path(__file__).resolve().parents[1]
 EXERCISES = {one.name: one for one in list_exercises(ROOT)}
-TELLING = ("exercise1", "exercise3", "exercise6", "exercise9", "exercise10")
 PAGE = "<!DOCTYPE html><html lang='en'><head><title>t</title></head><body>{}</body></html>"
 
 
 @pytest.fixture
-def course(tmp_path, monkeypatch):
-    """A course with the exercises that tell consequences, in whose folder the command runs."""
-    for name in TELLING:
-        shutil.copytree(
-            ROOT / "exercises" / name,
-            tmp_path / "exercises" / name,
-            ignore=shutil.ignore_patterns("data", "__pycache__"),
-        )
-    (tmp_path / "lessons").mkdir()
-    monkeypatch.chdir(tmp_path)
-    return {one.name: one for one in list_exercises(tmp_path)}
+def course(all_exercises):
+    """Exercises by their names, in whose folder the command runs."""
+    return {one.name: one for one in list_exercises(all_exercises)}
 
 
 def key(name, student):
@@ -82,7 +72,7 @@ TABLE = [
 
 
 @pytest.mark.parametrize(("name", "factors", "words"), TABLE)
-def test_a_wrong_number_is_told_by_what_it_does(course, name, factors, words):
+def test_a_wrong_number_is_explained_by_its_effect_on_the_robot(course, name, factors, words):
     right = key(name, "ann")
     wrong = right | {gain: factor * right[gain] for gain, factor in factors.items()}
     found = consequence(course[name], **wrong)
@@ -108,7 +98,7 @@ def test_words_hold_no_key(course, name, student):
 
 @pytest.mark.parametrize("name", ["exercise1", "exercise3", "exercise9"])
 @pytest.mark.parametrize("kind", ["right", "nothing", "text", "infinite"])
-def test_nothing_is_told_where_nothing_is_to_see(course, name, kind):
+def test_an_answer_without_effect_gets_no_consequence(course, name, kind):
     given = {"right": None, "nothing": "", "text": "fast", "infinite": "inf"}[kind]
     right = key(name, "ann")
     write(course[name], **{g: v if given is None else given for g, v in right.items()})
@@ -125,7 +115,7 @@ def test_huge_or_tiny_number_still_gets_a_finite_picture(course, name, size):
     assert "inf" not in found.words
 
 
-def test_a_plan_that_runs_too_far_is_told(course, reads):
+def test_a_plan_that_runs_too_far_gets_a_consequence(course, reads):
     machines = EXERCISES["exercise6"].module.draw("ann").machines
     lines = {"ramp": 1.0, "step": 3.0, "timeout": 10.0, "release": "timeout"}
     write(course["exercise6"], **{f"turret_{what}": value for what, value in lines.items()})
@@ -151,7 +141,7 @@ def code_for(student, *, factor=1.0, order=None):
 
 
 @pytest.mark.parametrize("student", ["ann", "dan", "fay", "zoë"])
-def test_robot_code_is_told_by_what_it_does(course, student):
+def test_robot_code_is_explained_by_its_effect_on_the_robot(course, student):
     one = course["exercise10"]
     variant = one.module.draw(student)
     other = one.folder / "example_mechanism.py"
@@ -167,7 +157,7 @@ def test_robot_code_is_told_by_what_it_does(course, student):
     assert found(order=["kS", "kWhat"]) is None
 
 
-def test_the_command_tells_it_and_draws_it(course, capsys):
+def test_the_command_prints_and_draws_the_consequence(course, capsys):
     right = key("exercise9", "me")
     write(course["exercise9"], **(right | {"kV": 3.0 * right["kV"]}))
 
@@ -180,7 +170,7 @@ def test_the_command_tells_it_and_draws_it(course, capsys):
     assert "should move at" in Path("what.svg").read_text("utf-8")
 
 
-def test_a_picture_that_cannot_be_is_said(course, capsys, reads):
+def test_a_picture_that_cannot_be_drawn_is_refused(course, capsys, reads):
     right = key("exercise9", "me")
     write(course["exercise9"], **right)
     assert run_command(["9", "--picture", "what.svg"]) == 1  # the function is not written yet
@@ -192,7 +182,7 @@ def test_a_picture_that_cannot_be_is_said(course, capsys, reads):
     assert run_command(["--picture", "what.svg"]) == 2
 
 
-def test_a_cell_shows_it_below_the_checks(course):
+def test_a_cell_shows_the_consequence_below_the_checks(course):
     right = key("exercise3", "me")
     shown = submit(3, **(right | {"elevator_kG": 0.0}))
 

@@ -2,13 +2,12 @@
 
 import json
 import math
-import subprocess
-import sys
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from sysid_process import run_sysid
 
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
@@ -33,18 +32,6 @@ def drive():
 @pytest.fixture(scope="module")
 def elevator():
     return simulate(MECHANISMS["elevator"], Routine(ramp=0.5, step=3.5), rng=rng())
-
-
-def sysid(*arguments, folder):
-    """Run the command as a process of its own."""
-    return subprocess.run(
-        [sys.executable, "-c", "from sim.cli import main; main()", *map(str, arguments)],
-        cwd=folder,
-        capture_output=True,
-        encoding="utf-8",
-        check=False,
-        timeout=120,
-    )
 
 
 @pytest.mark.parametrize(
@@ -94,7 +81,7 @@ def test_whatever_is_typed_is_read_or_refused(text):
     ],
     ids=lambda value: str(value)[:50],
 )
-def test_impossible_damage_is_one_line_with_advice(drive, name, how):
+def test_impossible_damage_gets_one_line_with_advice(drive, name, how):
     with pytest.raises(BadRequest) as refused:
         contaminate(drive, name, rng=rng(), **how)
 
@@ -160,7 +147,7 @@ def test_fault_damages_the_given_place(drive):
 def test_the_command_writes_what_can_be_read_and_says_where_the_damage_is(tmp_path, drive, suffix):
     write(drive, tmp_path / "drive.csv")
 
-    made = sysid(
+    made = run_sysid(
         "contaminate", "drive.csv", "--fault", "encoder-slip:1@dynamic-forward+0.5",
         "--fault", "loop-overrun@quasistatic-reverse", "--seed", 3, "-o", f"bad{suffix}",
         folder=tmp_path,
@@ -185,10 +172,10 @@ def test_the_command_writes_what_can_be_read_and_says_where_the_damage_is(tmp_pa
     ],
     ids=" ".join,
 )
-def test_what_cannot_be_done_is_one_line_and_nothing_is_written(tmp_path, drive, arguments):
+def test_damage_that_cannot_be_done_gets_one_line_and_no_file(tmp_path, drive, arguments):
     write(drive, tmp_path / "drive.csv")
 
-    refused = sysid("contaminate", *arguments, folder=tmp_path)
+    refused = run_sysid("contaminate", *arguments, folder=tmp_path)
 
     assert refused.returncode == 2
     assert refused.stdout == ""
@@ -197,8 +184,8 @@ def test_what_cannot_be_done_is_one_line_and_nothing_is_written(tmp_path, drive,
 
 
 def test_the_catalogue_is_listed_for_people_and_for_programs(tmp_path):
-    people = sysid("faults", folder=tmp_path)
-    programs = sysid("faults", "--json", folder=tmp_path)
+    people = run_sysid("faults", folder=tmp_path)
+    programs = run_sysid("faults", "--json", folder=tmp_path)
 
     assert [line.split()[0] for line in people.stdout.splitlines()] == list(FAULTS)
     assert max(len(line) for line in people.stdout.splitlines()) <= 100

@@ -4,11 +4,11 @@ import os
 import subprocess
 import sys
 import tomllib
-from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from places import ROOT
 from small_course import HALF, RIGHT, answer
 
 from grader.cli import run_command
@@ -17,8 +17,6 @@ from grader.student_data.variant import derive_student_seed, make_student_rng
 from sim.core.errors import BadRequest
 from sim.support.atomic_file import make_private_folder, write_atomically
 from sim.support.student_names import check_student_name, make_folder_name
-
-ROOT = Path(__file__).resolve().parents[1]
 
 
 def test_the_best_score_is_kept(course, capsys):
@@ -44,9 +42,7 @@ def test_a_name_is_read_out_of_damaged_progress(course, capsys):
     assert load_progress(course)[0].student == "zoë"
 
 
-def test_a_lost_name_is_asked_for_and_nobody_is_graded_on_the_numbers_of_nobody(
-    course, capsys, reads
-):
+def test_a_lost_name_is_asked_for_before_anything_is_graded(course, capsys, reads):
     (course / ".course").mkdir()
     (course / PLACE).write_text("\0", "utf-8")
     (course / "exercises" / "exercise1" / "data" / "zoe").mkdir(parents=True)
@@ -122,7 +118,7 @@ def test_eight_that_grade_at_once_all_keep_their_scores(course):
     ["", "\n", "student = [", "not toml", "student = 3\n[progress.me]\nexercise1 = 5",
      "progress = 1", "\0", 'student = "/"'],
 )  # fmt: skip
-def test_damaged_progress_is_said_and_each_is_set_aside(course, content, capsys):
+def test_damaged_progress_is_reported_and_each_file_set_aside(course, content, capsys):
     answer(course, RIGHT)
     path = course / PLACE
     path.parent.mkdir()
@@ -163,7 +159,7 @@ def test_a_private_file_and_folder_are_its_owners_from_the_beginning(tmp_path):
     assert (tmp_path / "class" / "page.html").stat().st_mode & 0o600 == 0o600
 
 
-def test_outside_a_course_it_uses_the_one_it_belongs_to(tmp_path):
+def test_outside_a_course_the_installed_one_is_used(tmp_path):
     assert find_course(tmp_path) == ROOT
 
 

@@ -3,11 +3,11 @@
 import json
 import os
 import shutil
-import subprocess
 from itertools import count
 
 import pytest
-from dataset_made import DAMAGED, PLAIN, SECRET, files, key, make_dataset, spec, sysid
+from dataset_made import DAMAGED, PLAIN, SECRET, key, make_dataset, spec, sysid
+from places import read_all
 
 from sim.bench.dataset import key as keys
 from sim.bench.dataset.folder import DatasetPlace
@@ -40,11 +40,11 @@ def test_what_is_finished_is_kept(tmp_path, capsys, reads):
 def test_a_file_that_went_missing_is_made_again(tmp_path):
     path = spec(tmp_path, DAMAGED)
     folder = make_dataset(path)
-    before = files(folder)
+    before = read_all(folder)
     (folder / "ann" / "log-02.csv").unlink()
     shutil.rmtree(folder / "bo")
 
-    assert files(make_dataset(path)) == before
+    assert read_all(make_dataset(path)) == before
 
 
 def test_a_foreign_file_is_never_overwritten_unasked(tmp_path, capsys, reads):
@@ -56,11 +56,14 @@ def test_a_foreign_file_is_never_overwritten_unasked(tmp_path, capsys, reads):
     said = refused(capsys, path, "-o", tmp_path / "data")
 
     reads(said)
-    assert files(tmp_path / "data") == {"log-02.wpilog": b"a robot's own log", "notes.txt": b"mine"}
+    assert read_all(tmp_path / "data") == {
+        "log-02.wpilog": b"a robot's own log",
+        "notes.txt": b"mine",
+    }
     assert not (tmp_path / "data.key.json").exists()
-    made = files(make_dataset(path, "data", "--overwrite"))
+    made = read_all(make_dataset(path, "data", "--overwrite"))
     assert made.pop("notes.txt") == b"mine"
-    assert made == files(make_dataset(path, "other"))
+    assert made == read_all(make_dataset(path, "other"))
 
 
 @pytest.mark.parametrize(
@@ -71,12 +74,12 @@ def test_a_foreign_file_is_never_overwritten_unasked(tmp_path, capsys, reads):
     ],
 )
 def test_files_of_another_spec_are_foreign(tmp_path, capsys, other, reads):
-    before = files(make_dataset(spec(tmp_path)))
+    before = read_all(make_dataset(spec(tmp_path)))
 
     said = refused(capsys, spec(tmp_path, other), "-o", tmp_path / "data")
 
     reads(said)
-    assert files(tmp_path / "data") == before
+    assert read_all(tmp_path / "data") == before
 
 
 def test_a_file_that_comes_there_meanwhile_is_not_overwritten(tmp_path, reads):
@@ -89,7 +92,7 @@ def test_a_file_that_comes_there_meanwhile_is_not_overwritten(tmp_path, reads):
         place.write_file("log-02.csv", b"ours")
     reads(refused.value)
 
-    assert files(tmp_path / "data") == {"log-01.csv": b"ours", "log-02.csv": b"somebody else's"}
+    assert read_all(tmp_path / "data") == {"log-01.csv": b"ours", "log-02.csv": b"somebody else's"}
 
 
 def test_a_changed_file_is_foreign_too(tmp_path, capsys, reads):
@@ -133,7 +136,7 @@ def test_a_key_that_cannot_be_written_is_refused_before_a_log_is_made(tmp_path, 
     )
 
     assert "key.json: the key cannot be written (No such file or directory)." in said
-    assert files(tmp_path) == {"spec.toml": PLAIN.encode()}
+    assert read_all(tmp_path) == {"spec.toml": PLAIN.encode()}
 
 
 @pytest.mark.parametrize(
@@ -169,7 +172,7 @@ def check(path, folder, capsys):
     return code, (shown.out or shown.err).splitlines()
 
 
-def test_what_is_as_it_was_made_passes_the_check(tmp_path, capsys):
+def test_an_unchanged_dataset_passes_the_check(tmp_path, capsys):
     path = spec(tmp_path, DAMAGED)
     folder = make_dataset(path)
 
@@ -268,34 +271,9 @@ def test_the_key_and_the_secret_are_for_their_owner_only(tmp_path):
         assert path.stat().st_mode & 0o077 == 0 or path.drive  # a drive letter: Windows
 
 
-@pytest.fixture
-def small_disk(tmp_path):
-    """A disk that a few of PLAIN's logs fill."""
-    disk = tmp_path / "disk"
-    disk.mkdir()
-    mount, umount = (shutil.which(name) or "" for name in ("mount", "umount"))
-    command = [mount, "-t", "tmpfs", "-o", "size=128k", "tmpfs", str(disk)]
-    if not mount or subprocess.run(command, check=False, capture_output=True).returncode:
-        pytest.skip("no disk can be mounted here")
-    yield disk
-    subprocess.run([umount, str(disk)], check=True)
-
-
-def test_a_disk_that_is_really_full_keeps_whole_files_only(tmp_path, small_disk, capsys):
-    path = spec(tmp_path, PLAIN.replace("count = 2", "count = 10"))
-
-    said = refused(capsys, path, "-o", small_disk / "data", "--key", tmp_path / "key.json")
-
-    assert "cannot be written (No space left on device). Make room there" in said
-    there = files(small_disk / "data")
-    whole = files(make_dataset(path, "whole"))
-    assert there
-    assert there.items() < whole.items()
-
-
 @pytest.mark.parametrize("calls", [0, 2])
-def test_a_full_disk_is_one_line_and_the_next_run_goes_on(tmp_path, monkeypatch, capsys, calls):
-    whole = files(make_dataset(spec(tmp_path, DAMAGED), "whole"))
+def test_a_full_disk_gets_one_line_and_the_next_run_goes_on(tmp_path, monkeypatch, capsys, calls):
+    whole = read_all(make_dataset(spec(tmp_path, DAMAGED), "whole"))
     real, counted = os.utime, count()
 
     def full(path, times):
@@ -308,10 +286,10 @@ def test_a_full_disk_is_one_line_and_the_next_run_goes_on(tmp_path, monkeypatch,
         said = refused(capsys, tmp_path / "spec.toml", "-o", tmp_path / "data")
 
     assert "No space left on device" in said
-    there = files(tmp_path / "data")
+    there = read_all(tmp_path / "data")
     assert there.items() < whole.items()
     assert len(there) == calls
-    assert files(make_dataset(tmp_path / "spec.toml")) == whole
+    assert read_all(make_dataset(tmp_path / "spec.toml")) == whole
 
 
 def test_a_disk_too_full_for_the_key_keeps_the_files(tmp_path, monkeypatch, capsys):
@@ -328,6 +306,6 @@ def test_a_disk_too_full_for_the_key_keeps_the_files(tmp_path, monkeypatch, caps
         said = refused(capsys, path, "-o", tmp_path / "data")
 
     assert f"{tmp_path / 'data.key.json'}: the key cannot be written (No space left" in said
-    before = files(tmp_path / "data")
+    before = read_all(tmp_path / "data")
     assert len(before) == 4
-    assert files(make_dataset(path)) == before
+    assert read_all(make_dataset(path)) == before

@@ -1,11 +1,11 @@
 """The key of a dataset and its secret: what they tell, to whom, and what the data do not tell."""
 
-import hashlib
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from dataset_made import DAMAGED, PLAIN, SECRET, files, key, make_dataset, spec, sysid
+from dataset_made import DAMAGED, PLAIN, SECRET, key, make_dataset, spec, sysid
+from places import read_all
 
 import sim
 from sim.bench.mechanisms import MECHANISMS
@@ -79,7 +79,7 @@ test = "quasistatic-forward"
 
 def test_the_key_names_the_effects_that_are_hidden_and_they_act(tmp_path):
     effect = '[[logs.effects]]\nname = ["drag", "stribeck"]\nsize = [1.5, 2.0]\n'
-    clean = files(make_dataset(spec(tmp_path), "clean"))
+    clean = read_all(make_dataset(spec(tmp_path), "clean"))
 
     folder = make_dataset(spec(tmp_path, PLAIN + effect))
 
@@ -92,16 +92,7 @@ def test_the_key_names_the_effects_that_are_hidden_and_they_act(tmp_path):
         assert 1.5 <= hidden["size"] <= 2.0
         assert again.hidden[0].to_json(find_unit(log["units"])) == hidden["parameters"]
     assert set(found) == {"drag", "stribeck"}  # four logs with this seed draw both
-    assert not [name for name, data in files(folder).items() if clean[name] == data]
-
-
-def test_the_hash_in_the_key_is_that_of_the_file(tmp_path):
-    folder = make_dataset(spec(tmp_path, DAMAGED))
-
-    made = files(folder)
-    hashes = {file: found for log in key(folder)["logs"] for file, found in log["files"].items()}
-
-    assert hashes == {file: hashlib.sha256(data).hexdigest() for file, data in made.items()}
+    assert not [name for name, data in read_all(folder).items() if clean[name] == data]
 
 
 def test_nothing_in_the_folder_gives_the_truth_away(tmp_path):
@@ -120,7 +111,7 @@ def test_nothing_in_the_folder_gives_the_truth_away(tmp_path):
     }
     told |= {log["seed"][:12] for log in truth} | {log["seed"][-12:] for log in truth}
     told |= {repr(value) for log in truth for value in log["gains"].values()}
-    for file, data in files(folder).items():
+    for file, data in read_all(folder).items():
         assert not [word for word in told if word in file or word.encode() in data]
     assert len({path.stat().st_mtime for path in folder.rglob("log*")}) == 1
 
@@ -128,9 +119,9 @@ def test_nothing_in_the_folder_gives_the_truth_away(tmp_path):
 def test_a_secret_is_made_on_first_use_and_kept(tmp_path, capsys):
     path = spec(tmp_path, DAMAGED, secret="")
 
-    first = files(make_dataset(path, "one"))
+    first = read_all(make_dataset(path, "one"))
     said = capsys.readouterr().err
-    again = files(make_dataset(path, "two"))
+    again = read_all(make_dataset(path, "two"))
 
     assert (
         said
@@ -141,22 +132,12 @@ def test_a_secret_is_made_on_first_use_and_kept(tmp_path, capsys):
     assert len((tmp_path / "class.secret").read_text(encoding="utf-8").strip()) == 64
 
 
-def test_two_secrets_that_are_made_differ(tmp_path):
-    made = []
-    for name in ("one", "two"):
-        (tmp_path / name).mkdir()
-        make_dataset(spec(tmp_path / name, DAMAGED, secret=""))
-        made.append((tmp_path / name / "class.secret").read_bytes())
-
-    assert made[0] != made[1]
-
-
 def test_the_environment_may_hold_the_secret(tmp_path, monkeypatch):
-    kept = files(make_dataset(spec(tmp_path, DAMAGED)))
+    kept = read_all(make_dataset(spec(tmp_path, DAMAGED)))
     (tmp_path / "class.secret").unlink()
     monkeypatch.setenv("SYSID_SECRET", SECRET)
 
-    assert files(make_dataset(tmp_path / "spec.toml", "from-environment")) == kept
+    assert read_all(make_dataset(tmp_path / "spec.toml", "from-environment")) == kept
     assert not (tmp_path / "class.secret").exists()
 
 

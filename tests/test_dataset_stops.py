@@ -8,7 +8,8 @@ from contextlib import contextmanager, suppress
 
 import psutil
 import pytest
-from dataset_made import PLAIN, files, key, make_dataset, process, spec
+from dataset_made import PLAIN, key, make_dataset, process, spec
+from places import read_all
 
 from sim.support.work.interrupt import deferred_interrupt
 
@@ -21,7 +22,7 @@ ENOUGH = 10  # [files] after which a run is in full swing
 def undisturbed(tmp_path_factory):
     """What a run that nothing stops makes of LONG."""
     folder = make_dataset(spec(tmp_path_factory.mktemp("whole"), LONG), "data", "--processes", 1)
-    return files(folder), key(folder)
+    return read_all(folder), key(folder)
 
 
 @contextmanager
@@ -40,7 +41,7 @@ def started(tmp_path):
 
 def left(tmp_path):
     """The logs in the folder; whatever else is there may only be the one being written."""
-    there = files(tmp_path / "data")
+    there = read_all(tmp_path / "data")
     logs = {name: data for name, data in there.items() if name.startswith("log-")}
     assert len(there) <= len(logs) + 1
     return logs
@@ -65,7 +66,7 @@ def test_a_killed_run_leaves_whole_files_and_the_next_one_goes_on(tmp_path, undi
     kept = sum(None not in entry["files"].values() for entry in key(tmp_path / "data")["logs"])
     folder = make_dataset(path, "data", "--processes", 1)
 
-    assert files(folder) == whole
+    assert read_all(folder) == whole
     assert key(folder) == truth
     assert {path: path.stat().st_ino for path in before} == before  # not written again
     earlier = f", {kept} of them made earlier" if kept else ""
@@ -81,13 +82,13 @@ def test_ctrl_c_leaves_whole_files_and_says_how_to_go_on(tmp_path, undisturbed):
         _, said = running.communicate(timeout=LONGEST)
 
     whole, _ = undisturbed
-    there = files(tmp_path / "data")
+    there = read_all(tmp_path / "data")
     assert there.items() < whole.items()
     assert running.returncode == 130
     assert said == (
         f"sysid: stopped with {len(there)} of 120 logs done. Run the same command to continue.\n"
     )
-    assert files(make_dataset(tmp_path / "spec.toml", "data", "--processes", 1)) == whole
+    assert read_all(make_dataset(tmp_path / "spec.toml", "data", "--processes", 1)) == whole
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such terminals")

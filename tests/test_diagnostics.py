@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from handmade import each
 
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
@@ -21,11 +22,6 @@ def drawn(name, seed=1, *, routine=LESSON, period=0.02):
 
 def doubts_by_code(log):
     return {doubt.code: doubt.message for doubt in diagnose_log(LogFeatures(log))}
-
-
-def each(log, change):
-    """The log with every run changed."""
-    return replace(log, runs=tuple(change(run) for run in log.runs))
 
 
 def late(run, *, by):

@@ -4,11 +4,10 @@ import ast
 import doctest
 import re
 from importlib import import_module
-from pathlib import Path
 
 import pytest
+from places import ROOT
 
-ROOT = Path(__file__).resolve().parents[1]
 LISTED = re.findall(
     r"^::: ([\w.]+)$", (ROOT / "sim/docs/reference.md").read_text("utf-8"), re.MULTILINE
 )

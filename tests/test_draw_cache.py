@@ -52,7 +52,7 @@ def test_what_was_drawn_is_not_drawn_again(shelf, tmp_path):
     assert [path.suffix for path in shelf.iterdir()] == [".drawn"]
 
 
-def test_a_class_leaves_nothing_behind_and_takes_nothing(shelf, tmp_path):
+def test_numbers_of_a_class_are_neither_cached_nor_read_from_the_cache(shelf, tmp_path):
     module = loaded(tmp_path / "exercise7")
     with enable_draw_cache(), use_class_secret(b"of the class"):
         module.draw("ann")
@@ -143,7 +143,7 @@ def test_another_student_and_another_exercise_draw_their_own(shelf, tmp_path):
     assert len(list(shelf.iterdir())) == 3
 
 
-def test_where_nothing_can_be_kept_it_is_drawn(tmp_path, monkeypatch):
+def test_data_is_drawn_where_no_cache_can_be_written(tmp_path, monkeypatch):
     (tmp_path / "file").write_text("no folder", encoding="utf-8")
     monkeypatch.setenv(cache.CACHE, str(tmp_path / "file"))
 

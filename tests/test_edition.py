@@ -136,7 +136,7 @@ def test_a_page_shows_nobodys_own_data(lesson, tmp_path):
     assert "log.wpilog" not in page
 
 
-def test_a_lesson_that_fails_is_one_line_and_leaves_no_page(lesson, tmp_path, monkeypatch, capsys):
+def test_a_lesson_that_fails_gets_one_line_and_no_page(lesson, tmp_path, monkeypatch, capsys):
     path = lesson("01_broken", MARKDOWN("# Lesson 1"), CODE("1 / 0"))
     (tmp_path / "exercises").mkdir()
     monkeypatch.chdir(tmp_path)

@@ -42,7 +42,7 @@ def test_everyday_physics_leaves_kv_and_ka_where_they_are(fits):
     assert np.median(off["kA"]) < 0.002
 
 
-def test_an_averaged_velocity_and_a_late_voltage_are_told_apart_from_inertia():
+def test_an_averaged_velocity_and_a_late_voltage_are_distinguished_from_inertia():
     logs = [case for number, case in enumerate(lag_logs(seeds=1, first=7)) if number % 3 == 0]
     off = {name: fit(log).gains["kA"] / truth.gains["kA"] - 1.0 for name, truth, log in logs}
 

@@ -29,7 +29,7 @@ def test_program_runs_in_the_given_folder_with_the_given_arguments(tmp_path):
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows ends a process without telling it")
-def test_ending_us_ends_it(root):
+def test_ending_the_process_ends_the_one_that_it_started(root):
     child = "import os, time; print(os.getpid(), flush=True); time.sleep(60)"
     outer = (
         "import sys; from grader.exec_process import run_process; "

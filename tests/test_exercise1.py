@@ -1,18 +1,16 @@
 """Exercise 1: everybody gets a voltage budget of their own, and no answer by accident."""
 
-from pathlib import Path
-
 import pytest
 from answer_grades import grade_answer
+from places import ROOT
 
 from grader.exercise import Exercise
 
-ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise1", ROOT / "exercises" / "exercise1")
 CLASS = [f"student {number}" for number in range(50)]
 
 
-def test_fifty_students_get_budgets_of_every_kind_whose_sum_is_told_apart_from_every_slip():
+def test_fifty_students_get_budgets_of_every_kind_whose_sum_no_slip_gives():
     variants = [OWN.module.draw(student) for student in CLASS]
 
     assert {variant.kind for variant in variants} == {"drivetrain", "intake", "shooter", "turret"}
@@ -46,7 +44,7 @@ def test_fifty_students_get_budgets_of_every_kind_whose_sum_is_told_apart_from_e
         ("3", 0),
     ],
 )
-def test_what_is_no_unit_of_kv_is_told_why(copy, written, points, reads):
+def test_a_wrong_unit_of_kv_gets_the_reason(copy, written, points, reads):
     found = grade_answer(copy, f"kV_unit = {written}")["kv-unit"]
 
     assert (found.status, found.points) == ("failed", points)

@@ -3,15 +3,14 @@
 import math
 import re
 import tomllib
-from pathlib import Path
 
 import pytest
 from gain_styles import BODY, IMPORTS, PYTHON_BODY, PYTHON_STYLES, STYLES
+from places import ROOT
 
 from grader.exercise import Exercise
 from grader.robotcode.running import run_gains
 
-ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise10", ROOT / "exercises" / "exercise10")
 CLASS = [f"student {number}" for number in range(50)]
 JAVA, PYTHON = "ExampleMechanism.java", "example_mechanism.py"
@@ -146,7 +145,7 @@ def in_place(student, place, *, language="java", swap=None, kp=1.0, without=(), 
 
 @pytest.mark.parametrize("place", ["", *BOTH])
 @pytest.mark.parametrize("language", ["java", "python"])
-def test_a_class_can_solve_it_from_what_it_is_told(checked, language, place):
+def test_a_class_can_solve_exercise_10_from_its_given_numbers(checked, language, place):
     every = [of(kind=kind, duty=duty) for duty in (False, True) for kind in KINDS]
     for student in every if language == "java" else every[::3]:
         text = written(student, language=language)
@@ -182,7 +181,7 @@ FEEDBACK = "class A { Object f = new FeedbackConfigs().with"
         ("elevator", BOTH[1], ".kG(", ".kCos(", "has kCos"),
     ],
 )
-def test_gravity_the_ratio_and_the_sign_of_ks_are_settings_too(  # noqa: PLR0917 - a row of the table
+def test_a_wrong_gravity_ratio_or_sign_setting_is_named(  # noqa: PLR0917 - a row of the table
     checked, kind, place, old, new, seen, reads
 ):
     student = of(kind=kind)
@@ -361,7 +360,7 @@ PID = "Constants.kA);\n  PIDController pid = new PIDController("
         ("Constants.kA);\n", f"{PID}6.2832 * {C}kP, 0, 0);\n", "kp", 0.5, "M-UNITS"),
     ],
 )  # fmt: skip
-def test_what_is_not_right_is_told(checked, turret, old, new, check, points, code):  # noqa: PLR0917 - a row of the table
+def test_wrong_code_of_exercise_10_fails_its_check(checked, turret, old, new, check, points, code):  # noqa: PLR0917 - a row of the table
     student, shown = turret
     assert old in BODY
     text = f"{IMPORTS}class A {{\n{BODY.replace(old, new).format(**shown)}}}\n"

@@ -5,11 +5,11 @@ import re
 import sys
 import tomllib
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 from answer_grades import grade_answer
+from places import ROOT
 
 from grader.answers.answer_key import load_answer_key
 from grader.cli import run_command
@@ -20,7 +20,6 @@ from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.fit import fit
 
-ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise11", ROOT / "exercises" / "exercise11")
 KEY = load_answer_key(OWN.module.__name__)
 DRAWN = sys.modules[KEY.draw.__module__]

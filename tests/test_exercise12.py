@@ -5,10 +5,10 @@ import runpy
 import sys
 from dataclasses import replace
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 import pytest
+from places import ROOT
 
 from grader.exercise import Exercise
 from sim.bench.mechanisms import MECHANISMS
@@ -18,7 +18,6 @@ from sim.reconcile import reconcile
 
 pytestmark = pytest.mark.slow
 
-ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise12", ROOT / "exercises" / "exercise12")
 ROOM = OWN.module
 DRAWN = sys.modules[f"{ROOM.__name__}.drawn"]
@@ -68,15 +67,15 @@ def hiding(count):
     )
 
 
-def test_five_students_have_an_answer_that_earns_everything(tmp_path):
+def test_students_with_one_two_and_three_effects_have_an_answer_that_earns_everything(tmp_path):
     drawn = set()
-    for number in range(5):
+    for number in (0, 2, 3):
         results = grade_answer(truth(f"student {number}"), f"student {number}", tmp_path)
-        drawn.add(ROOM.draw(f"student {number}").hidden)
+        drawn.add(len(ROOM.draw(f"student {number}").hidden))
 
         assert [one for one in results.values() if one.status != "passed"] == []
         assert sum(one.max_points for one in results.values()) == 10  # as the course lists it
-    assert len(drawn) > 2
+    assert drawn == {1, 2, 3}
 
 
 @pytest.mark.parametrize(("kind", "effects"), DRAWN.HIDDEN)
@@ -103,7 +102,7 @@ def test_the_second_effect_named_first_costs_three_points(tmp_path):
     assert {results[one].status for one in ("all-effects", "held-out", "justified")} == {"passed"}
 
 
-def test_one_of_three_alone_is_part_of_the_way(tmp_path):
+def test_one_named_effect_of_three_earns_a_part(tmp_path):
     student = hiding(3)
     some = ROOM.draw(student).hidden[:1]
     results = grade_answer(truth(student, names=some), student, tmp_path)
@@ -115,7 +114,7 @@ def test_one_of_three_alone_is_part_of_the_way(tmp_path):
     assert "you are close. Is an effect missing" in results["held-out"].hint
 
 
-@pytest.mark.parametrize("student", ["ada", "ben", "zoë"])
+@pytest.mark.parametrize("student", ["ada", "student 0"])
 def test_names_count_only_with_parameters_that_narrow_the_held_out_gap(student, tmp_path):
     made_up = re.sub(
         r' = "([-+.\de]+) ', lambda one: f' = "{3.0 * float(one[1]):.6g} ', truth(student)
@@ -170,7 +169,7 @@ def test_trying_an_effect_shows_the_gaps_but_not_the_held_out_one(copy, monkeypa
     assert "worst run" in page or "<img" in page
 
 
-def test_a_name_that_is_no_effect_is_one_line_with_a_proposal(copy, monkeypatch):
+def test_a_name_that_is_no_effect_gets_one_line_with_a_proposal(copy, monkeypatch):
     script = str(copy.folder / "try_it.py")
     monkeypatch.setattr(sys, "argv", [script, "filter", "--student", "ada"])
 
@@ -225,3 +224,11 @@ def test_reconcile_has_the_same_gap_and_the_same_first_effect():
     for name, point in fits.items():
         gap = getattr(story, name) / story.noise_floor
         assert hand.measure_gap(point, "held_out") == pytest.approx(gap, rel=0.02)
+
+
+@pytest.mark.parametrize(
+    ("written", "ours", "same"),
+    [(0.94, 0.77, True), (1.05, 1.0, True), (1.3, 1.0, False), (0.0, 0.8, False), (0.9, 5, False)],
+)
+def test_gaps_below_the_noise_are_the_same(written, ours, same):
+    assert ROOM._is_same(written, ours) is same

@@ -3,10 +3,10 @@
 import csv
 import math
 import tomllib
-from pathlib import Path
 
 import pytest
 from answer_grades import grade_answer
+from places import ROOT
 
 from grader.exercise import Exercise
 from sim.bench.slip import compute_slip_voltage
@@ -15,7 +15,6 @@ from sim.inspect.detect_faults import inspect
 from sim.io import list_entries, read, read_motors
 from sim.support.student_names import make_folder_name
 
-ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise13", ROOT / "exercises" / "exercise13")
 CLASS = [f"student {number}" for number in range(50)]
 GYRO = {
@@ -86,7 +85,7 @@ def test_gains_of_the_wrong_log_are_named(copy, student):
 
 
 @pytest.mark.parametrize("student", TWO)
-def test_the_spin_tells_the_radius_of_each_wheel(copy, student):
+def test_the_radius_of_each_wheel_follows_from_the_spin(copy, student):
     data, variant = data_of(copy, student), OWN.module.draw(student)
     given = tomllib.loads((data / "given.toml").read_text("utf-8"))
     angle = math.radians(given["spin"]["gyro"])

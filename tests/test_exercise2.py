@@ -4,11 +4,11 @@ import math
 import tomllib
 from dataclasses import replace
 from itertools import combinations, permutations
-from pathlib import Path
 
 import numpy as np
 import pytest
 from answer_grades import grade_answer
+from places import ROOT
 
 from grader.answers.answer_key import load_answer_key
 from grader.check import WrongAnswer
@@ -21,7 +21,6 @@ from sim.physics.battery import Battery
 from sim.physics.motors import compute_theoretical_kv, find_motor
 from sim.support.student_names import make_folder_name
 
-ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise2", ROOT / "exercises" / "exercise2")
 KEY = load_answer_key(OWN.module.__name__)
 CLASS = [f"student {number}" for number in range(50)]
@@ -46,6 +45,17 @@ def right(variant, theory):
 
 def student_who(wanted):
     return next(name for name in CLASS if wanted(OWN.module.draw(name)))
+
+
+def test_who_divides_the_voltage_of_the_battery_is_told(copy):
+    student = student_who(lambda variant: variant.planted == ("logged-voltage",))
+    variant = OWN.module.draw(student)
+    battery = float(variant.told["noticed"]["battery"].strip('"').split()[0])
+    share = variant.parts.theoretical_kv * battery / 12
+
+    hint = grade_answer(copy, student=student, kV_theory=share)["kv-theory"].hint
+
+    assert "the voltage of the battery" in hint
 
 
 def test_either_formula_will_do_for_everybody(copy):
@@ -84,7 +94,7 @@ def test_theory_is_what_the_bench_says_of_the_same_parts():
     )
 
 
-def test_the_file_tells_of_every_planted_trouble_and_of_no_other(copy):
+def test_the_file_shows_every_planted_trouble_and_no_other(copy):
     """Ratio, radius, what was logged and what is hot: two lines disagree where something is off."""
     for student in CLASS:
         copy.prepare(student, say=lambda _: None)
@@ -114,7 +124,7 @@ def test_a_difference_that_follows_from_a_wrong_theory_earns_half(copy, times):
 
 
 @pytest.mark.parametrize("given", ["bookkeeping", "ok", "watch", "inspect"])
-def test_a_wrong_verdict_is_not_told_the_right_one(copy, given):
+def test_the_hint_on_a_wrong_verdict_does_not_name_the_right_one(copy, given):
     for student in CLASS[:12]:
         verdict = OWN.module.draw(student).verdict
         found = grade_answer(copy, student=student, verdict=given)["verdict"]
@@ -209,7 +219,7 @@ def test_volts_for_each_radian_and_a_counted_motor_are_named(copy):
             assert ("do not turn faster than one" in half.hint) == (parts.motors == 2), student
 
 
-def test_a_verdict_that_follows_from_a_wrong_difference_is_told_to_correct_that_first(copy):
+def test_the_hint_on_a_verdict_from_a_wrong_difference_asks_to_correct_that_first(copy):
     student = student_who(lambda one: one.verdict == "bookkeeping")
     variant = OWN.module.draw(student)
     theory = variant.measured / 1.5  # a theory that is much too small

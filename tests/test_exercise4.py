@@ -5,17 +5,16 @@ import os
 import shutil
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from places import ROOT
 from robot_corpus import whole_corpus
 
 from grader.cli import run_command
 from grader.exercise import Exercise
 
-ROOT = Path(__file__).resolve().parents[1]
 JAVA, PYTHON = "ExampleSubsystem.java", "example_subsystem.py"
 EXERCISE = Exercise("exercise4", ROOT / "exercises" / "exercise4")
 
@@ -273,7 +272,7 @@ WRONG = {  # the change, the check that has to fail, and what its author is told
 
 
 @pytest.mark.parametrize("case", WRONG)
-def test_wrong_code_is_told_by_what_the_robot_did(case, tmp_path):
+def test_wrong_code_is_explained_by_what_the_robot_did(case, tmp_path):
     change, check, said = WRONG[case]
     found = {one.id: one for one in graded(tmp_path, change).checks}[check]
 
@@ -343,7 +342,7 @@ def test_steering_that_a_loop_holds_straight_is_no_mistake(tmp_path):
     assert found["drive"].status == found["open-loop"].status == "passed"
 
 
-def test_torque_current_is_told_as_no_voltage(tmp_path):
+def test_torque_current_is_reported_as_no_voltage(tmp_path):
     found = graded_program(tmp_path, "advantagekit_template_torque", "Drive.java")
 
     assert found["drive"].status == found["open-loop"].status == "failed"

@@ -1,15 +1,14 @@
 """Exercise 5: what each guard, decorator, button and comment does is seen by pressing it."""
 
 from functools import cache
-from pathlib import Path
 
 import pytest
+from places import ROOT
 
 from grader.exercise import Exercise
 
 pytestmark = pytest.mark.slow
 
-ROOT = Path(__file__).resolve().parents[1]
 EXERCISE = Exercise("exercise5", ROOT / "exercises" / "exercise5")
 JAVA, PYTHON = "RobotContainer.java", "robotcontainer.py"
 IMPORTS = """import edu.wpi.first.wpilibj.*;
@@ -121,7 +120,7 @@ def test_test_that_nobody_holds_loses_points(case, tmp_path):
     assert {found["held"].status, found["guard"].status} != {"passed"}
 
 
-def test_autonomous_command_that_is_a_test_is_told(tmp_path):
+def test_autonomous_command_that_is_a_test_is_reported(tmp_path):
     method = (
         "  public Command getAutonomousCommand() {\n"
         "    return m_subsystem.sysIdDynamic(SysIdRoutine.Direction.kForward);\n  }\n"

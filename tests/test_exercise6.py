@@ -5,11 +5,11 @@ import re
 import sys
 from dataclasses import replace
 from itertools import product
-from pathlib import Path
 
 import numpy as np
 import pytest
 from answer_grades import grade_answer
+from places import ROOT
 
 from grader.answers.answer_key import load_answer_key
 from grader.cli import run_command
@@ -22,7 +22,6 @@ from sim.physics.battery import Battery
 from sim.physics.engine import State, simulate_run
 from sim.physics.model import Model
 
-ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise6", ROOT / "exercises" / "exercise6")
 KEY = load_answer_key(OWN.module.__name__)
 DRAWN = sys.modules[OWN.module.draw.__module__]
@@ -145,7 +144,7 @@ def test_the_bench_stands_where_the_plan_says(kind):
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_a_log_made_by_a_plan_that_keeps_the_rules_tells_the_gains(kind):
+def test_a_log_made_by_a_plan_that_keeps_the_rules_determines_the_gains(kind):
     """With the bench's own noise and SysId's recipe: kV within 3, kA 20, kG 4 %."""
     for number, student in enumerate(CLASS[:4]):
         variant = OWN.module.draw(student)

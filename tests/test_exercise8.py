@@ -3,10 +3,10 @@
 import sys
 from dataclasses import replace
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 import pytest
+from places import ROOT
 
 from grader.check import WrongAnswer
 from grader.exercise import Exercise
@@ -14,12 +14,9 @@ from sim.core.log import FOUR_TESTS
 from sim.core.units import find_unit
 from sim.fit import fit
 
-ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise8", ROOT / "exercises" / "exercise8")
 CHECKS = OWN.module
-DRAWN, PREPARATION, COVERAGE = (
-    sys.modules[f"{CHECKS.__name__}.{name}"] for name in ("drawn", "preparation", "coverage")
-)
+DRAWN, PREPARATION = (sys.modules[f"{CHECKS.__name__}.{name}"] for name in ("drawn", "preparation"))
 STUDENTS = tuple(f"student {number}" for number in range(20))
 RAMPS, STEPS = FOUR_TESTS[:2], FOUR_TESTS[2:]
 
@@ -82,7 +79,7 @@ def test_the_standstill_may_be_trimmed_instead_of_dropped_by_a_threshold():
 
 
 @pytest.mark.parametrize("median", [1, 3, 5])
-def test_who_keeps_everything_earns_nothing_for_it(median):
+def test_keeping_every_sample_earns_nothing(median):
     for student in ("ann", "ben", "zoë"):
         earned = points(DRAWN.Preparation({}, 0.0, median), student=student)
 

@@ -2,14 +2,13 @@
 
 import shutil
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
+from places import ROOT
 
 from grader.exercise import Exercise, load_module
 
-ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise9", ROOT / "exercises" / "exercise9")
 
 
@@ -102,7 +101,7 @@ def test_every_log_that_is_right_earns_a_point(copy, most, points):
     assert check.points == expected == points
 
 
-def test_one_log_that_goes_wrong_is_told_by_what_is_special_about_it(copy):
+def test_a_log_that_is_fitted_wrong_is_named_by_its_speciality(copy):
     text = (ROOT / "solutions" / "exercise9" / "fit.py").read_text("utf-8")
     wrong = "    if len(set(test)) == 3:\n        ka *= 1.4\n    return {"
     check = grade_answer(copy.folder, text.replace("    return {", wrong))

@@ -1,14 +1,13 @@
 """Nothing that a learner reads holds a right number: task, hints, own numbers and feedback."""
 
 import re
-from pathlib import Path
 
 import pytest
+from places import ROOT
 
 from grader.course_check import list_mistakes, prepare_solved
 from grader.exercise import find_exercise
 
-ROOT = Path(__file__).resolve().parents[1]
 ANSWERS = {  # exercise -> the numbers that are right for a variant
     "exercise1": lambda variant: [variant.asked(name).expected for name in variant.moments],
     "exercise2": lambda variant: [
@@ -28,7 +27,7 @@ MISTAKES = 12  # of an exercise's planted ones; an answer that is run takes a se
 
 
 @pytest.mark.parametrize("name", ANSWERS)
-def test_no_right_number_is_told(name, tmp_path):
+def test_no_right_number_stands_in_what_a_learner_reads(name, tmp_path):
     own = find_exercise(name, ROOT)
     solved = prepare_solved(own, "ann", tmp_path)
     files = [own.folder / "README.md", *solved.exercise.folder.glob("data/*/*.toml")]

@@ -2,12 +2,11 @@
 
 import shutil
 from functools import cache
-from pathlib import Path
 
 import pytest
+from places import ROOT
 
 from grader.cli import run_command
-from grader.course import find_course
 from grader.course_check import (
     STUDENTS,
     find_draw_flaws,
@@ -22,7 +21,6 @@ from grader.starter import remove_answers
 
 pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("robot_code_once")]
 
-ROOT = find_course(Path(__file__).resolve().parent)
 EXERCISES = {one.name: one for one in list_exercises(ROOT)}
 GRADED = [
     pytest.param(one.name, student, mistake, id=f"{one.name}: {mistake.name}-{student}")
@@ -102,7 +100,7 @@ def test_answers_are_taken_out_in_both_languages():
         ("solutions/exercise3/mistakes.py", ("elevator-kg", "elevator-k"), "names no check"),
     ],
 )  # fmt: skip
-def test_what_is_wrong_with_an_exercise_is_told(file, change, told, course, capsys):
+def test_check_course_says_what_is_wrong_with_an_exercise(file, change, told, course, capsys):
     text = (course / file).read_text(encoding="utf-8")
     assert change[0] in text
     (course / file).write_text(text.replace(*change), encoding="utf-8")

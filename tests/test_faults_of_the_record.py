@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from handmade import each
 
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
@@ -67,10 +68,6 @@ def test_a_fault_is_found_where_it_struck(name, severity, least):
 
 def names(log):
     return {damage.fault for name in MINE for damage in found(name, log)}
-
-
-def each(log, change):
-    return replace(log, runs=tuple(change(run) for run in log.runs))
 
 
 def recorded(name, seed=1, *, period=0.02):

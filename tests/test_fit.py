@@ -96,7 +96,7 @@ def test_an_arm_in_meters_is_refused_where_sysid_says_nan(drive):
         fit(drive, type="arm")
 
 
-def test_repeated_runs_are_said_to_be_ignored(drive):
+def test_repeated_runs_are_reported_as_ignored(drive):
     twice = replace(drive, runs=drive.runs + drive.runs[:1])
 
     found = fit(twice)

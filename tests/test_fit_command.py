@@ -6,7 +6,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from old_tools import RUNS
 
 import sim
 from sim.bench.mechanisms import MECHANISMS
@@ -47,21 +46,6 @@ def here(tmp_path, monkeypatch):
     return tmp_path
 
 
-def two_sided(folder, *, right=DRIVE, name="drive.json"):
-    """A drivetrain as SysId wrote it until 2023, each side simulated by itself."""
-    sides = [simulate(one, SHORT, rng=np.random.default_rng(4)) for one in (DRIVE, right)]
-    document = {"test": "Drivetrain", "units": "Meters", "unitsPerRotation": 1.0, "sysid": True}
-    for key, test in RUNS.items():
-        (a,), (b,) = (side.list_runs_of_test(test) for side in sides)
-        n = min(len(a), len(b))
-        columns = (a.time, a.voltage, b.voltage, a.position, b.position, a.velocity, b.velocity)
-        still = np.zeros(n)
-        document[key] = np.transpose([*(one[:n] for one in columns), still, still]).tolist()
-    path = folder / name
-    path.write_text(json.dumps(document), encoding="utf-8")
-    return path
-
-
 def test_ones_own_gains_are_in_the_json_too(fit, drive):
     _, plain, _ = fit(drive, "--json")
     _, said, _ = fit(drive, "--json", "--own-kp", 2, "--own-kd", 0.01)
@@ -88,7 +72,7 @@ def test_a_suggestion_that_does_not_settle_is_a_warning(fit, tmp_path):
     assert "unsettled-feedback" in [one["code"] for one in json.loads(data)["warnings"]]
 
 
-def test_page_and_picture_are_written_beside_what_is_said(fit, drive, tmp_path):
+def test_page_and_picture_are_written_beside_the_printed_table(fit, drive, tmp_path):
     html, plot = tmp_path / "drive.html", tmp_path / "drive.svg"
 
     code, said, err = fit(drive, "--html", html, "--plot", plot, "--json")
@@ -122,17 +106,7 @@ def test_request_that_cannot_be_met_is_refused_in_one_line(fit, drive, here, ask
     assert list(here.iterdir()) == []
 
 
-def test_sides_that_differ_are_a_doubt_with_numbers(fit, tmp_path):
-    dragging = replace(DRIVE, drag=DRIVE.drag + 0.15)
-
-    _, said, _ = fit(two_sided(tmp_path, right=dragging))
-
-    (doubt,) = [line for line in said.splitlines() if "left and" in line and "kV" in line]
-    assert doubt.startswith("warning: kV is 2.52 left and")
-    assert "agree" not in said
-
-
-def test_a_direction_that_differs_is_said_with_numbers(fit, tmp_path):
+def test_a_direction_that_differs_is_reported_with_numbers(fit, tmp_path):
     # a sensor that reads a tenth too little in reverse: kV and kA are a tenth too large there
     log = simulate(DRIVE, SHORT, rng=np.random.default_rng(2))
     runs = tuple(
@@ -162,7 +136,7 @@ def test_a_long_log_is_not_fitted_three_times_unless_for_a_page(fit, drive, tmp_
     assert "not compared" not in patient
 
 
-def test_units_that_contradict_the_file_are_the_first_thing_said(tmp_path, fit):
+def test_units_that_contradict_the_file_are_reported_first(tmp_path, fit):
     arm = simulate(MECHANISMS["arm"], Routine(), rng=np.random.default_rng(1))
     path = tmp_path / "arm.wpilog"
     sim.write(replace(arm, units="rotations"), path)

@@ -114,7 +114,7 @@ def test_two_sides_in_frames_of_their_own_have_the_gains_of_each(fit_json, tmp_p
         assert found["gains"][gain] == pytest.approx(value, rel=0.06, abs=0.02)
 
 
-def test_four_modules_of_which_one_is_inverted(fit_json, tmp_path):
+def test_four_modules_are_fitted_though_one_is_inverted(fit_json, tmp_path):
     logs = {name: recorded(seed=seed) for seed, name in enumerate(("fl", "fr", "bl", "br"))}
     turned = tuple(
         replace(one, voltage=-one.voltage, position=-one.position, velocity=-one.velocity)

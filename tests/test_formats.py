@@ -14,8 +14,6 @@ from sim.core.errors import BadRequest
 from sim.core.log import Log, Run
 
 MODULES = {name: import_module(f"sim.io.formats.{name}") for name in io.FORMATS}
-WRITERS = sorted(name for name, module in MODULES.items() if hasattr(module, "write"))
-SAYS_NO_UNITS = {"csv"}  # whoever reads such a file has to say them
 LOG = Log((Run("dynamic-forward", [0.0, 0.1], [7.0, 7.0], [0.0, 0.1], [0.0, 2.0]),))
 
 

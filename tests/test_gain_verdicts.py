@@ -15,7 +15,7 @@ from sim.core.doubt import Doubt
 from sim.feedback import PRESETS
 from sim.fit import fit
 from sim.report.fit_terminal import show_fit
-from sim.report.gain_verdicts import write_gain_verdict
+from sim.report.gain_verdicts import judge_gains, write_gain_verdict
 
 LOG = simulate(MECHANISMS["drivetrain"], Routine(ramp=0.5, step=4.0), rng=np.random.default_rng(2))
 FOUND = replace(
@@ -47,6 +47,21 @@ def test_advice_for_ka_comes_from_the_log(log, advice):
 
 
 @pytest.mark.parametrize(
+    ("log", "advice"),
+    [
+        (only("dynamic-forward"), "add a quasistatic test"),
+        (only("quasistatic-forward"), "add the tests in reverse"),
+        (weaker(LOG, 0.25), "let the quasistatic tests run beyond 1.2 V"),
+        (LOG, "repeat the quasistatic tests with a slower ramp"),
+    ],
+)
+def test_advice_for_kv_comes_from_the_log(log, advice):
+    found = replace(FOUND, gains={"kV": 2.0}, errors={"kV": 1.0})
+
+    assert write_gain_verdict(found, log) == f"kV not usable (± 50 %): {advice}."
+
+
+@pytest.mark.parametrize(
     ("gains", "errors", "said"),
     [
         ({"kV": 2.0}, {"kV": 0.001}, "kV usable (± less than 0.1 %)."),
@@ -67,6 +82,9 @@ def test_gain_that_a_warning_is_about_is_not_usable():
     said = write_gain_verdict(sure, LOG)
 
     assert said == f"{USABLE}; kA not usable (± 2 %): see the warnings."
+    assert judge_gains(sure) == "Check first"
+    every = replace(sure, doubts=(Doubt("x", "It is.", gains=("kS", "kV", "kA")),))
+    assert judge_gains(every) == "Not usable"
 
 
 @pytest.mark.parametrize("width", [80, 120])

@@ -4,17 +4,15 @@ import json
 import os
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
+from places import ROOT
 from small_course import HALF, RIGHT, answer
 
 from grader.cli import run_command
 from grader.course import Standing
 from grader.exercise import find_exercise
 from grader.report import SPOKEN, find_next_step, format_checks
-
-ROOT = Path(__file__).resolve().parents[1]
 
 
 @pytest.mark.parametrize(
@@ -35,7 +33,9 @@ def test_the_verdict_comes_first_and_the_exit_code_says_the_same(
     assert capsys.readouterr().out.startswith(verdict)
 
 
-def test_a_wrong_answer_is_told_what_was_seen_why_and_what_to_try(course, capsys, reads):
+def test_feedback_on_a_wrong_answer_shows_the_value_the_reason_and_what_to_try(
+    course, capsys, reads
+):
     answer(course, "size = 1")
     run_command(["1"])
     out = capsys.readouterr().out
@@ -147,7 +147,9 @@ def test_an_exercise_that_breaks_is_our_fault_and_says_how_to_see_more(
     ],
 )
 @pytest.mark.usefixtures("course")
-def test_what_cannot_be_done_is_one_line_and_code_2(capsys, arguments, reads):
+def test_a_command_that_cannot_be_done_prints_one_line_and_leaves_with_code_2(
+    capsys, arguments, reads
+):
     assert run_command(arguments) == 2
     out, err = capsys.readouterr()
 
@@ -248,7 +250,7 @@ def test_hints_come_one_by_one_and_then_all_again(capsys, reads):
         reads(text)
 
 
-def test_without_a_name_it_shows_how_far_one_is_and_what_is_next(course, capsys, reads):
+def test_grade_without_a_name_shows_progress_and_the_next_step(course, capsys, reads):
     assert run_command([]) == 0
     reads(capsys.readouterr().out)
     answer(course, RIGHT)

@@ -77,7 +77,7 @@ def test_a_hoot_is_read_as_what_owlet_makes_of_it(hoot, owlet, tmp_path):
     assert len(list_entries(hoot)[0].numbers())  # nothing is read later, when its file is gone
 
 
-def test_without_owlet_it_is_said_how_to_get_the_log_read(hoot, monkeypatch, tmp_path):
+def test_without_owlet_the_message_says_how_to_convert_the_log(hoot, monkeypatch, tmp_path):
     monkeypatch.delenv("SYSID_OWLET", raising=False)
     monkeypatch.setenv("PATH", str(tmp_path))
     with pytest.raises(UnreadableFile, match="owlet, which is not installed") as refused:

@@ -4,9 +4,9 @@ import re
 import time
 import tomllib
 from functools import cache
-from pathlib import Path
 
 import pytest
+from places import ROOT
 
 from grader.answers.submission import read_answers
 from grader.course_check import prepare_solved
@@ -15,7 +15,6 @@ from sim.core.errors import UnreadableFile
 
 pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("robot_code_once")]
 
-ROOT = Path(__file__).resolve().parents[1]
 STUDENT = "ann"
 ANSWERED_IN_TOML = [one for one in list_exercises(ROOT) if "answers.toml" in one.files]
 PATIENCE = 5.0  # [s] of the processor for one answer, the first one of a process left out
@@ -127,7 +126,7 @@ def test_what_nobody_writes_as_an_answer_is_refused_at_once(text, tmp_path):
     [b"", b"\xe4\xf6\xfc = 1\n", b"#" * 1_100_000],
     ids=["empty", "Latin-1", "too large"],
 )
-def test_a_function_that_cannot_be_read_is_said_and_is_nobodys_fault(content, answered):
+def test_an_unreadable_function_is_reported_and_blamed_on_nobody(content, answered):
     (one,) = (one for one in ANSWERED_IN_TOML if one.name == "exercise9")
     place, _ = answered(one)
     (place / "fit.py").write_bytes(content)
@@ -142,7 +141,7 @@ def test_a_function_that_cannot_be_read_is_said_and_is_nobodys_fault(content, an
     "row",
     ["verdict = inspect", "steps = [run-tests, place-gains]  # in order", "release = timeout"],
 )
-def test_a_word_without_quotes_is_told_to_get_them(tmp_path, row):
+def test_a_word_without_quotes_gets_the_advice_to_add_them(tmp_path, row):
     path = tmp_path / "answers.toml"
     path.write_text(f"{row}\n", encoding="utf-8")
 

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from handmade import each
 
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
@@ -23,10 +24,6 @@ GENTLE = Routine(ramp=0.5, step=3.5)
 
 def bench(name="drivetrain", *, period=0.02, seed=0):
     return simulate(MECHANISMS[name], GENTLE, rng=np.random.default_rng(seed), period=period)
-
-
-def each(log, change):
-    return replace(log, runs=tuple(change(run) for run in log.runs))
 
 
 def browned_out(*, seed=5, step=3.5):

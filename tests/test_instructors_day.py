@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
+from places import ROOT
 from wheel import LEFT_OUT, build_wheel
 
 from grader.course_check import list_mistakes, solve
@@ -31,7 +32,6 @@ pytestmark = pytest.mark.slow
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-ROOT = Path(__file__).resolve().parents[1]
 WHOLE = 239  # points of the thirteen exercises and of practice
 PROGRAMS = {"grade": "grader.cli", "sysid": "sim.cli"}
 ALONE = ("Anna Bauer", "Diaz Cara", "week-3-ginah-2010")  # exercises in folders, whole courses

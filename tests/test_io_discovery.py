@@ -283,9 +283,6 @@ def test_arrays_are_refused_by_name_and_say_which_export(tmp_path):
     assert "Tuner X or AdvantageScope" in str(refused.value)
 
 
-VELOCITY = AKIT[2][0]
-
-
 @pytest.mark.parametrize(
     ("spoiled", "asked", "refused"),
     [

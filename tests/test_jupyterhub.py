@@ -23,6 +23,7 @@ from pathlib import Path
 import psutil
 import pytest
 import requests
+from places import ROOT
 from tornado.httpclient import HTTPRequest
 from tornado.websocket import websocket_connect
 
@@ -34,7 +35,6 @@ from sim.support.student_names import make_folder_name
 
 pytestmark = pytest.mark.slow
 
-ROOT = Path(__file__).resolve().parents[1]
 ANSWER = "exercises/exercise1/answers.toml"
 LESSON = "lessons/00_guess_or_measure.ipynb"
 PATIENCE = 120  # [s] for a server to start, or a command to end

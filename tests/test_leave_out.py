@@ -27,6 +27,16 @@ def test_a_run_is_split_where_its_middle_is_left_out():
     assert left.runs[2:] == log.runs[1:]
 
 
+def test_rest_of_a_run_that_stands_still_is_left_out_too():
+    log = drive_log(1, "arm")
+    run = log.runs[0]
+    first = run.time[run.moving][0]
+
+    left = leave_out({"": log}, [LeftOutPart.parse(f"{run.test}:{first - 0.1:.3f}-99")])[""]
+
+    assert left.runs == log.runs[1:]
+
+
 @pytest.mark.parametrize(
     "text", ["", "forward", "dynamic-forward:5", "dynamic-forward:6-5", "dynamic-forward:1..2-3"]
 )

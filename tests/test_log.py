@@ -62,7 +62,7 @@ def test_two_logs_join_unless_one_is_an_angle():
     assert refused.value.advice
 
 
-def test_raw_columns_become_si_and_repeated_times_are_said():
+def test_raw_columns_become_si_and_repeated_times_are_reported():
     signals = {
         "time": np.array([0.0, 0.02, 0.02, 0.04]),
         "voltage": np.ones(4),
@@ -116,5 +116,5 @@ def test_under_a_limit_the_voltage_slides_after_the_step():
 
 
 @pytest.mark.parametrize("test", ["quasistatic-forward", "triangle-forward", "chirp-reverse"])
-def test_a_command_that_changes_every_loop_is_a_stair(test):
+def test_a_voltage_that_changes_every_loop_is_held_between_samples(test):
     assert not stepped([0.0, 0.5, 1.0, 1.5], test).voltage_slide.any()

@@ -1,10 +1,10 @@
 """``grade mystery``: fresh logs with a hidden trouble, graded as exercises 7 and 12 do."""
 
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 import pytest
+from places import ROOT
 
 from grader.cli import run_command
 from grader.mystery import (
@@ -18,7 +18,6 @@ from grader.mystery import (
 from grader.student_data.variant import use_class_secret
 from sim.io import read
 
-ROOT = Path(__file__).resolve().parents[1]
 FAULTS, EFFECTS = 1, 2  # the numbers of mysteries whose turn it is
 SEEDS = {FAULTS: range(20), EFFECTS: range(HIGHEST)}  # to draw effects takes seconds
 
@@ -54,7 +53,7 @@ def test_the_same_seed_draws_the_same_mystery_whatever_the_class():
         assert np.array_equal(one.velocity, other.velocity)
 
 
-def test_a_fault_in_the_wrong_place_earns_a_part_and_says_so():
+def test_a_fault_in_the_wrong_place_earns_a_part_and_gets_a_hint():
     every = (drawn(FAULTS, seed, 1) for seed in SEEDS[FAULTS])
     mystery = next(one for one in every if " to " in one.solution)
     fault, test, _, action = mystery.solution.split(", ")
@@ -115,7 +114,7 @@ def test_a_damaged_file_begins_anew(tmp_path, text):
     assert load_state(tmp_path) == MysteryState()
 
 
-def test_an_answer_without_a_mystery_is_one_line(all_exercises, capsys):
+def test_an_answer_without_a_mystery_gets_one_line(all_exercises, capsys):
     assert all_exercises.is_dir()
     assert run_command(["mystery", "clean"]) == 2
     assert "Draw one: grade mystery" in capsys.readouterr().err

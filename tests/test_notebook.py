@@ -1,7 +1,6 @@
 """Answers from a notebook: the same result as from the file, and the same file afterwards."""
 
 import json
-import shutil
 import subprocess
 import sys
 import tomllib
@@ -47,14 +46,9 @@ def test_answers_go_into_the_file_and_its_comments_stay(course):
 
 
 @pytest.fixture
-def exercise12(root, tmp_path):
+def exercise12(all_exercises):
     """A copy of the exercise that asks for effects, each with parameters of its own."""
-    shutil.copytree(
-        root / "exercises" / "exercise12",
-        tmp_path / "exercises" / "exercise12",
-        ignore=shutil.ignore_patterns("data", "__pycache__"),
-    )
-    return find_exercise("exercise12", tmp_path)
+    return find_exercise("exercise12", all_exercises)
 
 
 def test_parameters_of_an_effect_go_below_its_name(exercise12):
@@ -88,13 +82,8 @@ def test_a_parameter_that_cannot_be_one_is_refused(exercise12, answers, said):
 
 
 @pytest.fixture
-def questions(root, tmp_path, monkeypatch):
+def questions(all_exercises):  # noqa: ARG001 - its folder
     """Two questions of exercise 11 as buttons, in a course of its own."""
-    folder = tmp_path / "exercises" / "exercise11"
-    without = shutil.ignore_patterns("data", "__pycache__")
-    shutil.copytree(root / "exercises" / "exercise11", folder, ignore=without)
-    (tmp_path / "lessons").mkdir()
-    monkeypatch.chdir(tmp_path)
     return ExerciseQuestions("exercise11", "Q0_guess", "Q0_brace")
 
 
@@ -119,11 +108,8 @@ def test_buttons_without_a_course_say_what_is_missing(tmp_path):
     assert "there is no exercise" in said.value
 
 
-def test_a_cell_counts_what_is_not_answered_yet(root, tmp_path, monkeypatch):
-    folder = tmp_path / "exercises" / "exercise11"
-    shutil.copytree(root / "exercises" / "exercise11", folder)
-    (tmp_path / "lessons").mkdir()
-    monkeypatch.chdir(tmp_path)
+@pytest.mark.usefixtures("all_exercises")
+def test_a_cell_counts_what_is_not_answered_yet():
     shown = submit(11, Q0_guess="With which gain does")
     count = len(shown.grade.checks)
 
@@ -161,7 +147,7 @@ def test_number_of_numpy_counts_as_an_answer(size):
         ({"size": np.array([3, 4])}, "cannot be written down"),
     ],
 )
-def test_what_cannot_be_an_answer_is_said_and_changes_nothing(course, answers, said):
+def test_what_cannot_be_an_answer_is_refused_and_changes_nothing(course, answers, said):
     shown = submit(1, **answers)
 
     assert said in str(shown)
@@ -173,7 +159,7 @@ def test_what_cannot_be_an_answer_is_said_and_changes_nothing(course, answers, s
 @pytest.mark.parametrize(
     ("exercise", "said"), [("exercise7", "there is no exercise"), ("1", "cannot be read")]
 )
-def test_what_cannot_be_graded_is_one_line(course, exercise, said):
+def test_what_cannot_be_graded_gets_one_line(course, exercise, said):
     answer(course, "size = [\n")
 
     assert said in str(submit(exercise))
@@ -191,12 +177,8 @@ def test_a_cell_shows_marks_as_words_too_and_escapes_what_was_given(course):
     assert course.is_dir()
 
 
-def test_a_file_of_code_is_graded_as_it_stands(root, tmp_path, monkeypatch):
-    folder = tmp_path / "exercises" / "exercise4"
-    shutil.copytree(root / "exercises" / "exercise4", folder)
-    (tmp_path / "lessons").mkdir()
-    monkeypatch.chdir(tmp_path)
-
+@pytest.mark.usefixtures("all_exercises")
+def test_a_file_of_code_is_graded_as_it_stands():
     assert submit(4).grade.status == "failed"
     assert "is answered in ExampleSubsystem.java or" in str(submit(4, ramp=0.5))
 

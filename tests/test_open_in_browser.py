@@ -29,22 +29,6 @@ DROP = """(files) => {
     }
     window.dispatchEvent(new DragEvent('drop', {dataTransfer: given, bubbles: true}));
 }"""
-DROP_AND_TIME = """(file) => {
-    const began = performance.now();
-    const seen = {};
-    return new Promise((done) => {
-        const look = () => {
-            if (!seen.picture && sysid.chart.runs.length && sysid.chart.pictures) {
-                seen.picture = (performance.now() - began) / 1000;
-            }
-            if (document.querySelector('.gain')) {
-                done({...seen, gains: (performance.now() - began) / 1000});
-            } else requestAnimationFrame(look);
-        };
-        (DROP)([file]);
-        look();
-    });
-}""".replace("(DROP)", f"({DROP})")
 DRAG = """async ({id, seconds}) => {
     const slider = document.getElementById(id);
     const [low, high] = [Number(slider.min), Number(slider.max)];

@@ -123,7 +123,7 @@ def test_gains_are_found_from_any_kinds_of_tests(kinds):
 
 
 @pytest.mark.parametrize("kind", ["drivetrain", "elevator", "arm", "turret"])
-def test_a_late_and_averaged_velocity_is_allowed_for_and_told(kind):
+def test_a_late_and_averaged_velocity_is_modelled_and_reported(kind):
     mechanism = MECHANISMS[kind].hide("velocity-filter").hide("delay", 0.7)
 
     found = fit(simulate(mechanism, GENTLE, rng=rng(2)), type=mechanism.type)
@@ -189,7 +189,7 @@ def held_back(run, mechanism, *, volts):
     )
 
 
-def test_when_it_came_off_a_stop_that_yields_says_nothing_about_friction():
+def test_a_late_start_from_a_soft_stop_does_not_change_friction():
     # charged to friction and inertia, it makes kS 15 % and kA 25 % too large
     mechanism = MECHANISMS["arm"]
     log = simulate(mechanism, GENTLE, rng=rng(3))
@@ -297,7 +297,7 @@ def test_right_or_refused_whatever_tests_there_are(kind, tests):
         assert off < 0.25 * truth or off < 0.1, gain
 
 
-def test_an_elevator_that_rebounds_once_has_not_been_both_ways():
+def test_an_elevator_that_only_rebounds_lacks_the_other_direction():
     # two samples of a rebound, taken for a test down, make kS 5.3 ± 0.1 V where 0.16 is true
     log = simulate(drawn("elevator", 0), GENTLE, rng=rng(0))
     runs = []
@@ -386,7 +386,7 @@ def test_samples_at_odd_times_are_taken_at_their_times():
     assert found.gains["kA"] == pytest.approx(MECHANISMS["drivetrain"].gains["kA"], rel=0.02)
 
 
-def test_signs_opposed_are_told_and_fitted_as_they_are():
+def test_opposed_signs_are_reported_and_fitted_as_they_are():
     log = simulate(MECHANISMS["drivetrain"], GENTLE, rng=rng(1))
     turned = replace(log, runs=tuple(replace(r, voltage=-r.voltage) for r in log.runs))
 

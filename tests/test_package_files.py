@@ -257,7 +257,7 @@ def grade_installed(place, folder, *words):
     )
 
 
-def test_other_code_in_the_course_folder_is_said_in_one_line(root, tmp_path):
+def test_other_code_in_the_course_folder_is_reported_in_one_line(root, tmp_path):
     place = installed(root, tmp_path / "site-packages")
     course = tmp_path / "course"
     course.mkdir()

@@ -7,14 +7,13 @@ import subprocess
 import sys
 import tomllib
 from functools import cache
-from pathlib import Path
 
 import pytest
+from places import ROOT, read_all
 from test_release import lay_out, read
 
 from grader.answers.answer_key import load_answer_key
 from grader.classroom.bundle import pack_course
-from grader.course import find_course
 from grader.course_check import solve
 from grader.exercise import Exercise, list_exercises
 from grader.package_files import select_package_files
@@ -23,13 +22,11 @@ from grader.student_data.variant import use_class_secret
 
 pytestmark = pytest.mark.slow
 
-ROOT = find_course(Path(__file__).resolve().parent)
 SECRET = b"0123456789abcdef-keys"
 STUDENT = "ann"
 EXERCISES = {one.name: one for one in list_exercises(ROOT)}
 FILLED_IN = [name for name, one in EXERCISES.items() if "answers.toml" in one.files]
 DATA = (".csv", ".wpilog")
-FOUR_DIGITS = re.compile(r"[0.]*[1-9](\.?\d){3}")
 LITTLE = 1 / 3  # [share] of an exercise: what guessing may earn, see test_guessing
 
 SOLVER = """
@@ -108,11 +105,7 @@ def _flatten(files):
 @cache
 def list_texts(course):
     """File -> its text; of a log, the names and metadata among its bytes."""
-    return {
-        path.relative_to(course).as_posix(): path.read_bytes().decode("latin-1")
-        for path in course.rglob("*")
-        if path.is_file()
-    }
+    return {name: content.decode("latin-1") for name, content in read_all(course).items()}
 
 
 def shows(text, name, answer):
@@ -192,7 +185,7 @@ def test_a_solver_that_only_reads_the_package_earns_what_guessing_earns(common, 
     )
 
 
-def test_at_home_a_class_practices_what_it_computes_and_is_told_who_checks_the_rest(common):
+def test_a_class_package_grades_numbers_at_home_and_names_who_checks_the_words(common):
     course, has_keys = common
     third, eleventh = (
         Exercise(name, course / "exercises" / name) for name in ("exercise3", "exercise11")

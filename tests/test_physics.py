@@ -1,4 +1,4 @@
-"""Gains against physics: quiet where the parts are true, loud and by name where they are not."""
+"""Mechanisms and their physics: gains of parts, stages of an elevator."""
 
 import math
 from dataclasses import replace
@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from sim.bench.mechanisms import MECHANISMS
+from sim.bench.mechanisms import MECHANISMS, find_mechanism
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.core.errors import BadRequest
@@ -136,7 +136,7 @@ def test_a_wrong_unit_in_the_log_is_named(kind, factor):
         ("drivetrain", {"ratio": 8.14}, "ka-above-theory", "the inverse factor"),
     ],
 )
-def test_wrong_parts_are_caught_and_what_would_fit_is_said(kind, wrong, code, named):
+def test_wrong_parts_are_caught_and_fitting_ones_proposed(kind, wrong, code, named):
     parts = replace(true_parts(MECHANISMS[kind]), **wrong)
 
     assert named in about(check_plausibility(found_in(kind), parts=parts), code)
@@ -166,7 +166,7 @@ def test_an_ideal_motor_with_a_little_drag_is_within_theory(name):
     ("drag", "code"),
     [(0.05, None), (0.15, "kv-drag"), (0.3, "kv-above-theory")],
 )
-def test_drag_is_told_by_its_size(drag, code):
+def test_drag_is_reported_with_its_size(drag, code):
     mechanism = replace(MECHANISMS["drivetrain"], drag=drag)
     said = check_plausibility(fit(recorded(mechanism)), parts=true_parts(mechanism))
 
@@ -230,3 +230,40 @@ def test_what_cannot_be_compared_is_refused(ask):
     with pytest.raises(BadRequest) as refused:
         ask()
     assert refused.value.advice
+
+
+G = 9.81  # [m/s²]
+SLOWLY = Routine(ramp=1.0, step=4.0)
+NEO = find_motor("neo")
+
+# name, [kg] what the motors carry, [kg] what they accelerate, [m/s²] weight over inertia.
+# Cascade: a carriage of 12 kg and a stage of 8 kg at half its speed: 12 + 8/2 and 12 + 8/4.
+# Counterweight: 15 kg and 6 kg on the other end of the rope: 15 - 6 and 15 + 6.
+ELEVATORS = [
+    ("cascade-elevator", 16.0, 14.0, 11.21),
+    ("counterweight-elevator", 9.0, 21.0, 4.20),
+]
+
+
+def recorded_elevator(name):
+    return simulate(find_mechanism(name), SLOWLY, rng=np.random.default_rng(4))
+
+
+@pytest.mark.parametrize(("name", "weight", "inertia", "lift"), ELEVATORS)
+def test_elevator_has_the_weight_and_inertia_of_its_stages(name, weight, inertia, lift):
+    built = find_mechanism(name)
+    radius = 2.0 * 0.0222 if name == "cascade-elevator" else 0.0222
+    volts_per_newton = NEO.resistance * radius / (2 * NEO.torque_constant * built.ratio)
+
+    assert built.gains["kG"] == pytest.approx(volts_per_newton * weight * G, rel=1e-9)
+    assert built.gains["kA"] == pytest.approx(volts_per_newton * inertia, rel=1e-9)
+    assert built.gains["kG"] / built.gains["kA"] == pytest.approx(lift, abs=0.01)
+
+
+@pytest.mark.parametrize("name", [row[0] for row in ELEVATORS])
+def test_a_fit_finds_its_gains(name):
+    found = fit(recorded_elevator(name))
+
+    for gain, true in find_mechanism(name).gains.items():
+        assert found.gains[gain] == pytest.approx(true, rel=0.03), gain
+    assert not [doubt for doubt in found.doubts if doubt.grave]

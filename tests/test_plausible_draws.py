@@ -4,16 +4,15 @@ The gate looks at a few students of each exercise. ``SYSID_STUDENTS=300`` looks 
 """
 
 import os
-from pathlib import Path
 
 import pytest
+from places import ROOT
 
 from grader.course_check import find_solution_flaws, prepare_solved
 from grader.exercise import Exercise, find_exercise
 
 pytestmark = pytest.mark.slow
 
-ROOT = Path(__file__).resolve().parents[1]
 FEW = 20  # students in the gate
 FEWER = {  # where logs are simulated, fitted and reconciled, or Python is run
     "exercise7": 5,
@@ -31,7 +30,11 @@ KS = {  # [V] kS of real mechanisms: shooters 0.11 to elevators and arms 0.74, a
     "most": 0.8,
 }
 STOP = 1.4  # [V] kS of exercise 2's mechanism that must not be tested on
-ANSWERED = sorted(path.parent.name for path in (ROOT / "solutions").glob("*/solve.py"))
+ANSWERED = [  # exercise 12 takes 20 s, and each student of the instructor's day solves it
+    path.parent.name
+    for path in sorted((ROOT / "solutions").glob("*/solve.py"))
+    if path.parent.name != "exercise12" or "SYSID_STUDENTS" in os.environ
+]
 
 
 def students(name):

@@ -1,10 +1,10 @@
 """Practice: five steps on one mechanism, with a robot of one's own or without."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
+from places import ROOT
 
 from grader.course_check import prepare_solved
 from grader.exercise import Exercise, load_module
@@ -17,7 +17,6 @@ from sim.io import read, write
 
 pytestmark = pytest.mark.usefixtures("robot_code_once")
 
-ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("practice", ROOT / "exercises" / "practice")
 
 
@@ -146,7 +145,7 @@ def test_a_poor_fit_asks_what_is_suspected(tmp_path, solved):
         ({"language": '""'}, "constants-named", "language"),
     ],
 )
-def test_what_is_missing_is_told_and_no_crash(tmp_path, solved, changed, check, says):
+def test_a_missing_answer_gets_a_hint_and_no_crash(tmp_path, solved, changed, check, says):
     answers, found = robot(tmp_path)
     results = grade_answer(tmp_path, {**solved, **constants(found)}, **{**answers, **changed})
     first = next(one for one in results.values() if one.id.startswith(check.partition("-")[0]))

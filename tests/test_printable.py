@@ -21,7 +21,7 @@ NASTY = "\x1b]0;you\x07\x1b[31m\u202egnorw\u2066\x9b2J\r\x08"
 
 
 @given(st.text())
-def test_nothing_in_it_commands_and_the_rest_stays(text):
+def test_control_characters_are_removed_and_the_rest_stays(text):
     shown = make_printable(text)
 
     assert not COMMANDS.search(shown)
@@ -34,7 +34,7 @@ def test_nothing_in_it_commands_and_the_rest_stays(text):
 
 @settings(max_examples=25, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.text(max_size=20).map(lambda text: NASTY + text))
-def test_an_answer_reaches_neither_terminal_nor_notebook_as_a_command(course, capsys, text):
+def test_control_characters_of_an_answer_reach_neither_terminal_nor_notebook(course, capsys, text):
     quoted = "".join(
         f"\\U{ord(sign):08x}" for sign in text if ord(sign) not in range(0xD800, 0xE000)
     )
@@ -49,7 +49,7 @@ def test_an_answer_reaches_neither_terminal_nor_notebook_as_a_command(course, ca
 
 
 @pytest.mark.usefixtures("course")
-def test_a_page_of_a_class_and_its_exports_hold_no_command(tmp_path):
+def test_a_page_of_a_class_and_its_exports_hold_no_control_characters(tmp_path):
     place = tmp_path / "in" / "ann" / "exercise1"
     place.mkdir(parents=True)
     quoted = "".join(f"\\U{ord(sign):08x}" for sign in NASTY)

@@ -6,7 +6,6 @@ import shlex
 import subprocess
 import sys
 import tomllib
-from pathlib import Path
 
 import click
 import nbformat
@@ -16,12 +15,12 @@ from ci_scripts import load_script
 from nbclient import NotebookClient
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
+from places import ROOT
 
 from grader.__main__ import NEWEST
 from grader.cli import grade
 from sim.cli import sysid
 
-ROOT = Path(__file__).resolve().parents[1]
 WORKFLOWS = sorted((ROOT / ".github" / "workflows").glob("*.yml"))
 PINNED = {  # the actions we trust, each at the major version that its documentation names
     "actions/checkout": "v4",
@@ -232,7 +231,7 @@ def test_a_command_says_its_version(name):
     assert done.stdout.strip().endswith(f"version {PROJECT['version']}")
 
 
-def test_the_newest_python_is_said_alike_everywhere():
+def test_the_newest_python_is_the_same_everywhere():
     newest = ".".join(map(str, NEWEST))
     classified = [one.rpartition(" ")[2] for one in PROJECT["classifiers"] if "3." in one]
 

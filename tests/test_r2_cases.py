@@ -97,7 +97,7 @@ def test_our_bench_finds_what_the_table_says(name, cases_by_name):
 
 
 @each_case
-def test_two_benches_agree_or_it_is_said_why_not(name, cases_by_name):
+def test_two_benches_agree_or_the_table_says_why_not(name, cases_by_name):
     assert agree(measured(cases_by_name[name]), TABLE[name][1]) == (name not in DIFFERS)
 
 

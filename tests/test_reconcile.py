@@ -17,6 +17,7 @@ from sim.cli.open.reconcile_job import inspect_damage
 from sim.core.units import find_unit
 from sim.estimation.initial_guess import guess_gains
 from sim.inspect.contaminate import contaminate
+from sim.inspect.detect_faults import inspect
 from sim.physics.effects import EFFECTS
 from sim.reconcile import reconcile
 from sim.reconcile.damage import DamagedInterval
@@ -143,7 +144,7 @@ def test_what_the_validation_does_not_confirm_is_not_named():
     assert (load.admitted, load.why) == (False, "widens the gap")
 
 
-def test_what_inspect_saw_is_told_only_where_no_effect_explains_the_log():
+def test_faults_of_inspect_are_reported_only_where_no_effect_explains_the_log():
     slip = DamagedInterval(2, 0.0, 0.3, "wheel-slip", 0.9, "The wheels spin.", "Halve the step.")
     seen = {"log": (slip, replace(slip, fault="brownout", confidence=0.4))}
     sessions = logs("elevator", "constant-load", simple=True)
@@ -160,7 +161,7 @@ def test_what_inspect_saw_is_told_only_where_no_effect_explains_the_log():
     assert "inspection of the log finds: wheel-slip" in write_headline(unexplained)
 
 
-def test_a_gap_that_does_not_shrink_on_the_held_out_log_is_said():
+def test_a_gap_that_does_not_shrink_on_the_held_out_log_is_reported():
     # the held-out session is of a mechanism without the weight that the others have
     weightless = session(bench("elevator", simple=True), "held_out")
 
@@ -209,7 +210,7 @@ def test_whatever_the_held_out_log_says_the_findings_are_the_same():
     assert other.gap_after > 3.0 * story.gap_after
 
 
-def test_without_a_held_out_log_the_validation_is_shown_and_it_is_said():
+def test_without_a_held_out_log_the_story_says_that_it_shows_the_validation():
     sessions = logs(*PLAIN[:2], simple=True)
 
     story = told(sessions, held_out=None)
@@ -219,7 +220,7 @@ def test_without_a_held_out_log_the_validation_is_shown_and_it_is_said():
     assert len(story.shown.runs) == len(sessions["validation"].runs)
 
 
-def test_a_single_log_is_split_run_by_run_and_it_is_said():
+def test_the_story_says_that_a_single_log_is_split_run_by_run():
     sessions = logs(*PLAIN[:2], simple=True)
 
     story = told({"log": sessions["log"]})
@@ -229,7 +230,7 @@ def test_a_single_log_is_split_run_by_run_and_it_is_said():
 
 
 @pytest.mark.parametrize("stop", [{"effort": 1e-3}, {"is_stopped": lambda: True}])
-def test_a_search_that_is_cut_short_claims_nothing_and_says_so(stop):
+def test_a_search_that_is_cut_short_says_so_and_claims_nothing(stop):
     sessions = logs(*PLAIN[:2], simple=True)
 
     story = reconcile(sessions["log"], type="simple", **stop)
@@ -298,7 +299,7 @@ def test_shifted_voltages_are_explained_by_no_effect():
 @pytest.mark.parametrize(
     ("confidence", "first", "size"), [(0.95, "hard-stop", "major"), (0.7, "drag", "minor")]
 )
-def test_a_fault_that_may_be_physics_is_told_after_what_is_missing(confidence, first, size):
+def test_a_fault_that_may_be_physics_is_reported_after_missing_effects(confidence, first, size):
     sessions = logs("drivetrain", "drag")
     run = sessions["log"].runs[0]
     start = float(run.time[-1]) - 0.2
@@ -327,7 +328,15 @@ def test_damage_is_reported_as_damage_and_physics_beside_it_is_still_named():
     assert story.verdict == "explained"
 
 
-def test_a_run_of_which_nothing_is_believed_is_told_and_left_out():
+def test_frames_that_are_ordinary_are_no_damage():
+    log = simulate(MECHANISMS["drivetrain"], Routine(), rng=np.random.default_rng(1), period=0.005)
+    framed = contaminate(log, "stale-samples", severity=1.0, rng=np.random.default_rng(2)).log
+
+    assert any(one.ordinary for one in inspect(framed).damages)
+    assert inspect_damage(framed) == ()
+
+
+def test_a_run_without_a_believable_sample_is_reported_and_left_out():
     sessions = logs("drivetrain", "drag")
     log = sessions["log"]
     whole = log.runs[-1]

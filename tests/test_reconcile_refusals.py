@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from handmade import change_signals
 from reconcile_made import bench, logs, session
 
 import sim
@@ -20,16 +21,6 @@ from sim.support.command_line import run_command
 DRIVE = logs("drivetrain")
 LOG = replace(DRIVE["log"], source="drive.csv")
 OTHER = replace(DRIVE["validation"], source="other.csv")
-
-
-def changed(log, **change):
-    """A log whose every run has something else for some of its arrays."""
-    return replace(
-        log,
-        runs=tuple(
-            replace(one, **{name: f(one) for name, f in change.items()}) for one in log.runs
-        ),
-    )
 
 
 def short(log, *, count, runs=4):
@@ -48,22 +39,22 @@ ALONE = {
     "ten samples": (short(LOG, count=10, runs=1), NotIdentifiable),
     "three samples of each": (short(LOG, count=3), NotIdentifiable),
     "no runs": (Log((), units="meters", source="drive.csv"), NotIdentifiable),
-    "the same voltage all along": (changed(LOG, voltage=stepped), NotIdentifiable),
-    "no voltage": (changed(LOG, voltage=lambda one: 0.0 * one.voltage), Refusal),
-    "no motion": (changed(LOG, velocity=lambda one: 0.0 * one.velocity), Refusal),
-    "plus is minus": (changed(LOG, voltage=lambda one: -one.voltage), BadRequest),
+    "the same voltage all along": (change_signals(LOG, voltage=stepped), NotIdentifiable),
+    "no voltage": (change_signals(LOG, voltage=lambda one: 0.0 * one.voltage), Refusal),
+    "no motion": (change_signals(LOG, velocity=lambda one: 0.0 * one.velocity), Refusal),
+    "plus is minus": (change_signals(LOG, voltage=lambda one: -one.voltage), BadRequest),
 }
 SHOOTER = replace(session(bench("shooter"), "validation"), units="meters", source="other.csv")
 BESIDE = {
     "of a shooter": SHOOTER,
     "in an angle": session(bench("turret"), "validation"),
-    "in feet that pass for meters": changed(
+    "in feet that pass for meters": change_signals(
         OTHER, velocity=lambda r: r.velocity / 0.3048, position=lambda r: r.position / 0.3048
     ),
-    "the other way round": changed(OTHER, voltage=lambda one: -one.voltage),
-    "that never moves": changed(OTHER, velocity=lambda one: 0.001 * one.velocity),
+    "the other way round": change_signals(OTHER, voltage=lambda one: -one.voltage),
+    "that never moves": change_signals(OTHER, velocity=lambda one: 0.001 * one.velocity),
     "of three samples": short(OTHER, count=3),
-    "without a voltage": changed(OTHER, voltage=lambda one: 0.0 * one.voltage),
+    "without a voltage": change_signals(OTHER, voltage=lambda one: 0.0 * one.voltage),
     "with an empty run": replace(OTHER, runs=(*OTHER.runs, *short(OTHER, count=0, runs=1).runs)),
 }
 
@@ -79,7 +70,7 @@ def test_log_that_cannot_answer_is_refused_in_one_line(log, kind):
 
 @pytest.mark.parametrize("role", ["validation", "held_out"])
 @pytest.mark.parametrize("log", BESIDE.values(), ids=BESIDE)
-def test_log_of_something_else_is_refused_beside_a_good_one(role, log):
+def test_second_log_that_cannot_be_compared_is_refused_by_its_name(role, log):
     with pytest.raises(Refusal) as refused:
         reconcile(LOG, type="simple", **{role: log})
 
@@ -92,7 +83,7 @@ def test_log_of_something_else_is_refused_beside_a_good_one(role, log):
         {"type": "arm"}, {"type": "turret"}, *({"travel": one} for one in (0.5, -1.0, math.nan)),
     ],
 )  # fmt: skip
-def test_wrong_word_about_a_log_is_refused(words):
+def test_impossible_type_or_travel_is_refused(words):
     with pytest.raises(BadRequest):
         reconcile(LOG, **{"type": "simple", **words})
 
@@ -105,7 +96,7 @@ def test_other_runs_of_the_same_mechanism_are_welcome(other):
 def test_voltages_of_other_moments_are_not_refused_for_they_are_no_mechanism_s():
     # the verdict on them is "unexplained": a refusal would say that another file is wrong
     rng = np.random.default_rng(1)
-    mixed = changed(LOG, voltage=lambda one: rng.permutation(one.voltage))
+    mixed = change_signals(LOG, voltage=lambda one: rng.permutation(one.voltage))
 
     check_logs(Recordings(mixed, OTHER, OTHER, type="simple"), travel=None)
 

@@ -153,7 +153,7 @@ def test_of_effects_that_stand_in_for_one_another_the_one_that_closed_the_gap_is
 @pytest.mark.parametrize(
     ("shown", "size"), [(1.9, "major"), (1.0, "minor"), (0.99, None), (0.9, None)]
 )
-def test_no_effect_is_named_with_which_the_shown_log_is_missed_by_more(problem, shown, size):
+def test_effect_that_widens_the_shown_gap_is_not_reported(problem, shown, size):
     values = {**GAINS, "drag.drag": 0.03}
     done = added(problem, ("drag", 1.0, 2.0), values=values)
     end = done[-1].gap.velocity

@@ -59,22 +59,6 @@ def _states(volts, *, ks, kv, ka, kg, offset):
                 )
 
 
-MEASURED = [  # by SysId 2026.2.2, from the same models
-    ("simple", dict(ks=1.01, kv=3.060, ka=0.327), (1.007336532, 3.061297439, 0.3278825202)),
-    ("simple", dict(ks=0.547, kv=0.0693, ka=0.1170), (0.544632348, 0.06932224404, 0.1170645888)),
-    (
-        "elevator",
-        dict(ks=1.01, kv=3.060, ka=0.327, kg=-0.211),
-        (1.008528228, 3.060758477, 0.3272794454, -0.2119180718),
-    ),
-    (
-        "elevator",
-        dict(ks=0.547, kv=0.0693, ka=0.1170, kg=-0.122),
-        (0.5458700636, 0.06931115159, 0.1170288577, -0.1225089282),
-    ),
-]
-
-
 @pytest.mark.parametrize("offset", [-2.0, -1.0, 0.0, 1.0, 2.0])
 @pytest.mark.parametrize(
     ("truth", "within"),

@@ -3,10 +3,10 @@
 import subprocess
 import sys
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
+from places import ROOT
 
 from exercises.exercise6.answer_key import WHY
 from exercises.exercise12.drawn import TESTS
@@ -17,7 +17,6 @@ from sim.physics.model import Part
 from sim.physics.motors import MOTORS
 from sim.teaching.reality_gap import LIMIT, record_limited_robot
 
-ROOT = Path(__file__).resolve().parents[1]
 STATOR = 120.0  # [A] CTRE's default limit
 
 

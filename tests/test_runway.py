@@ -47,7 +47,7 @@ def test_braking_keeps_to_what_the_carpet_holds():
     assert slows.max() == pytest.approx(1.1 * 9.81, rel=0.01)
 
 
-def test_on_slippery_ground_it_goes_further():
+def test_a_robot_on_slippery_ground_goes_further():
     carpet, tiles = (
         gone(RAMP, wall=12.0, tape=7.0, grip=grip).final_position for grip in (1.1, 0.4)
     )
@@ -58,7 +58,7 @@ def test_on_slippery_ground_it_goes_further():
     )
 
 
-def test_without_a_tape_it_goes_on_until_the_wall():
+def test_a_robot_without_a_tape_goes_on_until_the_wall():
     went = gone(RAMP, wall=12.0)
 
     assert went.hit_wall == pytest.approx(went.time[-1])
@@ -66,7 +66,7 @@ def test_without_a_tape_it_goes_on_until_the_wall():
     assert went.released == pytest.approx(10.0)
 
 
-def test_whoever_watches_ends_it_in_any_case():
+def test_whoever_watches_ends_the_test_in_any_case():
     assert gone(STEP, wall=9.0, watched=1.5).released == pytest.approx(1.5)
 
 

@@ -98,7 +98,7 @@ def test_a_span_is_marked_from_the_keyboard(viewer):
     assert page.evaluate("sysid.chart.spans.size") == 0
 
 
-def test_one_cursor_tells_all_values_at_a_time(viewer):
+def test_one_cursor_shows_all_values_at_a_time(viewer):
     log = drive_log()
     page = viewer(log)
     page.get_by_role("button", name="Show run 2, dynamic-forward").click()
@@ -120,7 +120,7 @@ def test_one_cursor_tells_all_values_at_a_time(viewer):
     )
 
 
-def test_nothing_is_told_of_a_damaged_log(viewer):
+def test_the_viewer_of_signals_shows_no_verdict_on_a_damaged_log(viewer):
     page = viewer(slipped_log())
     page.wait_for_timeout(1500)
 
@@ -147,7 +147,7 @@ def test_the_server_refuses_what_would_give_the_answers(tmp_path):
 
 
 @pytest.mark.parametrize("theme", ["light", "dark"])
-def test_a_phone_shows_all_of_it(viewer, theme):
+def test_a_phone_shows_the_whole_view_of_signals(viewer, theme):
     page = viewer(drive_log(), viewport=PHONE, theme=theme)
     page.evaluate("sysid.chart.setSpan(2, [5, 60])")
 

@@ -1,4 +1,4 @@
-"""The bench: a mechanism under a routine, against the closed form and against WPILib's loops."""
+"""The bench: what a routine, a sensor and a duty cycle make of a mechanism."""
 
 import math
 from dataclasses import replace
@@ -8,11 +8,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+import sim
+from sim.bench.duty_cycle import simulate_duty_cycle
 from sim.bench.mechanism import Sensor
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
+from sim.bench.sensor_model import read_sensor
 from sim.bench.simulate import move_gains_only, simulate
 from sim.core.errors import BadRequest
+from sim.core.log import KINDS
 from sim.fit import fit
 from sim.physics.battery import Battery
 from sim.physics.replay import replay_log
@@ -133,7 +137,7 @@ def test_a_test_too_short_to_record_is_refused(routine, period, said):
     assert said in str(refused.value)
 
 
-def test_a_brownout_is_said_and_only_then():
+def test_a_brownout_is_reported_only_where_one_happened():
     weak = replace(MECHANISMS["drivetrain"], battery=Battery(11.0, 0.05))
     hard = Routine(ramp=1.0, step=7.0)
 
@@ -173,3 +177,115 @@ def test_current_and_battery_are_recorded_where_asked():
     assert all(np.abs(run.current).max() <= 40.0 for run in log.runs)
     assert plain.runs[0].current is None
     assert (plain.runs[0].velocity == log.runs[0].velocity).all()
+
+
+def test_a_sensor_is_quiet_at_rest_and_coarse():
+    sensor = Sensor(resolution=0.25, velocity_noise=0.1, noise_speed=0.05, jitter=0.0)
+    velocity = np.concatenate((np.zeros(500), np.ones(500)))
+
+    position, seen = read_sensor(
+        sensor, position=np.linspace(0, 1, 1000), velocity=velocity, rng=rng()
+    )
+
+    assert not seen[:500].any()
+    assert np.std(seen[500:]) == pytest.approx(0.1, rel=0.1)
+    assert set(position) == {0.0, 0.25, 0.5, 0.75, 1.0}
+
+
+def sensed(**change):
+    sensor = replace(QUIET, **change)
+    time = np.arange(0.0, 1.0, 0.02)
+    speed = np.sin(6.0 * time)
+    way = (1.0 - np.cos(6.0 * time)) / 6.0
+    return time, speed, read_sensor(sensor, position=way, velocity=speed, time=time, rng=rng())
+
+
+def test_a_filter_in_the_sensor_says_the_mean_of_a_while():
+    time, _, seen = sensed(filter=0.1)
+    mean = (np.cos(6.0 * (time - 0.1)) - np.cos(6.0 * time)) / 0.6
+
+    assert seen.velocity[5:] == pytest.approx(mean[5:], abs=2e-3)
+
+
+def test_reading_and_its_noise_stay_the_same_until_the_next_frame():
+    _, _, seen = sensed(frame=0.1, velocity_noise=0.1)
+
+    steps = np.count_nonzero(np.diff(seen.velocity))
+    assert 8 <= steps <= 11
+    assert np.count_nonzero(np.diff(seen.position)) <= steps
+
+
+DRIVE = sim.MECHANISMS["drivetrain"]
+ROUTINE = sim.Routine(ramp=0.5, step=3.5)
+TIRED = Battery(rest=12.2, resistance=0.035)
+
+
+def driven(battery, *, mechanism=DRIVE, routine=ROUTINE, seed=2):
+    return simulate_duty_cycle(mechanism, routine, battery=battery, rng=np.random.default_rng(seed))
+
+
+def test_a_step_from_rest_sags_by_ohms_law():
+    # Four motors of 12 V/366 A at 3.5/12 of the battery, at rest: 0.035 Ω in series with
+    # 12/366/4 Ω/(3.5/12)² seen from the battery.
+    step = driven(TIRED).list_runs_of_test("dynamic-forward")[0]
+    seen = 12.0 / 366.0 / 4.0 / (3.5 / 12.0) ** 2
+    assert step.bus_voltage[0] == pytest.approx(12.2 * seen / (seen + 0.035), rel=1e-6)
+    assert step.voltage[0] == pytest.approx(step.bus_voltage[0] * 3.5 / 12.0, rel=1e-6)
+
+
+@pytest.mark.parametrize("name", sim.MECHANISMS)
+@pytest.mark.parametrize("battery", [Battery(), TIRED, Battery(9.0, 0.1)], ids=str)
+def test_power_out_of_the_battery_is_power_into_the_motors(name, battery):
+    mechanism = sim.MECHANISMS[name]
+    quiet = replace(mechanism, sensor=replace(mechanism.sensor, velocity_noise=0.0))
+    motor = mechanism.motor
+    for run in driven(battery, mechanism=quiet).runs:
+        back_emf = motor.back_emf * mechanism.ratio / mechanism.radius * run.velocity
+        current = (run.voltage - back_emf) / motor.resistance * mechanism.motor_count
+        drawn = (battery.rest - run.bus_voltage) / battery.resistance
+        assert run.bus_voltage * drawn == pytest.approx(run.voltage * current, abs=1e-2)
+
+
+def test_a_brownout_that_a_real_robot_would_have_is_a_doubt():
+    assert driven(TIRED).doubts == ()
+    (doubt,) = driven(TIRED, routine=sim.Routine(step=7.0)).doubts
+    assert doubt.code == "brownout"
+    assert "Use a smaller step" in doubt.message
+
+
+@pytest.mark.parametrize(
+    ("rest", "resistance"), [(5.0, 0.02), (20.0, 0.02), (12.0, -0.1), (12.0, 1.0), (np.nan, 0.02)]
+)
+def test_no_battery_a_robot_would_start_with_is_refused(rest, resistance):
+    with pytest.raises(BadRequest, match="A good one has 12.6 V"):
+        Battery(rest, resistance)
+
+
+@pytest.mark.parametrize(
+    ("asked", "said"),
+    [
+        (dict(ramp=0.0), "a ramp of 0 V/s is out of range. Choose a number above 0"),
+        (dict(ramp=math.nan), "a ramp of nan V/s"),
+        (dict(step=-3.0), "a step of -3 V"),
+        (dict(step=24.0), "at most 12 V"),
+        (dict(timeout=math.inf), "a timeout of inf s"),
+    ],
+    ids=lambda value: str(value)[:20],
+)
+def test_a_routine_no_robot_can_run_is_refused(asked, said):
+    with pytest.raises(BadRequest) as refused:
+        Routine(**asked)
+
+    assert said in str(refused.value)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_kind_of_test_stays_within_the_step_and_is_mirrored_in_reverse(kind):
+    routine = Routine(ramp=0.35, step=3.5, timeout=10.0, kinds=(kind,))
+    time = np.arange(0.04, 10.0, 0.02).tolist()
+
+    there, back = ([routine.command_voltage(test, t) for t in time] for test in routine.tests)
+
+    assert routine.tests == (f"{kind}-forward", f"{kind}-reverse")
+    assert np.abs(there).max() == pytest.approx(3.5, rel=0.02)
+    assert (np.array(there) == -np.array(back)).all()

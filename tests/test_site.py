@@ -8,16 +8,15 @@ import threading
 from functools import partial
 from html.parser import HTMLParser
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
-from pathlib import Path
 from urllib.parse import unquote, urlparse
 
 import pytest
 from chromium import LEAST_CONTRAST, least_contrast, list_violations
 from ci_scripts import load_script
+from places import ROOT
 
 pytestmark = pytest.mark.slow
 
-ROOT = Path(__file__).resolve().parents[1]
 LOADS = {  # what a browser fetches by itself
     "img": ("src", "srcset"), "source": ("src", "srcset"), "script": ("src",), "iframe": ("src",),
     "video": ("src", "poster"), "object": ("data",),

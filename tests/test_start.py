@@ -1,18 +1,30 @@
-"""`grade start`: where one stands first, then the data, then JupyterLab."""
+"""grade start: a course's folder, the first screen, JupyterLab."""
 
 import io
 import json
 import os
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
-from grader import exec_process
+from grader import course_folder, exec_process
 from grader import start as starting
 from grader.cli import run_command
 from grader.course import load_progress
+from grader.course_folder import find_course_source, unpack_course
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
+from sim.core.errors import BadRequest
+from sim.core.log import Log, Run
+from sim.inspect.detect_faults import inspect
+from sim.inspect.faults import FAULTS
+from sim.inspect.launch import find_launch_event, find_step_start
+from sim.inspect.log_features import LogFeatures
 
 MAKER = '''
 """An exercise with data of its own."""
@@ -120,7 +132,7 @@ def test_a_script_or_a_second_start_asks_nothing(monkeypatch, arguments):
 
 
 @pytest.mark.parametrize("variable", starting.IN_JUPYTER)
-def test_inside_jupyter_it_changes_the_name_and_opens_nothing(
+def test_start_inside_jupyter_changes_the_name_and_opens_nothing(
     course, monkeypatch, capsys, variable
 ):
     monkeypatch.setenv(variable, "1")
@@ -194,7 +206,7 @@ def test_ctrl_c_before_jupyterlab_is_quiet_too(course, capsys):
 
 
 @pytest.mark.usefixtures("course")
-def test_without_jupyterlab_it_says_how_to_get_it(monkeypatch, capsys):
+def test_start_without_jupyterlab_says_how_to_install_it(monkeypatch, capsys):
     find = starting.importlib.util.find_spec
     monkeypatch.setattr(
         starting.importlib.util,
@@ -206,7 +218,7 @@ def test_without_jupyterlab_it_says_how_to_get_it(monkeypatch, capsys):
     assert "python -m pip install jupyterlab" in capsys.readouterr().err
 
 
-def test_without_lessons_it_opens_the_course_itself(course):
+def test_start_without_lessons_opens_the_course_itself(course):
     for lesson in (course / "lessons").glob("*.ipynb"):
         lesson.unlink()
 
@@ -215,7 +227,7 @@ def test_without_lessons_it_opens_the_course_itself(course):
 
 
 @pytest.mark.usefixtures("course")
-def test_where_grade_cannot_be_typed_it_says_what_to_type(monkeypatch, capsys):
+def test_start_says_what_to_type_where_grade_is_not_on_the_path(monkeypatch, capsys):
     monkeypatch.setattr(starting, "_is_on_path", lambda _command: False)
     monkeypatch.setattr(starting.sys, "prefix", str(Path.cwd() / ".venv"))
     run_command(["start", "--no-lab"])
@@ -225,7 +237,7 @@ def test_where_grade_cannot_be_typed_it_says_what_to_type(monkeypatch, capsys):
     assert "python -m grader exercise4" in out
 
 
-def test_each_system_is_told_its_own_way_to_activate():
+def test_each_system_gets_its_own_way_to_activate():
     place = Path("elsewhere") / ".venv"
 
     assert starting.describe_activation(place, windows=False) == f"source {place}/bin/activate"
@@ -254,3 +266,165 @@ def test_jupyterlab_knows_the_settings_that_keep_it_quiet():
     assert str(told["news_url"]) == "None"
     assert told["extension_manager"] == "readonly"
     assert "NeverCheckForUpdate" in str(told["check_for_updates_class"])
+
+
+TIME = np.arange(0.0, 2.5, 0.005)
+PLAIN = 3.0 * (1.0 - np.exp(-TIME / 0.15))
+
+
+def run_of(speed, *, volts=6.0, noise=0.0):
+    """A forward step whose speed is given; position and velocity are of it."""
+    shaken = speed + noise * np.random.default_rng(2).standard_normal(speed.size)
+    steps = np.concatenate(([0.0], 0.005 * np.cumsum(0.5 * (speed[1:] + speed[:-1]))))
+    volts = np.broadcast_to(np.asarray(volts, dtype=float), TIME.shape)
+    return Run("dynamic-forward", TIME, volts, steps, shaken)
+
+
+def dented(depth, *, at=0.3, wide=0.05):
+    return PLAIN * (1.0 - depth * np.exp(-0.5 * ((TIME - at) / wide) ** 2))
+
+
+def waiting():
+    """Up to 80 % at once, on from there after 0.4 s: the two speeds of wheels and robot."""
+    wheels = 0.8 * 3.0 * (1.0 - np.exp(-TIME / 0.03))
+    robot = 3.0 - 0.6 * np.exp(-np.maximum(TIME - 0.4, 0.0) / 0.1)
+    return np.where(TIME < 0.4, wheels, robot)
+
+
+def test_a_plain_rise_is_no_event():
+    assert find_launch_event(run_of(PLAIN)) is None
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.3])
+def test_a_speed_that_falls_and_recovers_is_an_event(noise):
+    event = find_launch_event(run_of(dented(0.4), noise=noise))
+
+    assert event.kind == "fall"
+    assert event.size == pytest.approx(0.26, abs=0.04)  # 2.12 m/s, then 1.56 m/s
+    assert event.start == 0.0
+    assert event.end == pytest.approx(0.3, abs=0.05)
+
+
+def test_a_speed_that_waits_and_climbs_on_is_an_event():
+    event = find_launch_event(run_of(waiting()))
+
+    assert event.kind == "wait"
+    assert event.size == pytest.approx(0.2, abs=0.03)
+    assert 0.2 < event.end < 0.45
+
+
+NO_EVENTS = {
+    "a small fall": lambda: run_of(dented(0.1)),
+    "a fall that the voltage explains": lambda: run_of(
+        dented(0.4), volts=6.0 - 3.0 * (np.abs(TIME - 0.27) < 0.08)
+    ),
+    "a fall as there are later, too": lambda: run_of(
+        PLAIN * (1.0 - 0.3 * (np.sin(9.0 * TIME) ** 8))
+    ),
+    "slack that is taken up": lambda: run_of(
+        PLAIN + 0.7 * np.exp(-0.5 * ((TIME - 0.01) / 0.004) ** 2)
+    ),
+    "a load that goes on to change": lambda: run_of(PLAIN * (0.8 + 0.12 * TIME)),
+    "no launch to speak of": lambda: replace(
+        Run("dynamic-forward", TIME[:150], np.full(150, 6.0), PLAIN[:150], PLAIN[:150])
+    ),
+    "standstill": lambda: run_of(np.zeros(TIME.size)),
+}
+
+
+@pytest.mark.parametrize("why", NO_EVENTS)
+def test_ordinary_run_has_no_launch_event(why):
+    assert find_launch_event(NO_EVENTS[why]()) is None
+
+
+def test_a_step_begins_where_its_voltage_stays():
+    volts = np.where(TIME < 1.0, 0.0, 6.0)
+    volts[0] = 6.0  # what the test before left behind
+
+    assert TIME[find_step_start(run_of(PLAIN, volts=volts))] == pytest.approx(1.0)
+
+
+def test_wheels_slip_on_a_floor_and_nowhere_else():
+    event = run_of(dented(0.4))
+
+    def found(**about):
+        return list(FAULTS["wheel-slip"].detect(LogFeatures(Log((event,), **about))))
+
+    assert [one.fault for one in found(units="meters")] == ["wheel-slip"]
+    assert "half the step, 3.0 V" in found(units="meters")[0].advice
+    assert found(units="radians", mechanism="Drivetrain")
+    assert not found(units="radians")
+    assert not found(units="meters", type="elevator")
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_no_launch_of_the_bench_is_an_event(seed):
+    rng = np.random.default_rng(seed)
+    period = (0.02, 0.005)[seed % 2]
+    log = simulate(MECHANISMS["drivetrain"].draw(rng), Routine(), rng=rng, period=period)
+
+    assert [find_launch_event(run) for run in log.runs if run.kind == "dynamic"] == [None, None]
+    assert inspect(log).is_clean
+
+
+def test_the_course_is_unpacked_as_it_was_written(root, tmp_path):
+    target = tmp_path / "my course"
+
+    assert unpack_course(target)
+    tops = {path.name for path in target.iterdir()}
+    assert tops == {"LICENSE", "README.md", "pyproject.toml", "exercises", "lessons"}
+    task = "exercises/exercise4/README.md"
+    assert (target / task).read_bytes() == (root / task).read_bytes()
+    assert not list(target.rglob("data"))
+    assert not unpack_course(target)  # what a learner wrote there stays
+
+
+def test_what_is_there_already_is_left_alone(tmp_path):
+    (tmp_path / "diary.txt").write_text("mine", encoding="utf-8")
+    for taken in (tmp_path, tmp_path / "diary.txt"):
+        with pytest.raises(BadRequest, match="Name a folder that is empty or new"):
+            unpack_course(taken)
+
+
+def test_a_folder_that_cannot_be_written_is_refused(tmp_path, monkeypatch):
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(course_folder, "write_atomically", full)
+
+    with pytest.raises(BadRequest, match="No space left on device"):
+        unpack_course(tmp_path / "course")
+
+
+def test_an_installation_without_the_course_says_so(tmp_path, monkeypatch):
+    monkeypatch.setattr(course_folder, "INSTALLATION", tmp_path)
+
+    with pytest.raises(BadRequest, match="contains no lessons or exercises"):
+        find_course_source()
+
+
+def test_the_course_of_a_wheel_is_found_beside_the_packages(tmp_path, monkeypatch):
+    for name in ("exercises", "lessons"):
+        (tmp_path / "sysid_course" / name).mkdir(parents=True)
+    monkeypatch.setattr(course_folder, "INSTALLATION", tmp_path)
+
+    assert find_course_source() == tmp_path / "sysid_course"
+
+
+def test_the_command_refuses_in_one_line(tmp_path, monkeypatch, capsys):
+    (tmp_path / "taken").mkdir()
+    (tmp_path / "taken" / "diary.txt").write_text("mine", encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+
+    assert run_command(["start", "taken", "--no-lab"]) == 2
+    said = capsys.readouterr().err
+    assert said.startswith("grade: taken: something else is there already.")
+    assert said.count("\n") == 1
+
+
+def test_start_outside_of_a_course_says_how_to_make_one(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("grader.course.__file__", str(tmp_path / "grader" / "course.py"))
+
+    assert run_command(["exercise4"]) == 2
+    assert "grade start my-course" in capsys.readouterr().err

@@ -47,7 +47,6 @@ pytestmark = pytest.mark.slow
 
 BEFORE, AFTER = 16.2, 1.01  # [noises] of the story's log, worked out in the first test
 EXPLAINED = STORIES["explained"]
-PAGES = ("nothing missing", "explained", "damage and drag", "ambiguous", "unexplained")
 
 
 def told(one):
@@ -124,7 +123,7 @@ def test_gains_that_move_far_while_the_gap_hardly_shrinks_are_doubted():
 
 
 @pytest.mark.parametrize("name", ["nothing missing", "explained", "unexplained"])
-def test_a_search_that_was_stopped_says_so_first_and_denies_no_cause(name):
+def test_a_stopped_search_says_so_first_and_denies_no_cause(name):
     stopped = replace(STORIES[name], complete=False)
     headline, page = write_headline(stopped), json.dumps(describe_story(stopped))
 
@@ -138,7 +137,7 @@ def test_a_search_that_was_stopped_says_so_first_and_denies_no_cause(name):
     assert ("missing drag" in headline) is (name == "explained")
 
 
-def test_a_simulation_that_ran_away_is_said_in_words():
+def test_a_simulation_that_grew_without_limit_is_described_in_words():
     away = tuple(np.full_like(track, np.inf) for track in WRONG)
     base, last = EXPLAINED.chapters
     mad = replace(
@@ -275,7 +274,7 @@ def test_damage_reaches_the_solver_in_its_own_words(reconcile, drive, tmp_path):
     assert 0.0 < faults["unit-error"].confidence <= 1.0
 
 
-def test_a_page_is_written_beside_what_is_said(reconcile, drive, tmp_path):
+def test_a_page_is_written_beside_the_printed_story(reconcile, drive, tmp_path):
     path = tmp_path / "drive.html"
 
     code, said, err, _ = reconcile(EXPLAINED, drive, "--html", path)
@@ -314,4 +313,4 @@ def test_the_pictures_show_a_gap_before_and_only_noise_after():
     before, after = plot_remaining_gap(EXPLAINED)
 
     assert "of the gap beyond noise shows in no plot" in before.alt
-    assert "with drag: Only noise remains." in after.alt
+    assert "with drag: At least 90 % of this is noise." in after.alt

@@ -2,12 +2,11 @@
 
 import ast
 import re
-from pathlib import Path
 
 import pytest
 from ci_scripts import load_script
+from places import ROOT
 
-ROOT = Path(__file__).resolve().parents[1]
 OURS = ("sim", "grader")
 CATALOGUES = {  # these look into their own folder, or hand on a name when it is first asked for
     "sim/__init__.py",
@@ -140,7 +139,6 @@ SEARCHES = {  # how far and how finely they go decides on time, not on what is r
 }  # fmt: skip
 SHOWING = {"story_text.py", "model_selection.py", "residual_map.py"}
 HARMLESS = {0, 0.5, 1, 2}  # halves, doubles and counts
-MOST_THRESHOLDS = 40
 
 
 def test_numbers_that_decide_in_reconcile_stand_in_one_file():

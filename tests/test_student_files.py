@@ -31,7 +31,7 @@ def test_files_are_written_once_and_again_when_they_were_changed(tmp_path):
     ]
 
 
-def test_a_place_that_cannot_be_written_is_said(tmp_path):
+def test_a_place_that_cannot_be_written_is_refused(tmp_path):
     (tmp_path / "exercise5").write_text("in the way", encoding="utf-8")
 
     with pytest.raises(BadRequest, match="your files cannot be written"):
@@ -62,7 +62,7 @@ def test_no_word_or_another_one_gets_the_list(given):
     assert wrong.value.hint == "Choose one of: Simple, Arm, Elevator."
 
 
-def test_a_wrong_word_is_told_why():
+def test_a_wrong_word_gets_the_reason():
     check_choice("arm", "Arm", TYPES, why=lambda _: ("no", ""))
     with pytest.raises(WrongAnswer, match="no gravity") as wrong:
         check_choice("simple", "Arm", TYPES, why=lambda one: (f"{one} has no gravity", "M-R2"))

@@ -2,10 +2,10 @@
 
 import shutil
 import zipfile
-from pathlib import Path
 
 import pytest
-from small_course import HALF, RIGHT, lay_out
+from places import ROOT
+from small_course import HALF, RIGHT, lay_out, put
 
 from grader.classroom.roster import read_class_roster
 from grader.classroom.submission_names import Identities, SubmissionName, parse_name
@@ -14,7 +14,6 @@ from grader.cli import run_command
 from grader.exercise import list_exercises
 from sim.core.errors import BadRequest
 
-ROOT = Path(__file__).resolve().parents[1]
 CANVAS = """\
 Student,ID,SIS User ID,SIS Login ID,Section
     Points Possible,,,,
@@ -86,7 +85,7 @@ def test_the_student_on_the_roster_is_found(tmp_path, name, student):
     assert people(tmp_path, CANVAS).find(name) == student
 
 
-def test_a_name_that_two_students_have_is_nobodys(tmp_path):
+def test_a_name_that_two_students_have_is_given_to_neither(tmp_path):
     both = people(tmp_path, "student,name\na1,Kim Lee\na2,Lee Kim\n")
 
     assert both.find(SubmissionName("Kim Lee")) is None
@@ -143,14 +142,6 @@ COULD_BELONG = (
 )
 
 
-def put(place, **files):
-    """Write files of one student: path -> content."""
-    for name, text in files.items():
-        path = place / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8")
-
-
 @pytest.mark.parametrize(
     ("path", "exercise", "name"),
     [
@@ -167,7 +158,7 @@ def put(place, **files):
 def test_an_answer_is_recognized_by_its_folders_or_its_own_name(
     tmp_path, four, path, exercise, name
 ):
-    put(tmp_path / "in" / "ann", **{path: RIGHT})
+    put(tmp_path / "in" / "ann", {path: RIGHT})
     (one,) = find_submissions(tmp_path / "in", four)
 
     assert one.files == {exercise: {name: RIGHT.encode()}}
@@ -175,8 +166,8 @@ def test_an_answer_is_recognized_by_its_folders_or_its_own_name(
 
 
 def test_code_outside_the_folders_counts_where_its_exercise_has_no_other(tmp_path, four):
-    put(tmp_path / "in" / "ann", **{"exercise1/answers.toml": RIGHT, "Code.java": HALF})
-    put(tmp_path / "in" / "ben", **{"exercise4/Code.java": RIGHT, "Code.java": HALF})
+    put(tmp_path / "in" / "ann", {"exercise1/answers.toml": RIGHT, "Code.java": HALF})
+    put(tmp_path / "in" / "ben", {"exercise4/Code.java": RIGHT, "Code.java": HALF})
     ann, ben = find_submissions(tmp_path / "in", four)
 
     assert ann.files["exercise4"] == {"Code.java": HALF.encode()}
@@ -202,7 +193,7 @@ def test_code_outside_the_folders_counts_where_its_exercise_has_no_other(tmp_pat
 def test_a_file_that_may_be_the_only_answer_to_an_exercise_is_named(
     tmp_path, four, files, unused, problems
 ):
-    put(tmp_path / "in" / "ann", **dict.fromkeys(files, RIGHT))
+    put(tmp_path / "in" / "ann", dict.fromkeys(files, RIGHT))
     (one,) = find_submissions(tmp_path / "in", four)
 
     assert (one.unused, one.problems) == (unused, problems)
@@ -218,13 +209,13 @@ def test_a_file_that_may_be_the_only_answer_to_an_exercise_is_named(
     ],
 )  # fmt: skip
 def test_a_file_of_the_course_or_of_a_computer_is_not_named(tmp_path, four, path):
-    put(tmp_path / "in" / "ann", **{path: "x"})
+    put(tmp_path / "in" / "ann", {path: "x"})
     (one,) = find_submissions(tmp_path / "in", four)
 
     assert (one.files, one.unused, one.problems) == ({}, (), {})
 
 
-def test_the_authored_files_of_an_exercise_are_nobodys_answer(tmp_path):
+def test_the_authored_files_of_an_exercise_are_not_graded_as_an_answer(tmp_path):
     course = list_exercises(ROOT)
     for one in course:
         shutil.copytree(one.folder, tmp_path / "in" / "ann" / one.name)
@@ -236,9 +227,9 @@ def test_the_authored_files_of_an_exercise_are_nobodys_answer(tmp_path):
 
 
 def test_a_class_with_unused_files_is_not_all_graded(tmp_path, four, monkeypatch, capsys):
-    put(tmp_path / "in" / "Jane Doe", **{"answers.toml": RIGHT})
-    put(tmp_path / "in" / "ana", **{"exercise1/answers.txt": RIGHT})
-    put(tmp_path / "in" / "zoe", **{"exercise1/answers.toml": RIGHT})
+    put(tmp_path / "in" / "Jane Doe", {"answers.toml": RIGHT})
+    put(tmp_path / "in" / "ana", {"exercise1/answers.txt": RIGHT})
+    put(tmp_path / "in" / "zoe", {"exercise1/answers.toml": RIGHT})
     (tmp_path / "roster.csv").write_text(CANVAS, encoding="utf-8")
     monkeypatch.chdir(four[0].folder)
 
@@ -287,7 +278,7 @@ def test_one_exercise_alone_is_found_in_a_whole_course_and_in_a_flat_folder(tmp_
     assert ben.files == {"exercise1": {"my answers.toml": HALF.encode()}}
 
 
-def test_a_stranger_is_told_with_the_likely_student_and_not_graded(tmp_path, course, reads):
+def test_a_stranger_is_reported_with_the_likely_student_and_not_graded(tmp_path, course, reads):
     place = tmp_path / "in" / "Jane Dow" / "exercise1"
     place.mkdir(parents=True)
     (place / "answers.toml").write_text(RIGHT, encoding="utf-8")

@@ -125,7 +125,7 @@ def test_the_step_of_ctres_generator_slips_a_kraken_drive_and_is_found_out(step,
     assert (step > compute_slip_voltage(KRAKEN.translation)) == bool(found)
 
 
-def test_slip_beside_a_hidden_joint_is_left_out_and_it_is_said():
+def test_slip_beside_a_hidden_joint_is_left_out_with_a_warning():
     robot = KRAKEN.translation.hide("backlash")
 
     (doubt,) = simulate(robot, Routine(ramp=0.5, step=3.5), rng=rng()).doubts
@@ -177,7 +177,7 @@ def test_two_tests_tell_the_moment_of_inertia(mass, inertia, trackwidth, wheel, 
         assert 0.99 * least < inertia < 1.01 * most
 
 
-def test_half_the_trackwidth_reads_five_as_three_and_a_half():
+def test_half_the_trackwidth_as_lever_makes_an_inertia_of_5_read_3_5():
     """Facts: 5.0 kg·m² of a square swerve reads as 3.54 with a tank's lever."""
     light = replace(KRAKEN, wheel_inertia=0.0)
     turning, straight = both(light)
@@ -309,7 +309,7 @@ def test_the_command_prints_the_moment_of_inertia(logs, capsys):
     assert "without them the robot has 4.6" in said
 
 
-def test_modules_that_agree_roughly_are_not_said_to_agree_within_their_errors(tmp_path, capsys):
+def test_modules_that_agree_roughly_are_not_reported_to_agree_within_their_errors(tmp_path, capsys):
     """One wheel is 4 % smaller: no warning yet, but no accident of noise either."""
     worn = {"front-right": 0.96 * KRAKEN.wheel_radius}
     modules = record_modules(KRAKEN, GENTLE, rng=rng(), radii=worn)
@@ -385,7 +385,7 @@ def test_advantagekits_log_of_going_straight_is_read_module_by_module(
     assert "Moment of inertia 5.2" in turned
 
 
-def test_a_rate_in_place_of_a_voltage_is_told_and_gives_no_inertia(logs, capsys):
+def test_a_rate_in_place_of_a_voltage_is_reported_and_gives_no_inertia(logs, capsys):
     rate = ("--voltage", RATE, *GYRO)
 
     code, said, _ = run(capsys, "fit", logs / "turning.wpilog", *rate)
@@ -430,7 +430,7 @@ def test_options_that_do_not_go_together_are_refused(logs, capsys, options, says
 
 @settings(max_examples=20)
 @given(radius=st.floats(0.035, 0.055), turns=st.floats(2.0, 12.0), seed=st.integers(0, 99))
-def test_a_slow_spin_tells_the_radius_of_the_wheels(radius, turns, seed):
+def test_the_radius_of_the_wheels_follows_from_a_slow_spin(radius, turns, seed):
     drive = replace(KRAKEN, wheel_radius=radius)
     spin = record_spin(drive, turns=turns, rng=rng(seed))
     mean = np.mean(list(spin.motor_turns.values()))
@@ -440,7 +440,7 @@ def test_a_slow_spin_tells_the_radius_of_the_wheels(radius, turns, seed):
     )
 
 
-def test_a_push_at_a_wall_tells_the_slip_current():
+def test_the_slip_current_follows_from_a_push_at_a_wall():
     """By hand: µ·m·g on four wheels, through gears and motors, and what friction takes."""
     torque = 1.1 * 60 * GRAVITY * 0.0508 / 4 / 6.75
     by_hand = torque / (7.09 / 366) + 0.15 / (12 / 366)
@@ -489,7 +489,7 @@ def test_a_real_log_of_a_swerve_project_is_read_and_not_believed(real_logs, caps
 
 
 @pytest.mark.parametrize("name", ["swerve", "swerve-rotation"])
-def test_reconcile_finds_what_is_hidden_in_it(name):
+def test_reconcile_finds_what_is_hidden_in_a_swerve_drive(name):
     robot = MECHANISMS[name].hide("velocity-filter", 1.5)
     logs = [
         simulate(robot, Routine(ramp=0.5, step=step, timeout=6.0), rng=rng(int(10 * step)))
@@ -542,7 +542,7 @@ def test_slip_makes_ka_too_large_and_leaves_kv():
     assert gains["kA"] > 1.2 * true["kA"]
 
 
-def test_without_a_lever_the_speeds_tell_it():
+def test_without_a_lever_the_speeds_determine_it():
     found = compute_moment_of_inertia(*both(KRAKEN), mass=60.0)
 
     assert found.lever == found.lever_seen == pytest.approx(KRAKEN.lever_arm, rel=1e-3)
@@ -563,7 +563,7 @@ def test_json_holds_the_moment_of_inertia_and_a_grave_warning_of_a_wrong_lever(l
 
 
 @pytest.mark.shared
-def test_a_real_pair_of_logs_in_different_units_is_told_by_the_lever(real_logs, capsys):
+def test_a_real_pair_of_logs_in_different_units_is_noticed_by_the_lever(real_logs, capsys):
     """One file has the wheel's circumference in it, the other none: kV differs sixteenfold."""
     turning, straight = f"{EDWIN}-angular.json", f"{EDWIN}.json"
 

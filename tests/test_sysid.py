@@ -6,20 +6,9 @@ import sys
 from pathlib import Path
 
 import pytest
+from sysid_process import run_sysid
 
 pytestmark = pytest.mark.slow
-
-
-def sysid(*arguments, folder):
-    """Run the command as a process of its own."""
-    return subprocess.run(
-        [sys.executable, "-c", "from sim.cli import main; main()", *map(str, arguments)],
-        cwd=folder,
-        capture_output=True,
-        encoding="utf-8",
-        check=False,
-        timeout=120,
-    )
 
 
 def one_line(text):
@@ -32,14 +21,14 @@ def one_line(text):
 @pytest.fixture(scope="module")
 def drive(tmp_path_factory):
     folder = tmp_path_factory.mktemp("logs")
-    made = sysid("simulate", "drivetrain", "--seed", 1, "-o", "drive.csv", folder=folder)
+    made = run_sysid("simulate", "drivetrain", "--seed", 1, "-o", "drive.csv", folder=folder)
     assert made.returncode == 0, made.stderr
     return folder / "drive.csv"
 
 
 @pytest.mark.parametrize("suffix", [".csv", ".wpilog"])
 def test_what_simulate_writes_fit_reads(tmp_path, suffix):
-    made = sysid(
+    made = run_sysid(
         "simulate", "shooter", "--seed", 4, "-o", f"log{suffix}", "--truth", "truth.json",
         folder=tmp_path,
     )  # fmt: skip
@@ -47,7 +36,7 @@ def test_what_simulate_writes_fit_reads(tmp_path, suffix):
     assert "Next: sysid fit" in made.stdout
     asked = ["--units", "rotations"] if suffix == ".csv" else []
 
-    found = sysid("fit", f"log{suffix}", *asked, "--json", folder=tmp_path)
+    found = run_sysid("fit", f"log{suffix}", *asked, "--json", folder=tmp_path)
 
     assert found.returncode == 0, found.stderr
     gains = json.loads(found.stdout)["gains"]
@@ -58,7 +47,7 @@ def test_what_simulate_writes_fit_reads(tmp_path, suffix):
 
 
 def test_the_table_shows_gains_with_errors_and_units(drive):
-    shown = sysid("fit", drive, folder=drive.parent)
+    shown = run_sysid("fit", drive, folder=drive.parent)
 
     assert shown.returncode == 0
     assert "simple mechanism in meters, method output-error" in shown.stdout
@@ -75,8 +64,8 @@ def test_a_log_in_pieces_is_fitted_together(drive):
         part = [row for row in rows if row.startswith(kind)]
         (drive.parent / f"{kind}.csv").write_text(header + "".join(part), encoding="utf-8")
 
-    whole = sysid("fit", drive, "--json", folder=drive.parent)
-    pieces = sysid("fit", "quasistatic.csv", "dynamic.csv", "--json", folder=drive.parent)
+    whole = run_sysid("fit", drive, "--json", folder=drive.parent)
+    pieces = run_sysid("fit", "quasistatic.csv", "dynamic.csv", "--json", folder=drive.parent)
 
     assert json.loads(pieces.stdout)["gains"] == json.loads(whole.stdout)["gains"]
 
@@ -89,7 +78,7 @@ def test_gains_that_cannot_be_right_give_exit_code_1(drive):
         flipped.append(f"{test},{time},{voltage},{-float(position)},{-float(velocity)}")
     (drive.parent / "flipped.csv").write_text("\n".join([header, *flipped]), encoding="utf-8")
 
-    shown = sysid("fit", "flipped.csv", folder=drive.parent)
+    shown = run_sysid("fit", "flipped.csv", folder=drive.parent)
 
     assert shown.returncode == 1
     assert "wrong: kV and kA are negative" in shown.stdout
@@ -107,10 +96,10 @@ def test_gains_that_cannot_be_right_give_exit_code_1(drive):
     ],
     ids=["empty", "binary", "header only", "not UTF-8", "a bracket", "a magic word"],
 )
-def test_a_file_of_nonsense_is_one_line_whatever_its_name(tmp_path, suffix, content):
+def test_a_file_of_nonsense_gets_one_line_whatever_its_name(tmp_path, suffix, content):
     (tmp_path / f"odd{suffix}").write_bytes(content)
 
-    refused = sysid("fit", f"odd{suffix}", folder=tmp_path)
+    refused = run_sysid("fit", f"odd{suffix}", folder=tmp_path)
 
     assert refused.returncode == 2
     assert one_line(refused.stderr).startswith(f"sysid: odd{suffix}")
@@ -135,23 +124,10 @@ def test_help_is_there_and_loads_nothing_heavy(name, heavy):
     assert "Usage:" in shown.stdout
 
 
-REAL = [
-    ("frc4646-2022-drivetrain.json", ["--motor", "left"]),
-    ("frc4646-2022-drivetrain.json", ["--motor", "right"]),
-    ("frc4646-2022-drivetrain.json", []),
-    ("frc501-2020-drivetrain.json", ["--motor", "left"]),
-    ("frc501-2020-drivetrain.json", ["--motor", "right"]),
-    ("frc501-2020-drivetrain.json", []),
-    ("sciborgs-2023-elbow-arm.json", []),
-    ("sciborgs-2023-elevator.json", []),
-    ("sciborgs-2023-wrist-arm.json", []),
-]
-
-
 def test_a_fit_is_held_against_the_motor_that_drives_it(drive):
     right = ["--driven-by", "krakenX60", "--count", 4, "--ratio", 6.75, "--load", 60]
-    there = sysid("fit", drive, *right, "--radius", 0.0508, folder=drive.parent)
-    wrong = sysid("fit", drive, *right, "--radius", 0.1016, folder=drive.parent)
+    there = run_sysid("fit", drive, *right, "--radius", 0.0508, folder=drive.parent)
+    wrong = run_sysid("fit", drive, *right, "--radius", 0.1016, folder=drive.parent)
 
     assert there.returncode == 0, there.stdout
     assert "In theory, 4 × krakenX60 have kV 2.54 V·s/m (12 V divided" in there.stdout

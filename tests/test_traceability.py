@@ -8,18 +8,16 @@ import re
 import sys
 import tomllib
 from functools import cache
-from pathlib import Path
 
 import pytest
+from places import ROOT
 
-from grader.course import find_course
 from grader.course_check import list_mistakes
 from grader.exercise import list_exercises
 from grader.misconception import MISCONCEPTIONS
 from sim.inspect.faults import FAULTS
 from sim.physics.effects import EFFECTS
 
-ROOT = find_course(Path(__file__).resolve().parent)
 TABLE = tomllib.loads((ROOT / "tests" / "traceability.toml").read_text(encoding="utf-8"))
 EXERCISES = {one.name: one for one in list_exercises(ROOT)}
 LESSONS = {path.stem[:2]: path for path in sorted((ROOT / "lessons").glob("*.py"))}

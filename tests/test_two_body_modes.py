@@ -134,7 +134,7 @@ def test_teeth_meet_and_part_when_they_do_in_steps_a_thousand_times_as_fine(
 
 
 @pytest.mark.parametrize("part", ["compliance", "backlash"])
-def test_what_lies_on_its_stop_is_lifted_when_it_is_in_fine_steps(part):
+def test_a_load_on_its_stop_is_lifted_when_it_is_in_fine_steps(part):
     gains = {**BODIES["heavy"], "kG": 0.9}
     other = sprung if part == "compliance" else loose
     size = {"swing": 6.0} if part == "compliance" else {"moment": 0.004}

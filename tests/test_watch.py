@@ -1,5 +1,6 @@
-"""`sysid watch`: a log that grows is fitted after each test, as `sysid fit` would fit it."""
+"""sysid watch: what it follows, and what it says."""
 
+import math
 import os
 import signal
 import subprocess
@@ -10,25 +11,34 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from small_course import HALF, RIGHT, answer
+from sysid_process import START, run_sysid
 
+from grader import doctor
+from grader.cli import run_command
+from grader.exercise import list_exercises
+from grader.watch import watch_exercise
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.cli.log_reader import LogReader
 from sim.cli.watch.live_fit import LiveFit
 from sim.cli.watch.recordings import FileSource
-from sim.core.errors import UnreadableFile
+from sim.core.errors import BadRequest, UnreadableFile
 from sim.core.vocabulary import FOUR_TESTS
+from sim.feedback import Plant
+from sim.feedback.following import follow_profile
+from sim.feedback.profile import STEP, make_brisk_profile, make_return_profile
 from sim.fit import fit
 from sim.inspect.contaminate import contaminate
 from sim.inspect.detect_faults import inspect
 from sim.io import read, write
 from sim.io.entries.state import NO_END
 from sim.io.formats.wpilog.growing import GrowingLog
+from sim.plot.consequence import Trace, make_profile_traces, plot_consequence
 from sim.report.next_test import ENOUGH, advise_next, find_settled_step, find_voltage_limit
 
 READ = LogReader().read_file
-SYSID = [sys.executable, "-c", "from sim.cli import main; main()"]
 
 
 def drive_log(seed=1, **routine):
@@ -241,10 +251,7 @@ def test_a_settled_step_has_95_percent_of_its_speed_at_the_end_of_the_way(kv, ka
     ],
 )
 def test_what_cannot_be_followed_is_refused_in_one_line(tmp_path, arguments, said):
-    done = subprocess.run(
-        [*SYSID, "watch", *arguments],
-        cwd=tmp_path, capture_output=True, encoding="utf-8", check=False, timeout=60,
-    )  # fmt: skip
+    done = run_sysid("watch", *arguments, folder=tmp_path)
 
     assert (done.returncode, done.stdout) == (2, "")
     assert said in done.stderr
@@ -252,11 +259,8 @@ def test_what_cannot_be_followed_is_refused_in_one_line(tmp_path, arguments, sai
 
 
 def test_without_pyntcore_one_line_says_what_to_install(tmp_path):
-    code = "import sys; sys.modules['ntcore'] = None; from sim.cli import main; main()"
-    done = subprocess.run(
-        [sys.executable, "-c", code, "watch", "--nt", "localhost"],
-        cwd=tmp_path, capture_output=True, encoding="utf-8", check=False, timeout=60,
-    )  # fmt: skip
+    hidden = "import sys; sys.modules['ntcore'] = None"
+    done = run_sysid("watch", "--nt", "localhost", folder=tmp_path, before=hidden)
 
     assert (done.returncode, done.stdout) == (2, "")
     assert 'needs pyntcore. Install it with: python -m pip install "pyntcore' in done.stderr
@@ -264,12 +268,11 @@ def test_without_pyntcore_one_line_says_what_to_install(tmp_path):
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows sends Ctrl-C to all of a console")
-def test_ctrl_c_ends_it_with_the_gains_of_the_file(tmp_path, content):
+def test_ctrl_c_ends_the_watch_with_the_gains_of_the_file(tmp_path, content):
     path = tmp_path / "drive.wpilog"
     path.write_bytes(content)
     code = (  # whatever started these tests may have it ignore Ctrl-C
-        "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)\n"
-        "from sim.cli import main; main()"
+        f"import signal; signal.signal(signal.SIGINT, signal.default_int_handler)\n{START}"
     )
     running = subprocess.Popen(
         [sys.executable, "-c", code, "watch", str(path)],
@@ -281,10 +284,197 @@ def test_ctrl_c_ends_it_with_the_gains_of_the_file(tmp_path, content):
         assert said[-1], running.stderr.read()
     running.send_signal(signal.SIGINT)
     rest, errors = running.communicate(timeout=60)
-    found = subprocess.run(
-        [*SYSID, "fit", str(path)],
-        capture_output=True, encoding="utf-8", check=False, timeout=60,
-    )  # fmt: skip
+    found = run_sysid("fit", path)
 
     assert (running.returncode, errors) == (0, "")
     assert rest[rest.index("Verdict") :].strip() == found.stdout.strip()
+
+
+DRIVE = {"kS": 0.15, "kV": 2.5, "kA": 0.2}
+LIFT = {"kS": 0.25, "kV": 4.5, "kA": 0.2, "kG": 2.0}
+ARM = {"kS": 0.25, "kV": 1.2, "kA": 0.08, "kG": 1.5, "offset_rad": 0.3}
+UP = make_return_profile(0.5, rising=0.25, steady=0.75, still=1.0, start=0.5)
+PLANTS = {"simple": DRIVE, "elevator": LIFT, "arm": ARM}
+
+
+def followed(kind, *, wanted=UP, **changes):
+    """A mechanism of a kind under a feedforward with some gains changed."""
+    plant, believed = Plant(kind, PLANTS[kind]), Plant(kind, {**PLANTS[kind], **changes})
+    place = {"simple": "way", "elevator": "height", "arm": "angle"}[kind]
+    return follow_profile(
+        plant, believed, wanted, name="mechanism", symbol="m", place=place, stops=(0.0, 1.3)
+    )
+
+
+@pytest.mark.parametrize("kind", PLANTS)
+def test_right_gains_follow_the_profile(kind, reads):
+    one = followed(kind)
+    off = np.abs(np.subtract(one.position, one.target.position)).max()
+
+    assert off < 0.015 * 0.5  # of the way
+    reads(one.description)
+
+
+@pytest.mark.parametrize("factor", [0.5, 1.0, 1.7])
+def test_the_steady_speed_is_in_proportion_to_kv(factor):
+    one = followed(
+        "simple", wanted=make_brisk_profile(Plant("simple", DRIVE)), kV=factor * DRIVE["kV"]
+    )
+    place = one.target.cruise_end
+
+    free = follow_profile(
+        Plant("simple", DRIVE), Plant("simple", {**DRIVE, "kV": factor * DRIVE["kV"]}), one.target,
+        name="mechanism", symbol="m",
+    )  # fmt: skip
+    assert free.velocity[place] == pytest.approx(factor * one.target.velocity[place], rel=1e-3)
+
+
+def test_an_elevator_without_kg_falls_as_its_gains_say():
+    one = followed("elevator", kG=0.0)
+    at = int(0.5 / STEP)
+
+    assert one.velocity[at] == pytest.approx(-(2.0 - 0.25) / 4.5, rel=1e-3)  # -(kG - kS)/kV
+    assert min(one.position) == 0.0  # its stop
+
+
+@pytest.mark.parametrize(
+    ("kind", "changes"),
+    [
+        ("elevator", {"kG": 0.0}),
+        ("elevator", {"kG": 5.5}),
+        ("elevator", {"kG": 9.0}),
+        ("elevator", {"kG": 2.2}),
+        ("elevator", {"kV": 4.5 / 6.28}),
+        ("elevator", {"kV": 0.0, "kS": 0.0}),
+        ("elevator", {"kV": -4.5}),
+        ("elevator", {"kV": 60.0}),
+        ("simple", {"kA": 0.0}),
+        ("simple", {"kA": 0.6}),
+        ("arm", {"offset_rad": 0.3 - math.pi}),
+    ],
+)
+def test_a_wrong_gain_is_described_by_its_effect_on_the_motion(kind, changes, reads):
+    reads(followed(kind, **changes).description)
+
+
+def test_what_cannot_be_drawn_is_refused(reads):
+    short = Trace("thing", "way [m]", (0.0, 1.0), (0.0, 1.0), {"what it does": (0.0,)})
+
+    with pytest.raises(BadRequest) as refused:
+        plot_consequence([short], words="")
+    reads(refused.value)
+    with pytest.raises(BadRequest) as refused:
+        plot_consequence([], words="")
+    reads(refused.value)
+
+
+def test_picture_shows_the_wanted_and_the_resulting_motion():
+    one = followed("elevator", kG=0.0)
+
+    drawn = plot_consequence(make_profile_traces(one), words=one.description)
+
+    speed, height = drawn.figure.axes
+    wanted, done = height.get_lines()
+    assert one.description in drawn.alt
+    assert speed.get_ylabel() == "velocity [m/s]"
+    assert wanted.get_ydata()[0] == done.get_ydata()[0] == 0.5
+    assert done.get_ydata().min() == 0.0 < wanted.get_ydata().min()
+
+
+def saves(course, *texts):
+    """Somebody who saves one text after another while the watch waits."""
+    left = list(texts)
+
+    def wait(_seconds):
+        if not left:
+            raise KeyboardInterrupt
+        text = left.pop(0)
+        if text:
+            answer(course, text)
+
+    return wait
+
+
+def test_each_saving_is_graded_until_all_is_right(course, monkeypatch, capsys):
+    monkeypatch.setattr("time.sleep", saves(course, "", "", HALF, "size = [\n", RIGHT))
+    monkeypatch.setattr(
+        "grader.watch.watch_exercise.__kwdefaults__", {"wait": __import__("time").sleep}
+    )
+
+    assert run_command(["watch"]) == 0
+    said = capsys.readouterr()
+    assert [line for line in said.out.splitlines() if " points, " in line] == [
+        "✗ exercise1: 0 of 3 points, not all right yet  (answers.toml)",
+        "✗ exercise1: 2.5 of 3 points, not all right yet  (answers.toml)",
+        "✓ exercise1: 3 of 3 points, all right  (answers.toml)",
+    ]
+    assert "cannot be read" in said.err  # half a file, saved on the way
+    assert "Waiting for exercises/exercise1/answers.toml to be saved" in said.out
+    assert said.out.endswith("Everything here is done.\n")
+
+
+def test_the_watch_ends_at_once_when_asked(course):
+    (one,) = list_exercises(course)
+    grades = []
+
+    with pytest.raises(KeyboardInterrupt):
+        watch_exercise(one, grade=lambda: grades.append(1) or 1, wait=saves(course))
+    assert grades == [1]
+
+
+def test_a_file_that_is_away_for_a_moment_is_waited_for(course):
+    (one,) = list_exercises(course)
+    path = one.folder / "answers.toml"
+    codes = [1, 1, 0]
+    steps = [path.unlink, lambda: answer(course, RIGHT)]
+
+    assert watch_exercise(one, grade=lambda: codes.pop(0), wait=lambda _: steps.pop(0)()) == 0
+    assert codes == []
+
+
+def test_a_grade_can_be_listened_to(course, capsys):
+    answer(course, HALF)
+    run_command(["1", "--plain"])
+    out = capsys.readouterr().out
+
+    assert out.splitlines()[:3] == [
+        "not right yet: exercise1: 2.5 of 3 points, not all right yet  (answers.toml)",
+        "",
+        "right: The size is 3, 2 of 2 points",
+    ]
+    assert not set("✓✗–") & set(out)
+    run_command(["--plain"])
+    assert "exercise1, Measure: 2.5 of 3\n" in capsys.readouterr().out
+
+
+def test_a_finished_exercise_shows_where_the_solution_is(course, capsys):
+    answer(course, RIGHT)
+    run_command(["1"])
+    assert "for comparison" not in capsys.readouterr().out  # a class's package has none
+    (course / "solutions" / "exercise1").mkdir(parents=True)
+    run_command(["1"])
+    assert "A solution, for comparison: solutions/exercise1" in capsys.readouterr().out
+    answer(course, HALF)
+    run_command(["1"])
+    assert "for comparison" not in capsys.readouterr().out
+
+
+@pytest.mark.usefixtures("course")
+def test_the_doctor_finds_this_machine_fit(capsys):
+    assert run_command(["doctor"]) == 0
+    out = capsys.readouterr().out
+    for what in ("Python", "packages", "simulation", "course", "learners' code", "RobotPy"):
+        assert what in out
+    assert "isolated" in out or "limited" in out
+
+
+def test_the_doctor_says_what_is_missing_and_what_to_do(course, capsys, monkeypatch):
+    monkeypatch.setattr(doctor, "NEEDED", ("numpy", "no-such-package"))
+    monkeypatch.setattr(doctor, "ROBOT", ("no-such-robot",))
+
+    assert run_command(["doctor"]) == 1
+    out = capsys.readouterr().out
+    assert "no-such-package is not installed" in out
+    assert 'python -m pip install "ipywidgets' in out
+    assert "– RobotPy         no-such-robot is not installed" in out
+    assert course.is_dir()

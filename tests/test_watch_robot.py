@@ -7,6 +7,7 @@ import sys
 import threading
 
 import pytest
+from sysid_process import START, run_sysid
 
 from sim.core.vocabulary import FOUR_TESTS
 from sim.report.next_test import ENOUGH
@@ -15,7 +16,6 @@ pytestmark = [pytest.mark.slow, pytest.mark.robot]
 pytest.importorskip("commands2", reason="RobotPy is not installed")
 pytest.importorskip("ntcore", reason="pyntcore is not installed")
 
-SYSID = [sys.executable, "-c", "from sim.cli import main; main()"]
 PACE = 4.0  # times as fast as on a robot
 PATIENCE = 60.0  # [s] for the next line
 
@@ -25,7 +25,7 @@ class Watch:
 
     def __init__(self, *arguments, cwd):
         self.process = subprocess.Popen(
-            [*SYSID, "watch", "--json", *map(str, arguments)],
+            [sys.executable, "-c", START, "watch", "--json", *map(str, arguments)],
             cwd=cwd, stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8",
         )  # fmt: skip
         self.lines = queue.Queue()
@@ -58,15 +58,6 @@ def run_robot(root, folder, *arguments, port):
     assert done.returncode == 0, done.stderr
 
 
-def fit_gains(*files, cwd):
-    """The gains that `sysid fit` finds."""
-    done = subprocess.run(
-        [*SYSID, "fit", "--json", *map(str, files)],
-        cwd=cwd, capture_output=True, encoding="utf-8", check=False, timeout=60,
-    )  # fmt: skip
-    return json.loads(done.stdout)["gains"]
-
-
 def test_growing_log_gives_after_each_test_the_gains_of_the_whole_file(root, tmp_path, port):
     (tmp_path / "logs").mkdir()
     watch = Watch(tmp_path / "logs", cwd=tmp_path)
@@ -82,7 +73,10 @@ def test_growing_log_gives_after_each_test_the_gains_of_the_whole_file(root, tmp
     assert said[-1]["next"] == ENOUGH
     assert said[-1]["recorded"] == list(FOUR_TESTS)
     (path,) = said[-1]["files"]
-    assert said[-1]["fit"]["gains"] == fit_gains(path, cwd=tmp_path)
+    assert (
+        said[-1]["fit"]["gains"]
+        == json.loads(run_sysid("fit", "--json", path, folder=tmp_path).stdout)["gains"]
+    )
     assert said[-1]["fit"]["gains"] == pytest.approx(
         {"kS": 0.15, "kV": 2.5238, "kA": 0.1911}, rel=0.02
     )

@@ -2,10 +2,9 @@
 
 import json
 import math
-import subprocess
-import sys
 
 import pytest
+from sysid_process import run_sysid
 
 from sim.physics.engine import ieee_math
 
@@ -23,32 +22,21 @@ found = importlib.util.find_spec
 importlib.util.find_spec = lambda name: None if name in {"numba", "llvmlite"} else found(name)
 sys.meta_path.insert(0, Blocked())
 """
-SYSID = "from sim.cli import main; main()"
-
-
-def run_sysid(*words, cwd, without_numba=False):
-    """Run the command in a process of its own; what it printed."""
-    code = (BLOCKED if without_numba else "") + SYSID
-    return subprocess.run(
-        [sys.executable, "-c", code, *words],
-        cwd=cwd, capture_output=True, encoding="utf-8", check=False, timeout=300,
-    )  # fmt: skip
 
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     """A folder with an ordinary log and one with an effect in it."""
     place = tmp_path_factory.mktemp("logs")
-    run_sysid("simulate", "drivetrain", "--seed", "1", "-o", "drive.csv", cwd=place)
-    run_sysid("simulate", "arm", "--seed", "2", "--step", "5", "-o", "arm.wpilog", cwd=place)
+    run_sysid("simulate", "drivetrain", "--seed", "1", "-o", "drive.csv", folder=place)
+    run_sysid("simulate", "arm", "--seed", "2", "--step", "5", "-o", "arm.wpilog", folder=place)
     return place
 
 
 @pytest.mark.parametrize("log", ["drive.csv", "arm.wpilog"])
 def test_a_fit_has_the_same_digits(folder, log):
     slow, quick = (
-        run_sysid("fit", log, "--json", cwd=folder, without_numba=without)
-        for without in (True, False)
+        run_sysid("fit", log, "--json", folder=folder, before=before) for before in (BLOCKED, "")
     )
 
     assert slow.stderr == ""

@@ -133,7 +133,9 @@ def test_states_make_runs(
 
 
 @pytest.mark.parametrize("signal", ["state", "voltage"])
-def test_two_copies_under_paths_must_be_told_apart(tmp_path: Path, signal: str) -> None:
+def test_two_copies_under_paths_must_be_distinguished_by_an_option(
+    tmp_path: Path, signal: str
+) -> None:
     logger = Logger()
     plain = signal == "voltage"
     routine(
@@ -200,7 +202,7 @@ def test_a_motor_is_chosen_by_its_name_or_its_end(tmp_path: Path, name: str) -> 
         pytest.param("t", id="an end that two have"),
     ],
 )
-def test_a_motor_that_cannot_be_told_is_refused(tmp_path: Path, name: str) -> None:
+def test_an_ambiguous_motor_name_is_refused(tmp_path: Path, name: str) -> None:
     with pytest.raises(BadRequest) as refused:
         sim.read(saved(tmp_path, LEFT, RIGHT), motor=name)
     assert refused.value.advice

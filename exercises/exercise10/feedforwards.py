@@ -9,6 +9,7 @@ from grader.answers.wrong_number import WrongNumber
 from grader.check import NotReachedError, WrongAnswer
 from grader.robotcode.bench.gains_run import CLASSES, CLOSED_LOOP, GainFacts, Gains
 from grader.robotcode.checks.causes import check_compiles, check_stop
+from grader.robotcode.library.world import PERIOD
 
 from .key import FEED_FORWARD, PLACES, SLOT0, Variant, near
 from .slips import find_constant_slip, find_feedback_slip, name_slip
@@ -16,6 +17,7 @@ from .slips import find_constant_slip, find_feedback_slip, name_slip
 GRAVITY = {"kCos": "kG"}  # what a Spark calls an arm's kG
 LOOK = ("Check the order of its arguments.", "Give each setting the constant of its own name.")
 RATIO = "SensorToMechanismRatio"
+LONGEST_STEP = 0.1  # [s] of a loop: a longer one is in milliseconds, or no time at all
 SETTINGS = ("kCosRatio", RATIO, "RotorToSensorRatio")  # that are no gains
 
 
@@ -162,12 +164,30 @@ def check_order(one: Gains, seen: Seen, *, points: float) -> None:
         if value and not gain and place in seen.variant.gains and place in {"kS", "kG"}:
             slip = find_constant_slip(value, place, seen.variant, text="")
             raise explain(f"{_at(one)} gets {place} = {value:.4g}, not your {place}", slip)
+    _check_step(one, seen)
     constants = [seen.facts.find_constant(place) for place in lacking]
     if lacking and not any(constant and constant.value == 0 for constant in constants):
         raise WrongAnswer(
             f"{_at(one)} has no {' and no '.join(lacking)}",
             hint="A missing argument counts as 0.",
             earned=points / 2 if lacking == ["kA"] else 0.0,
+        )
+
+
+def _check_step(one: Gains, seen: Seen) -> None:
+    """Whether the time step of a feedforward is one.
+
+    Raises:
+        WrongAnswer: it is a gain, or longer than any loop.
+    """
+    step = one.step or PERIOD
+    held = [gain.name for gain in seen.facts.constants if gain.value == step != PERIOD]
+    if held or step > LONGEST_STEP:
+        gain = f"{held[0]} does not belong here. " if held else ""
+        raise WrongAnswer(
+            f"{_at(one)} gets the time step dt = {step:.4g} s",
+            hint=f"{gain}The last argument is the time from loop to loop in seconds: leave it out.",
+            misconception="M-ARGORDER",
         )
 
 

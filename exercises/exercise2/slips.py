@@ -59,6 +59,8 @@ def list_rarer_slips(variant: Variant) -> tuple[Lookalike, ...]:
     """The kV of the parts with slips that are less common."""
     kv = variant.parts.theoretical_kv
     found = [("free-speed", 12.0 / kv), ("upside-down", 1.0 / kv)]
+    if battery := variant.told.get("noticed", {}).get("battery"):  # a robot of one's own has none
+        found.append(("battery", kv * float(battery.strip('"').split()[0]) / 12.0))
     if variant.parts.diameter:
         found += [("no-pi", kv * times) for times in (math.pi, 1 / math.pi)]
     return SLIPS.list_lookalikes(found)

@@ -23,7 +23,14 @@ def make_key(variant: Variant, *, offset: float) -> AnswerKey:
         for mine, other in others.items()
         for gain in ("kG", "kS")
     }
-    rarer["arm_kG"] += SLIPS.list_lookalikes(("row", hold.middle) for hold in variant.arm)
+    true_offset = math.radians(variant.found["arm_offset"])
+    both = variant.found["arm_kG"] * (abs(math.cos(true_offset)) + abs(math.sin(true_offset)))
+    rarer["arm_kG"] += SLIPS.list_lookalikes(
+        [("sum", both), *(("row", hold.middle) for hold in variant.arm)]
+    )
+    rarer["arm_kS"] += SLIPS.list_lookalikes(
+        ("edge", edge) for hold in variant.arm for edge in (hold.lower, hold.upper)
+    )
     return AnswerKey(
         variant.asked, Scene(lookalikes=dict(_list_lookalikes(variant, offset)), rarer=rarer)
     )
@@ -83,6 +90,7 @@ def find_offset_slip(value: float, variant: Variant) -> WrongNumber | None:
         ("rotations", 360.0 * value),
         ("vertical", value + 90.0),
         ("vertical", value - 90.0),
+        ("half-turn", value + 180.0),
         ("tangent", 90.0 - value),
         ("tangent", -90.0 - value),
     )

@@ -1,13 +1,14 @@
 """Exercise 5: four tests on four buttons, held, explained and guarded. Every button is pressed."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 from grader.check import NotReachedError, WrongAnswer, check
 from grader.robotcode.bench.button_run import ButtonFacts, Press
 from grader.robotcode.bench.facts import TESTS
-from grader.robotcode.checks.causes import ask_for_files, check_compiles, check_stop
+from grader.robotcode.checks.causes import ask_for_files, check_compiles, check_stop, list_tests
 from grader.robotcode.running import Runs, judge_runs, run_buttons
+from sim.support.printable import join_names
 
 from .explained import check_comment
 
@@ -36,11 +37,6 @@ def read(path: Path, *, student: str, run: bool = True) -> Runs:  # noqa: ARG001
         NotRunError: it is Python, which may not be run.
     """
     return run_buttons(path, run=run)
-
-
-def named(tests: Iterable[str]) -> str:
-    """Tests in words, in the order they are run: ``quasistatic reverse and dynamic forward``."""
-    return " and ".join(one.replace("-", " ") for one in sorted(set(tests), key=TESTS.index))
 
 
 def _missing(facts: ButtonFacts) -> list[str]:
@@ -80,7 +76,7 @@ def _factories(facts: ButtonFacts) -> None:
         )
     check_stop(facts, "start", earned=earned)
     ask_for_files(facts.unknown, earned)
-    lacking = named(set(TESTS) - public)
+    lacking = list_tests(set(TESTS) - public)
     raise WrongAnswer(
         f"no method makes {lacking}" if made else "no method makes the command of a test",
         hint="The routine makes the commands: quasistatic(direction) and dynamic(direction). "
@@ -106,7 +102,7 @@ def _held(facts: ButtonFacts) -> None:
     for mode, tests in facts.alone.items():
         if tests:
             raise WrongAnswer(
-                f"nobody presses anything, and in {mode} mode {named(tests)} runs",
+                f"nobody presses anything, and in {mode} mode {list_tests(tests)} runs",
                 hint="It runs as long as nobody presses the button, or from the start. It must run "
                 "while you hold the button: whileTrue().",
             )
@@ -127,15 +123,16 @@ def _list_faults(one: Press, facts: ButtonFacts) -> Iterator[tuple[bool, str, st
     Yields:
         Whether it starts at all, what is seen, and the advice.
     """
-    test, at = named([one.test]), f" ({one.text} in line {one.line})" if one.line else ""
-    others = [p for p in facts.presses if p.test != one.test and p.inputs == one.inputs]
-    if one.together and others:
-        lines = sorted({one.line, *(p.line for p in others)})
+    test, at = list_tests([one.test]), f" ({one.text} in line {one.line})" if one.line else ""
+    if sequence := _describe_sequence(one, facts):
+        yield False, *sequence
+    elif one.together:
+        lines = sorted({p.line for p in facts.presses if p.inputs == one.inputs})
         yield (
             False,
             (
                 f"lines {' and '.join(map(str, lines))} share the trigger: "
-                f"{' and '.join(one.inputs)} runs {named([one.test, *one.together])}"
+                f"{' and '.join(one.inputs)} runs {list_tests([one.test, *one.together])}"
             ),
             (
                 "Both tests would start at the same time and fight for the motors. Give each its "
@@ -178,6 +175,15 @@ def _list_faults(one: Press, facts: ButtonFacts) -> Iterator[tuple[bool, str, st
         )
 
 
+def _describe_sequence(one: Press, facts: ButtonFacts) -> tuple[str, str] | None:
+    """What is seen of a binding that runs several tests, and the advice."""
+    bound_apart = {p.test for p in facts.presses if p.line != one.line}
+    if not one.together or bound_apart & set(one.together):
+        return None
+    hint = "Such a command runs the tests one after the other. Give each its own button."
+    return f"line {one.line} runs {list_tests([one.test, *one.together])}", hint
+
+
 def _describe_stay(one: Press, seen: str) -> tuple[bool, str, str]:
     """Words for a test that goes on when its button is released."""
     said = "Once started, the test runs to its timeout even after you release the button. "
@@ -204,7 +210,7 @@ def _explain_missing(facts: ButtonFacts, lacking: list[str], earned: float) -> N
         )
     for test, line in facts.released:
         raise WrongAnswer(
-            f"{named([test])} starts when the button is let go (line {line})",
+            f"{list_tests([test])} starts when the button is let go (line {line})",
             hint="Then it runs as long as nobody presses the button. It must run while you hold "
             "the button: whileTrue().",
             earned=earned,
@@ -224,12 +230,12 @@ def _explain_missing(facts: ButtonFacts, lacking: list[str], earned: float) -> N
             hint="Bind each of the four to a button. If you did: does the program reach that "
             "line, or is there a return or a condition before it?",
         )
-    bound = [line for line, _ in facts.bindings]
+    bound = [str(line) for line in sorted({line for line, _ in facts.bindings})]
     raise WrongAnswer(
-        f"no button runs {named(lacking)}",
+        f"no button runs {list_tests(lacking) if facts.presses else 'a test'}",
         hint="Four tests, four buttons: two kinds, each forward and reverse. Every button was "
-        "pressed alone and together with a second one, in test mode and in teleop"
-        + (f" (bindings in lines {', '.join(map(str, sorted(set(bound))))})." if bound else "."),
+        "pressed alone and together with a second one, in test mode and in teleop. Is the guard "
+        f"true there{f' (lines {join_names(bound)})' if bound else ''}?",
         earned=earned,
     )
 
@@ -243,17 +249,14 @@ def each_once(runs: Runs) -> str | None:
 def _each_once(facts: ButtonFacts) -> None:
     _reached(facts)
     for one in facts.presses:
-        if one.together and not any(
-            p.test in one.together and p.line != one.line for p in facts.presses
-        ):
-            hint = "Such a command runs the tests one after the other. Give each its own button."
-            raise WrongAnswer(f"line {one.line} runs {named([one.test, *one.together])}", hint=hint)
+        if sequence := _describe_sequence(one, facts):
+            raise WrongAnswer(sequence[0], hint=sequence[1])
     bound = {line for _, line in facts.made}
     for test in TESTS:
         lines = sorted({line for made, line in facts.made if made == test and line in bound})
         if len(lines) > 1 and _missing(facts):
             raise WrongAnswer(
-                f"{named([test])} twice: {' and '.join(f'line {line}' for line in lines)}",
+                f"{list_tests([test])} twice: {' and '.join(f'line {line}' for line in lines)}",
                 hint="Did you copy a line and forget to change it? Check the kind and the "
                 "direction in both lines.",
             )
@@ -261,7 +264,7 @@ def _each_once(facts: ButtonFacts) -> None:
     if lacking:
         only = {one.rpartition("-")[2] for one in lacking} == {"reverse"}
         raise WrongAnswer(
-            f"{named(lacking)} missing",
+            f"{list_tests(lacking)} missing",
             hint="You need the reverse runs: only both directions together show friction and "
             "gravity."
             if only
@@ -306,9 +309,10 @@ def _guard(facts: ButtonFacts) -> str | None:
                 f"{said} (line {line})", hint=f"It would start in every match. {WAYS}"
             )
     for mode in ("autonomous", "teleop"):
-        if facts.alone.get(mode) and not any(map(_joins, facts.presses)):
+        alone = facts.alone.get(mode)
+        if alone and not any(map(_joins, facts.presses)):
             raise WrongAnswer(
-                f"in {mode} mode {named(facts.alone[mode])} runs although nobody presses anything",
+                f"in {mode} mode {list_tests(alone)} runs although nobody presses anything",
                 hint=f"In a match it would run at once. {WAYS}",
             )
     joined = [one for one in facts.presses if _is_open(one) and _joins(one)]
@@ -361,7 +365,7 @@ def _explain_open(open_: list[Press], facts: ButtonFacts, bound: int) -> None:
     first = open_[0]
     seen = (
         f"in {' and '.join(first.opened)}, {' and '.join(first.inputs)} alone starts "
-        f"{named([first.test])}: nothing guards {first.text} in line {first.line}"
+        f"{list_tests([first.test])} (line {first.line})"
     )
     for port, line in facts.shared:
         if port in first.ports:

@@ -102,10 +102,9 @@ def _explain_slow_ramp(slow: Test, end: str) -> BrokenRule:
     share = 100.0 * slow.fastest / machine.free
     says = f"your ramp reaches {share:.1f} % of the free speed at {end}; at least 25 %"
     run = slow.place(slow.when(slow.speed, QUARTER * machine.free))
-    if machine.travel is None or run <= machine.travel:
-        if slow.by_mark:
-            says += f". To reach that, your ramp needs {run:.1f} {machine.symbol}; your mark is at "
-            says += f"{slow.release:g} {machine.symbol}"
+    fits = machine.travel is None or run <= machine.travel
+    if fits and not slow.by_mark:
         return BrokenRule(says)
-    says += f". To reach that, your ramp needs {run:.1f} {machine.symbol}; you have "
-    return BrokenRule(f"{says}{machine.travel:g} {machine.symbol}", SLOW)
+    says += f". To reach that, your ramp needs {run:.2f} {machine.symbol}; "
+    says += f"your mark is at {slow.release:g}" if fits else f"you have {machine.travel:g}"
+    return BrokenRule(f"{says} {machine.symbol}", "" if fits else SLOW)

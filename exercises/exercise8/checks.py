@@ -95,7 +95,7 @@ def _refuse_tests(seen: str, short: list[Coverage], hint: str) -> WrongAnswer:
 
 def _preparation(answers: Answers) -> Preparation:
     if isinstance(answers.preparation, WrongAnswer):
-        raise NotReachedError("checked after all six lines are filled in")
+        raise NotReachedError("checked after all six lines can be read")
     return answers.preparation
 
 

@@ -14,6 +14,7 @@ from sim.core.log import FOUR_TESTS, Log, Run
 from sim.fit import Fit, fit
 
 POINTS = 2.0  # for each gain
+LATEST = 100.0  # [s] no test lasts so long
 LONGEST = 15  # [samples] of a median window, as SysId's
 EVERYTHING = ("all", "everything", "whole")
 ANY = Band(0.0, 0.0)  # nobody asks how near: what comes of it is graded
@@ -107,8 +108,11 @@ def _window(test: str, raw: object) -> tuple[float, float] | None:
         )
     if len(times) != 2 or not BETWEEN.fullmatch(NUMBER.sub(" ", raw.lower())):
         raise WrongAnswer(f'{name}: "{raw[:40]}", but two times are needed', hint=ask)
-    if times[0] >= times[1]:
-        raise WrongAnswer(f'{name}: "{raw[:40]}"', hint=f"That ends before it begins. {ask}")
+    ends = "That ends before it begins." if times[0] >= times[1] else ""
+    if times[1] >= LATEST:
+        ends = "No test is so long. Are your times in milliseconds? Write seconds."
+    if ends:
+        raise WrongAnswer(f'{name}: "{raw[:40]}"', hint=f"{ends} {ask}")
     return times[0], times[1]
 
 

@@ -36,6 +36,10 @@ PERIOD = 0.02  # [s]
 METRICS = ("acceleration_r2", "simulated_velocity_r2")
 ANSWER_NAMES = ("kS", "kV", "kA", *METRICS)
 PERFECT = "An R² of 1 would mean a model without any error. Write the digits that your fit prints."
+PRINTED = "sysid fit --method sysid prints both; its R² are SysId's own."
+TEXTBOOK = """\
+That is the R² of textbooks. SysId's simulated velocity R² is 1 − RMSE / (root mean square of v), as
+lesson 7 computes it."""
 METRIC_BANDS = {"acceleration_r2": 0.05, "simulated_velocity_r2": 0.02}  # one way to compute each
 
 
@@ -185,9 +189,17 @@ def function(answers: Answers) -> str | None:
     return judge_function(answers.function, student=answers.student, points=5, run=answers.run)
 
 
-def is_measured_r2(value: float, asked: AskedNumber) -> bool:
-    """Whether an R² is right: near the expected one, and 1 only where two digits make it 1."""
-    return asked.is_right(value) and (value < 1 or round(asked.expected, 2) >= 1)
+def explain_r2(value: float, asked: AskedNumber) -> str:
+    """What is wrong with an R²; empty if it is right: 1 is, only where two digits make it 1."""
+    if value > 1:
+        return "R² is at most 1: write a fraction, not percent."
+    if value == 1 and round(asked.expected, 2) < 1:
+        return PERFECT
+    textbook = 1 - (1 - asked.expected) ** 2  # of the velocity, whose mean is about 0
+    off = abs(value - asked.expected)
+    if asked.name == METRICS[1] and abs(value - textbook) < min(off, METRIC_BANDS[asked.name]):
+        return TEXTBOOK
+    return "" if asked.is_right(value) else PRINTED
 
 
 def _metric(name: str, answers: Answers) -> None:
@@ -197,18 +209,12 @@ def _metric(name: str, answers: Answers) -> None:
         for one in METRICS
     }
     value = read_answer_number(answers.given.get(name), asked[name])
-    if is_measured_r2(value, asked[name]):
-        return
+    hint = explain_r2(value, asked[name])
     (other,) = set(METRICS) - {name}
-    if value > 1:
-        hint = "R² is at most 1: write a fraction, not percent."
-    elif value == 1:
-        hint = PERFECT
-    elif asked[other].is_right(value):
+    if hint and value < 1 and asked[other].is_right(value):
         hint = f"That is the {other}. Did you swap the two?"
-    else:
-        hint = "sysid fit --method sysid prints both; its R² are SysId's own."
-    raise WrongAnswer(f"{value:.4g}", hint=hint, misconception="M-R2")
+    if hint:
+        raise WrongAnswer(f"{value:.4g}", hint=hint, misconception="M-R2")
 
 
 def _missed(answers: Answers) -> str:

@@ -241,10 +241,7 @@ def r2(answers: Answers) -> None:
     found = float(answers.measured.fit.simulated_velocity_r2)
     asked = AskedNumber("simulated_velocity_r2", found, "", Band(0.0, 0.0, 0.02, 0.02))
     value = read_answer_number(answers.given.get("simulated_velocity_r2"), asked)
-    if not NINTH.is_measured_r2(value, asked):
-        hint = "There are two R² values. Write the simulated velocity R², a number up to 1."
-        if value == 1:
-            hint = NINTH.PERFECT
+    if hint := NINTH.explain_r2(value, asked):
         raise WrongAnswer(f"{value:.4g}", hint=hint, misconception="M-R2")
 
 

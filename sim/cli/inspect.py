@@ -47,11 +47,13 @@ def inspect(
     if as_json:
         click.echo(json.dumps(found.to_json(), allow_nan=False))
     else:
-        _show(found, runs={str(file): len(log.runs) for file, log in zip(files, logs, strict=True)})
+        _print_report(
+            found, runs={str(file): len(log.runs) for file, log in zip(files, logs, strict=True)}
+        )
     return DONE if found.is_clean else NOT_RIGHT
 
 
-def _show(found: Inspection, *, runs: Mapping[str, int]) -> None:
+def _print_report(found: Inspection, *, runs: Mapping[str, int]) -> None:
     """Print one paragraph for each kind of fault, the worst first; then the doubts, on one screen.
 
     Args:
@@ -126,7 +128,7 @@ def _write_paragraph(kind: Sequence[Damage]) -> list[str]:
         if len(kind) > PLACES:
             places.append(f"{len(kind) - PLACES} more")
         listed = [f"Found at {'; '.join(places)}."] if worst.where.run is not None else []
-        texts[:1] = [*listed, _example(worst)]
+        texts[:1] = [*listed, _describe_example(worst)]
     for text in texts:
         wrapped = click.wrap_text(text, width=WIDTH, initial_indent="  ", subsequent_indent="  ")
         lines += wrapped.splitlines()
@@ -143,7 +145,7 @@ def _list_runs(kind: Sequence[Damage]) -> str:
     return f"{count}run{'s' * (len(runs) > 1)} {', '.join(shown)}"
 
 
-def _example(worst: Damage) -> str:
+def _describe_example(worst: Damage) -> str:
     run = worst.where.run
     return worst.evidence if run is None else f"In run {run}: {worst.evidence}"
 

@@ -37,7 +37,7 @@ class LogReader(ReadOptions):
         Raises:
             Refusal: the file cannot be read.
         """
-        return self._scale(read_with(file, self))
+        return self._scale_velocity(read_with(file, self))
 
     def read_joined(self, files: Sequence[Path]) -> Log:
         """The logs in all files as one, repaired where that is possible.
@@ -68,9 +68,9 @@ class LogReader(ReadOptions):
             Refusal: the file cannot be read.
         """
         logs = read_motors(file, self)
-        return {name: _check_signals(self._scale(log)) for name, log in logs.items()}
+        return {name: _check_signals(self._scale_velocity(log)) for name, log in logs.items()}
 
-    def _scale(self, log: Log) -> Log:
+    def _scale_velocity(self, log: Log) -> Log:
         """The log with the velocity times the factor that the user gave."""
         return log if self.velocity_scale == 1.0 else scale_velocity(log, self.velocity_scale)
 

@@ -42,7 +42,7 @@ def combine_options(*options: Option) -> Option:
     return lambda command: reduce(lambda made, option: option(made), reversed(options), command)
 
 
-def _factor(_: click.Context, __: click.Parameter, value: float) -> float:
+def _check_factor(_: click.Context, __: click.Parameter, value: float) -> float:
     """The value, if it is finite and not zero.
 
     Raises:
@@ -73,7 +73,7 @@ _add_reading_options = combine_options(
         "--velocity-scale",
         metavar="X",
         type=float,
-        callback=_factor,
+        callback=_check_factor,
         default=1.0,
         help="Multiply the velocity by X, if its factor in the robot's code is wrong.",
     ),

@@ -57,6 +57,10 @@ WORDS = {
         f"Name the columns {{}} in the first line, or say what they are called: {NAMES}.",
         "Choose which column holds which signal.",
     ),
+    "drive-type": (
+        "Fit the log of the drive motors with --type simple.",
+        "Open the log of the drive motors, of the type simple.",
+    ),
     "radius": (
         "Add --radius: the radius of the wheel or drum, in meters.",
         "Type the radius of the wheel or drum, in meters, above.",
@@ -92,13 +96,13 @@ class Action:
 
     def __str__(self) -> str:
         """The advice on the command line."""
-        return self._word(0)
+        return self._write_words(0)
 
     @property
     def on_page(self) -> str:
         """The advice on the page of ``sysid open``."""
-        return self._word(1)
+        return self._write_words(1)
 
-    def _word(self, surface: int) -> str:
+    def _write_words(self, surface: int) -> str:
         named = (self.argument,) if isinstance(self.argument, str) else self.argument
         return f"{self.before} {WORDS[self.name][surface].format(*named)}".strip()

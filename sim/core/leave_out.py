@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.core.errors import BadRequest
-from sim.core.log import Log, Run
+from sim.core.log import MOVING, Log, Run
 from sim.core.vocabulary import TESTS
 
 MIN_SAMPLES = 5  # [samples] shorter pieces of a run are left out, too
@@ -63,6 +63,10 @@ class LeftOutPart:
             return self.test
         return f"{self.test}, {self.start:.2f} to {self.end:.2f} s"
 
+    def covers(self, test: str, start: float, end: float) -> bool:
+        """Whether an interval of a test [s] lies within the part."""
+        return self.test == test and self.start <= start and self.end >= end
+
     def find(self, run: Run) -> NDArray[np.bool_]:
         """(n,) which samples of a run belong to the part."""
         return (run.time >= self.start) & (run.time <= self.end) & (run.test == self.test)
@@ -97,9 +101,10 @@ def leave_out(logs: Mapping[str, Log], parts: Iterable[LeftOutPart]) -> dict[str
 
 
 def _cut_out(run: Run, part: LeftOutPart) -> list[Run]:
-    """The run without the part: itself, or the pieces before and after it."""
+    """The run without the part: itself, or the pieces before and after it that move."""
     gone = part.find(run).nonzero()[0]
     if not gone.size:
         return [run]
     pieces = (slice(0, gone[0]), slice(gone[-1] + 1, len(run)))
-    return [one for one in (run.select(piece) for piece in pieces) if len(one) >= MIN_SAMPLES]
+    rest = [one for one in (run.select(piece) for piece in pieces) if len(one) >= MIN_SAMPLES]
+    return [one for one in rest if one.top_speed > MOVING * run.top_speed]

@@ -84,8 +84,8 @@ class Run:
         for name in ("time", "voltage", "position", "velocity", "current", "bus_voltage"):
             values = getattr(self, name)
             if values is not None:
-                object.__setattr__(self, name, _freeze(values))
-                self._check(name, getattr(self, name))
+                object.__setattr__(self, name, _copy_read_only(values))
+                self._check_signal(name, getattr(self, name))
         late = np.flatnonzero(np.diff(self.time) <= 0)
         if late.size:
             raise BadSample(
@@ -119,14 +119,14 @@ class Run:
         """
         change = np.diff(self.voltage)
         if self.kind not in CONSTANT_KINDS or not change.any():
-            return _freeze(np.zeros(len(self)))
+            return _copy_read_only(np.zeros(len(self)))
         sizes = np.abs(np.concatenate(([0.0], change, [0.0])))
         steps = sizes[1:-1] > LONE_STEP * np.maximum(sizes[:-2], sizes[2:])
         least = LEAST_STEP * float(np.max(np.abs(self.voltage)))
         steps &= np.abs(change) > least
         if self.kind != "multistep":
             steps &= np.minimum(np.abs(self.voltage[:-1]), np.abs(self.voltage[1:])) < least
-        return _freeze(np.append(np.where(steps, 0.0, change), 0.0))
+        return _copy_read_only(np.append(np.where(steps, 0.0, change), 0.0))
 
     @cached_property
     def voltage_error(self) -> Array:
@@ -142,9 +142,9 @@ class Run:
         kinks = np.max(np.abs([after - before, here - before, after - here]), axis=0, initial=0.0)
         isolated = (before == 0.0) & (after == 0.0)
         error = np.where(isolated, np.abs(here) / math.sqrt(12.0), kinks / 8.0)
-        return _freeze(np.append(np.where(here == 0.0, 0.0, error), 0.0))
+        return _copy_read_only(np.append(np.where(here == 0.0, 0.0, error), 0.0))
 
-    def _check(self, name: str, values: Array) -> None:
+    def _check_signal(self, name: str, values: Array) -> None:
         """Refuse a signal with a wrong length, or with values that are not finite or too large."""
         if values.shape != (self.time.size,):
             raise BadSample(
@@ -267,7 +267,7 @@ def integrate_velocity(time: Array, velocity: Array) -> Array:
     return np.concatenate((np.zeros(min(time.size, 1)), np.cumsum(steps)))
 
 
-def _freeze(values: ArrayLike) -> Array:
+def _copy_read_only(values: ArrayLike) -> Array:
     """A read-only copy in double precision."""
     copy = np.array(values, dtype=np.float64)
     copy.setflags(write=False)

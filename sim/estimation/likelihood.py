@@ -291,7 +291,7 @@ class PredictionErrorProblem:
         errors = np.empty(self.measured.shape)
         self._filter_runs(model, nuisance, kalman_filter, batch, errors)
         errors.reshape(-1)[self._ignored_places] = 0.0
-        if (schedule := self._schedule(kalman_filter)) is not None:
+        if (schedule := self._schedule_gains(kalman_filter)) is not None:
             rows = schedule.uncertain
             errors[rows] = (schedule.scales @ errors[rows, :, None])[..., 0]
             errors.reshape(-1)[self._ignored_places] = 0.0
@@ -301,7 +301,7 @@ class PredictionErrorProblem:
         self, model: Model, nuisance: RunNuisance, kalman_filter: KalmanFilter, batch: RunBatch,
         errors: Array | None = None,
     ) -> Array:  # fmt: skip
-        schedule = self._schedule(kalman_filter)
+        schedule = self._schedule_gains(kalman_filter)
         gain = kalman_filter.steady if schedule is None else schedule.gains
         self.simulated.add(batch.time.size)
         return filter_runs(
@@ -312,12 +312,12 @@ class PredictionErrorProblem:
 
     def _log_scale(self, kalman_filter: KalmanFilter) -> float:
         """The log determinant, as -2 log L, of the innovations whose voltage is uncertain."""
-        if (schedule := self._schedule(kalman_filter)) is None:
+        if (schedule := self._schedule_gains(kalman_filter)) is None:
             return 0.0
         scales = schedule.scales[self.informative[schedule.uncertain]]
         return float(-2.0 * np.sum(np.log(scales[:, 0, 0] * scales[:, 1, 1])))  # triangular
 
-    def _schedule(self, kalman_filter: KalmanFilter) -> GainSchedule | None:
+    def _schedule_gains(self, kalman_filter: KalmanFilter) -> GainSchedule | None:
         """The gain at each sample; None if no voltage is uncertain, so that it is constant."""
         if not self._voltage_is_uncertain:
             return None
@@ -374,7 +374,7 @@ class PredictionErrorProblem:
             innovations = self.predict_errors(model, nuisance, kalman_filter)
             cov = self.compute_covariance(innovations)
             start_cost = float(np.sum((nuisance.position_offset / self.start_sd) ** 2))
-            cost = self._cost(cov) + start_cost + compute_friction_prior(values, nuisance)
+            cost = self._compute_cost(cov) + start_cost + compute_friction_prior(values, nuisance)
             cost += float(np.sum(nuisance.backlash_phase_costs))
             if self.lag_sd:
                 cost += float(np.sum((nuisance.lag_offset / self.lag_sd) ** 2))
@@ -400,7 +400,7 @@ class PredictionErrorProblem:
         least_x, least_v = self.noise.resolution
         return np.array([[xx + least_x**2, xv], [xv, vv + least_v**2]])
 
-    def _cost(self, cov: Array) -> float:
+    def _compute_cost(self, cov: Array) -> float:
         (xx, xv), (_, vv) = cov.tolist()
         if not (xx > 0.0 and vv > 0.0 and math.isfinite(xx * vv)):
             return math.inf
@@ -596,7 +596,7 @@ class PredictionErrorProblem:
         def one(each: tuple[Model, RunNuisance]) -> Array:
             return self.predict_errors(*each, kalman_filter)
 
-        return (_threads().map if len(self.measured) > PARALLEL else map)(one, tried)
+        return (_make_thread_pool().map if len(self.measured) > PARALLEL else map)(one, tried)
 
     def _one_column_per_run(self, change: Array) -> Array:
         """(2 n, runs) block-diagonal: each run's part of the changes (2 n,) in its own column."""
@@ -614,6 +614,6 @@ class PredictionErrorProblem:
 
 
 @cache
-def _threads() -> ThreadPoolExecutor:
+def _make_thread_pool() -> ThreadPoolExecutor:
     """A pool with one thread for each core, for long logs."""
     return ThreadPoolExecutor(os.cpu_count(), thread_name_prefix="simulate")

@@ -84,14 +84,14 @@ def compute_run_variation_covariance(problem: PredictionErrorProblem, point: Est
         point = problem.evaluate(
             point.structure, point.values, point.nuisance.with_common_friction, point.process_noise
         )
-    sizes = _sizes(problem, point)
+    sizes = _list_parameter_sizes(problem, point)
     runs = _run_information(problem, point, sizes)
     known = problem.select_priors(point.structure)
     names = point.structure.searched_names
     free = np.array([name not in known for name in names])
     guess = np.array([VARIES.get(name, FIXED) for name in names])
     square = guess**2
-    square[free] = _variances([run.select_parameters(free) for run in runs], guess[free])
+    square[free] = _estimate_variances([run.select_parameters(free) for run in runs], guess[free])
     priors = np.diag([1.0 / known.get(name, math.inf) for name in names]) * sizes
     # roots instead of information, so that rounding loses no weak prior
     roots = np.vstack([*(_marginal_root(run, square) for run in runs), priors[~free]])
@@ -143,7 +143,7 @@ def compute_standard_errors(problem: PredictionErrorProblem, point: Estimate) ->
     return {name: error if error < most[name] else math.inf for name, error in errors.items()}
 
 
-def _variances(runs: list[RunInformation], guess: Array) -> Array:
+def _estimate_variances(runs: list[RunInformation], guess: Array) -> Array:
     """(k,) variances of the parameters between runs: posterior means, one gain after another.
 
     A flat prior over the logarithm of the standard deviation, from 2⁻¹⁰ to 2⁵ times the guess,
@@ -222,7 +222,7 @@ def _run_information(
         time = problem.records[number].measurements.time
         starts = 2 * _interval_starts(time, INTERVAL)  # two measurements to a sample
         scores = np.add.reduceat(free.T * innovations[rows], starts, axis=1).T
-        excess = max(_excess(information, scores), 1.0)
+        excess = max(_compute_excess_variance(information, scores), 1.0)
         whole = np.vstack([free, np.sqrt(known)[:, None] * shares])
         root = np.asarray(np.linalg.qr(whole, mode="r"))
         runs.append(RunInformation(root / math.sqrt(excess), score / excess))
@@ -234,7 +234,7 @@ def _interval_starts(time: Array, length: float) -> NDArray[np.intp]:
     return np.flatnonzero(np.diff((time - time[0]) // length, prepend=-1.0))
 
 
-def _excess(information: Array, scores: Array) -> float:
+def _compute_excess_variance(information: Array, scores: Array) -> float:
     """[1] variance of the intervals' scores, divided by that of independent innovations.
 
     Args:
@@ -247,7 +247,7 @@ def _excess(information: Array, scores: Array) -> float:
     return float(np.mean(np.sum(projected**2, axis=0) / values[known]))
 
 
-def _sizes(problem: PredictionErrorProblem, point: Estimate) -> Array:
+def _list_parameter_sizes(problem: PredictionErrorProblem, point: Estimate) -> Array:
     """(searched,) size of each parameter; its standard deviation between runs is a share of it."""
     values, known = point.values, problem.select_priors(point.structure)
     gravity = math.hypot(values.get("level", 0.0), values.get("upright", 0.0))

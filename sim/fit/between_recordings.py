@@ -10,6 +10,7 @@ import math
 from collections.abc import Mapping
 
 from sim.fit.result import Fit
+from sim.support.printable import join_names
 
 SHARES: Mapping[str, float] = {"kS": 0.06, "kV": 0.03, "kA": 0.16, "kG": 0.11}
 """Gain -> median difference of two recordings, as a share of it."""
@@ -34,7 +35,7 @@ def describe_next_recording(found: Fit) -> tuple[str, ...]:
     if not known:
         return ()
     told = [f"{gain} by about {100.0 * share:.0f} %" for gain, share in known.items()]
-    listed = " and ".join([", ".join(told[:-1]), told[-1]] if told[1:] else told)
+    listed = join_names(told)
     said = (
         f"These errors are of this log alone. The next recording will differ: {listed}, as on most "
         "robots. To see yours, record twice and fit both: sysid fit ONE TWO"

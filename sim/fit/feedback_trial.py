@@ -131,11 +131,13 @@ def warn_of_bad_suggestions(found: Fit, tried: tuple[FeedbackTrial, ...]) -> tup
         tried: its trials, from ``try_feedback_gains``.
     """
     return tuple(
-        _doubt(found, trial) for trial in tried if trial.owner == SUGGESTED and not trial.is_good
+        _doubt_suggestion(found, trial)
+        for trial in tried
+        if trial.owner == SUGGESTED and not trial.is_good
     )
 
 
-def _doubt(found: Fit, trial: FeedbackTrial) -> Doubt:
+def _doubt_suggestion(found: Fit, trial: FeedbackTrial) -> Doubt:
     """A warning about one suggestion, with the first better one."""
     late = f" with {1000 * trial.delay:.3g} ms of delay" if trial.delay > LEAST_DELAY else ""
     other = next((one for one in _suggest_others(found, trial) if one.is_good), None)

@@ -13,6 +13,7 @@ from sim.core.units import Unit, convert_gains, find_unit
 from sim.estimation.measurements import RunMeasurements
 from sim.fit.open_loop_fallback import OpenLoopReplay
 from sim.fit.result import format_gain_unit
+from sim.support.printable import join_names
 
 LARGEST_ERROR = 0.08  # [share of a gain] standard error; three of them are a quarter of the gain
 LEAST_R2 = 0.5  # [share of the velocity's variance] that a simulation must explain
@@ -80,7 +81,7 @@ def doubt_undetermined(
         else name
         for name in unknown
     ]
-    said = " and ".join(filter(None, [", ".join(each[:-1]), each[-1]]))
+    said = join_names(each)
     tests = TEST_FOR if both_ways else {**TEST_FOR, **OTHER_WAY}
     pair = {"kS", "kG"} <= set(unknown) and type != "simple" and not both_ways
     advice = hint or (OTHER_WAY_FOR_BOTH if pair else tests[unknown[-1]])

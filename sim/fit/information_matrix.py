@@ -75,13 +75,13 @@ def compute_information(rows: Mapping[str, Rows], *, type: str, noise: float) ->
         raise BadRequest(f"the noise must be above 0, not {noise:g} V", advice="Give its size.")
     if not any(len(part) for part in rows.values()):
         raise BadRequest("there are no rows", advice="Give at least one test that moves.")
-    parts = [_columns(part, type=type) for part in rows.values()]
+    parts = [_list_regressors(part, type=type) for part in rows.values()]
     columns = np.concatenate(parts, axis=1)
     names = ("kS", "kV", "kA") if type == "simple" else ("kS", "kV", "kA", "kG")
     return InformationMatrix(names, columns @ columns.T / noise**2)
 
 
-def _columns(rows: Rows, *, type: str) -> Array:  # noqa: A002 - the field's word
+def _list_regressors(rows: Rows, *, type: str) -> Array:  # noqa: A002 - the field's word
     """(gains, n) the regressor of each gain."""
     columns = [np.sign(rows.velocity), rows.velocity, rows.acceleration]
     if type == "elevator":

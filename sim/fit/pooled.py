@@ -57,8 +57,10 @@ def pool_fits(fits: Mapping[str, Fit]) -> Fit:
         for name in first.gains
         if all(name in one.gains for one in alike)
     }
-    r2, rmse = _quality(alike, lambda one: (one.simulated_velocity_r2, one.simulated_velocity_rmse))
-    accelerations = _quality(alike, lambda one: (one.acceleration_r2, one.acceleration_rmse))
+    r2, rmse = _pool_quality(
+        alike, lambda one: (one.simulated_velocity_r2, one.simulated_velocity_rmse)
+    )
+    accelerations = _pool_quality(alike, lambda one: (one.acceleration_r2, one.acceleration_rmse))
     return replace(
         first,
         gains={name: gain for name, (gain, _) in pooled.items()},
@@ -68,9 +70,9 @@ def pool_fits(fits: Mapping[str, Fit]) -> Fit:
         simulated_velocity_r2=r2,
         simulated_velocity_rmse=rmse,
         samples_used=_sum_samples(alike),
-        position_delay=_mean(one.position_delay for one in alike),
-        velocity_delay=_mean(one.velocity_delay for one in alike),
-        velocity_threshold=_mean(one.velocity_threshold for one in alike),
+        position_delay=_compute_mean(one.position_delay for one in alike),
+        velocity_delay=_compute_mean(one.velocity_delay for one in alike),
+        velocity_threshold=_compute_mean(one.velocity_threshold for one in alike),
         step_duration=max(one.step_duration for one in alike),
         doubts=merge_doubts(fits),
     )
@@ -87,16 +89,18 @@ def pool_values(values: list[float], errors: list[float]) -> tuple[float, float]
         The mean and its standard error, which is nan if one of the errors is unknown.
     """
     if not all(map(math.isfinite, errors)):
-        return _mean(values), math.nan
+        return _compute_mean(values), math.nan
     least = max(LEAST_ERROR * max(map(abs, values)), 1e-300)
     own = [max(error, least) ** 2 for error in errors]
-    between = _between(values, own)
+    between = _compute_variance_between(values, own)
     weights = [1.0 / (square + between) for square in own]
     total = math.fsum(weights)
     shares = [weight / total for weight in weights]
     mean = math.fsum(share * value for share, value in zip(shares, values, strict=True))
     mean = min(max(mean, min(values)), max(values))  # rounding
-    scatter = _scatter(values, shares, mean) / (len(values) - 1) if len(values) > 1 else 0.0
+    scatter = (
+        _sum_weighted_squares(values, shares, mean) / (len(values) - 1) if len(values) > 1 else 0.0
+    )
     return mean, math.sqrt(max(1.0 / total, scatter))
 
 
@@ -152,22 +156,24 @@ def _get_gain(first: Fit, other: Fit, name: str) -> float:
     return value + math.tau * round((first.gains[name] - value) / math.tau)
 
 
-def _between(values: list[float], own: list[float]) -> float:
+def _compute_variance_between(values: list[float], own: list[float]) -> float:
     """The variance between parts beyond what their own errors explain; 0 if there is none."""
     weights = [1.0 / square for square in own]
     total = math.fsum(weights)
     mean = math.fsum(w * value for w, value in zip(weights, values, strict=True)) / total
-    excess = _scatter(values, weights, mean) - (len(values) - 1)
+    excess = _sum_weighted_squares(values, weights, mean) - (len(values) - 1)
     size = total - math.fsum(w * w for w in weights) / total
     return max(excess / size, 0.0) if size > 0.0 else 0.0
 
 
-def _scatter(values: list[float], weights: list[float], mean: float) -> float:
+def _sum_weighted_squares(values: list[float], weights: list[float], mean: float) -> float:
     """The weighted sum of squared deviations from the mean."""
     return math.fsum(w * (value - mean) ** 2 for w, value in zip(weights, values, strict=True))
 
 
-def _quality(fits: list[Fit], scores: Callable[[Fit], tuple[float, float]]) -> tuple[float, float]:
+def _pool_quality(
+    fits: list[Fit], scores: Callable[[Fit], tuple[float, float]]
+) -> tuple[float, float]:
     """R² and RMSE of all parts together, from those of each."""
     weights = [max(sum(one.samples_used.values()), 1) for one in fits]
     rows = [scores(one) for one in fits]
@@ -188,6 +194,6 @@ def _sum_samples(fits: list[Fit]) -> dict[str, int]:
     return counts
 
 
-def _mean(values: Iterable[float]) -> float:
+def _compute_mean(values: Iterable[float]) -> float:
     every = list(values)
     return math.fsum(every) / len(every)

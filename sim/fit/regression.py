@@ -49,7 +49,7 @@ def regress_acceleration(rows: Mapping[str, Rows], *, type: str) -> Regression: 
         NotIdentifiable: the rows cannot tell the gains apart.
     """
     stacked = [rows[test] for test in FOUR_TESTS]
-    columns = np.concatenate([_columns(part, type=type) for part in stacked], axis=1)
+    columns = np.concatenate([_list_regressors(part, type=type) for part in stacked], axis=1)
     acceleration = np.concatenate([part.acceleration for part in stacked])
     beta, inverse = _least_squares(columns, acceleration)
     if not beta[1]:
@@ -66,7 +66,7 @@ def regress_acceleration(rows: Mapping[str, Rows], *, type: str) -> Regression: 
     sse = float(residual @ residual)
     spread = acceleration - acceleration.mean()
     r2 = 1.0 - sse / float(spread @ spread)
-    gains, slopes = _gains(beta, type=type)
+    gains, slopes = _convert_to_gains(beta, type=type)
     covariance = inverse * (sse / (n - p))
     errors = {
         name: math.sqrt(max(0.0, float(slope @ covariance @ slope)))
@@ -75,7 +75,7 @@ def regress_acceleration(rows: Mapping[str, Rows], *, type: str) -> Regression: 
     return Regression(gains, errors, 1.0 - (1.0 - r2) * (n - 1) / (n - p - 1), math.sqrt(sse / n))
 
 
-def _columns(rows: Rows, *, type: str) -> Array:  # noqa: A002 - SysId's word
+def _list_regressors(rows: Rows, *, type: str) -> Array:  # noqa: A002 - SysId's word
     """(columns, n) the regressors of the acceleration."""
     columns = [rows.velocity, rows.voltage, np.copysign(1.0, rows.velocity)]
     if type == "elevator":
@@ -109,7 +109,7 @@ def _least_squares(columns: Array, y: Array) -> tuple[Array, Array]:
     return beta / size, inverse / np.outer(size, size)
 
 
-def _gains(beta: Array, *, type: str) -> tuple[dict[str, float], dict[str, Array]]:  # noqa: A002
+def _convert_to_gains(beta: Array, *, type: str) -> tuple[dict[str, float], dict[str, Array]]:  # noqa: A002
     """Gains, and the derivatives (k,) of each gain by the coefficients ``beta`` (k,)."""
     alpha, per_volt, gamma = beta[:3]
     unit = np.eye(beta.size)

@@ -117,6 +117,9 @@ def make_fit_model(found: Fit) -> tuple[float, Model]:
     return sign, Model(found.type, gains, (*_sensor_lags(found), *found.parts))
 
 
+SENSOR_LAGS = frozenset({"velocity-filter", "delay"})  # effects that every fit estimates
+
+
 def _sensor_lags(found: Fit) -> list[Part]:
     """The lag and the averaging of the velocity that an output-error fit found."""
     if found.method != "output-error":

@@ -17,6 +17,7 @@ from sim.feedback import (
 )
 from sim.feedback.regulator import POSITION_ERROR, VOLTS
 from sim.physics.model import Part
+from sim.support.printable import finite_or_none
 
 
 @dataclass(frozen=True)
@@ -185,8 +186,8 @@ class Fit:
             "errors": dict(self.errors),
             "acceleration_r2": self.acceleration_r2,
             "acceleration_rmse": self.acceleration_rmse,
-            "simulated_velocity_r2": _finite(self.simulated_velocity_r2),
-            "simulated_velocity_rmse": _finite(self.simulated_velocity_rmse),
+            "simulated_velocity_r2": finite_or_none(self.simulated_velocity_r2),
+            "simulated_velocity_rmse": finite_or_none(self.simulated_velocity_rmse),
             "samples_used": dict(self.samples_used),
             "feedback": {
                 loop: {"kP": gains.kp, "kD": gains.kd}
@@ -208,7 +209,3 @@ def format_gain_unit(gain: str, per: Unit) -> str:
     return {"kV": f"V·s/{per.symbol}", "kA": f"V·s²/{per.symbol}", "offset_rad": "rad"}.get(
         gain, "V"
     )
-
-
-def _finite(value: float) -> float | None:
-    return value if math.isfinite(value) else None

@@ -94,17 +94,17 @@ def fit_run_differences(
     extended, tracked = best.problem, best.estimate
     extended = drop_outliers(extended, tracked)
     tracked = levenberg_marquardt(
-        extended, _reevaluate(extended, tracked), steps=STEPS, enough=ROUGHLY
+        extended, _evaluate_anew(extended, tracked), steps=STEPS, enough=ROUGHLY
     )
     found = fit_open_loop(extended, tracked)
     framed = _correct_jitter(extended, found) if extended.lag_sd else extended
     if framed is extended:
         return extended, found
-    regular = refine(framed, _reevaluate(framed, found))
+    regular = refine(framed, _evaluate_anew(framed, found))
     if not regular.cost < found.cost - WORTH:
         return extended, found
     framed = _correct_jitter(extended, regular)
-    return framed, fit_open_loop(framed, _reevaluate(framed, regular))
+    return framed, fit_open_loop(framed, _evaluate_anew(framed, regular))
 
 
 class _Rival(NamedTuple):
@@ -123,7 +123,7 @@ def _fit_rival(problem: PredictionErrorProblem, common: Estimate, period: float)
         common: the best estimate without differences.
         period: [s] time between samples of the log.
     """
-    begin = _reevaluate(problem, common)
+    begin = _evaluate_anew(problem, common)
     if problem.lag_sd:
         begin = _with_shared_lag(problem, common, least=0.5 * period)
     found = levenberg_marquardt(problem, begin, steps=2 * STEPS, enough=ROUGHLY)
@@ -204,6 +204,6 @@ def _deviation_from_even(time: Array) -> Array:
     return np.asarray(time - line(index))
 
 
-def _reevaluate(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
+def _evaluate_anew(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
     """The estimate with the same values, evaluated on these measurements."""
     return problem.evaluate(point.structure, point.values, point.nuisance, point.process_noise)

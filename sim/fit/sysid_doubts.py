@@ -20,6 +20,7 @@ TEST_FOR = (
     "Repeat the quasistatic tests with a slower ramp.",
     "Repeat the dynamic tests, and log every loop.",
 )  # kS, kV, kG and kA
+UNSURE_GAIN = "unsure-gain"
 UNSURE = 0.5  # [share of a gain] a standard error this large leaves even its sign in doubt
 
 
@@ -150,7 +151,7 @@ def warn_of_uncertain_gains(
     shown, sizes = (convert_gains(numbers, factor=per.si) for numbers in (gains, errors))
     return [
         Doubt(
-            "unsure-gain",
+            UNSURE_GAIN,
             f"{gain} = {shown[gain]:.2g} ± {sizes[gain]:.2g} {format_gain_unit(gain, per)}: this "
             f"log does not show whether {gain} differs from 0. {TEST_FOR[gain == 'kA']}",
         )

@@ -98,7 +98,7 @@ def prepare_rows(log: Log, *, median: int = 1) -> PreparedRows:
     )
     rows: dict[str, Rows] = {}
     duration, delays = 0.0, []
-    longest = max(_duration(raw[test]) for test in FOUR_TESTS if test.startswith("dyn"))
+    longest = max(_compute_duration(raw[test]) for test in FOUR_TESTS if test.startswith("dyn"))
     for test in sorted(raw):  # SysId's order: the forward step sets the duration for both
         if test.startswith("quasi"):
             raw[test] = _drop_standstill(raw[test], threshold=threshold, test=test)
@@ -249,7 +249,7 @@ def _rows_of_run(run: Run) -> Rows:
     )
 
 
-def _duration(rows: Rows) -> float:
+def _compute_duration(rows: Rows) -> float:
     """[s] from the first to the last row."""
     return float(rows.time[-1] - rows.time[0])
 

@@ -58,9 +58,9 @@ class BinnedResiduals:
             breaks = np.flatnonzero(np.diff(signs)) + 1
             for part in np.split(np.arange(signs.size), breaks):
                 if signs[part[0]]:
-                    yield self._place(int(signal), int(row), slice(part[0], part[-1] + 1))
+                    yield self._describe_place(int(signal), int(row), slice(part[0], part[-1] + 1))
 
-    def _place(self, signal: int, row: int, part: slice) -> Place:
+    def _describe_place(self, signal: int, row: int, part: slice) -> Place:
         """The place of neighboring bins, with their weighted mean."""
         mean, error = self.mean[signal, row, part], self.error[signal, row, part]
         weight = self.count[signal, row, part].astype(np.float64)
@@ -81,8 +81,8 @@ class BinnedResiduals:
         low, high = float(edges[part.start]), float(edges[part.stop])
         if not self.edges_as_shares:
             if self.what == STEPS:
-                return f"{_pair(low, high)} s after {self.rows[row]}"
-            return f"{self.rows[row]}, {_pair(low, high)} {_UNITS[self.what]}"
+                return f"{_write_range(low, high)} s after {self.rows[row]}"
+            return f"{self.rows[row]}, {_write_range(low, high)} {_UNITS[self.what]}"
         least, most = float(self.edges.min()), float(self.edges.max())
         low, high = (100.0 * (edge - least) / ((most - least) or 1.0) for edge in (low, high))
         return f"{self.rows[row]}, {low:.0f} to {high:.0f}% of {_WHOLES[self.what]}"
@@ -92,7 +92,7 @@ _UNITS = {"run": "s", "at-rest": "V"}
 _WHOLES = {"direction-speed": "the top speed", "direction-position": "the way"}
 
 
-def _pair(low: float, high: float) -> str:
+def _write_range(low: float, high: float) -> str:
     """A range in words, with enough digits to tell its ends apart."""
     digits = 1 if high - low >= 0.5 else 2  # noqa: PLR2004 - half a second, or half a volt
     return f"{low:.{digits}f} to {high:.{digits}f}"
@@ -126,7 +126,7 @@ class SampleTable:
             shares: whether texts give the edges as shares.
         """
         columns = edges.shape[1] - 1
-        cell = _column(value, edges, row)
+        cell = _find_column(value, edges, row)
         cell[cell >= 0] += columns * row[cell >= 0]
         shape = (2, len(rows), columns)
         mean, error = (
@@ -135,7 +135,7 @@ class SampleTable:
         )
         count = np.zeros_like(mean, dtype=np.intp)
         for signal in range(2):
-            mean[signal], error[signal], count[signal] = self._means(
+            mean[signal], error[signal], count[signal] = self._average_bins(
                 self.table[:, signal] * way, cell, size=mean.shape[1]
             )
         return BinnedResiduals(
@@ -148,7 +148,7 @@ class SampleTable:
             count.reshape(shape),
         )
 
-    def _means(
+    def _average_bins(
         self, signed: Array, cell: NDArray[np.intp], *, size: int
     ) -> tuple[Array, Array, NDArray[np.intp]]:
         """(size,) mean, standard error and count of residuals (n,) in the bins ``cell`` (n,)."""
@@ -171,7 +171,7 @@ class SampleTable:
         return mean, error, count
 
 
-def _column(value: Array, edges: Array, row: NDArray[np.intp]) -> NDArray[np.intp]:
+def _find_column(value: Array, edges: Array, row: NDArray[np.intp]) -> NDArray[np.intp]:
     """(n,) column of each value (n,), by the edges of its row; -1 outside of them."""
     column = np.full(value.size, -1, dtype=np.intp)
     last = edges.shape[1] - 2

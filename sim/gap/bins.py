@@ -64,14 +64,14 @@ class ResidualBins:
         columns = min(max(shortest // FEWEST, LEAST_TIMES), TIMES)
         edges = np.stack([np.linspace(start, end, columns + 1) for start, end in ends])
         since = np.concatenate([run.run_time for run in self.runs])
-        names = _names([run.test for run in self.runs])
+        names = _name_runs([run.test for run in self.runs])
         return self.samples.bin_samples(
             RUN, names, edges, row=self.run_index, value=since, way=self.direction
         )
 
     def bin_by_speed(self) -> BinnedResiduals:
         """The residuals binned by direction and speed."""
-        edges = _even(0.0, self.top, SPEEDS)
+        edges = _make_even_edges(0.0, self.top, SPEEDS)
         return self.samples.bin_samples(
             SPEED,
             DIRECTIONS,
@@ -86,7 +86,7 @@ class ResidualBins:
         """The residuals binned by direction and position."""
         position = self.predicted[:, 0]
         kept = position[self.compared]
-        edges = _even(float(kept.min()), float(kept.max()), POSITIONS)
+        edges = _make_even_edges(float(kept.min()), float(kept.max()), POSITIONS)
         return self.samples.bin_samples(
             POSITION,
             DIRECTIONS,
@@ -113,11 +113,11 @@ class ResidualBins:
         most = float(np.max(held, initial=0.0, where=~np.isnan(held)))
         row = np.where(self.rests, self.direction_row, -1)
         return self.samples.bin_samples(
-            REST, RESTS, _even(0.0, most, VOLTS), row=row, value=held, way=self.direction
+            REST, RESTS, _make_even_edges(0.0, most, VOLTS), row=row, value=held, way=self.direction
         )
 
 
-def _names(tests: Sequence[str]) -> tuple[str, ...]:
+def _name_runs(tests: Sequence[str]) -> tuple[str, ...]:
     """Name of each run: its test, numbered if there are several of it."""
     return tuple(
         f"{test} ({tests[: i + 1].count(test)})" if tests.count(test) > 1 else test
@@ -125,6 +125,6 @@ def _names(tests: Sequence[str]) -> tuple[str, ...]:
     )
 
 
-def _even(low: float, high: float, columns: int) -> Array:
+def _make_even_edges(low: float, high: float, columns: int) -> Array:
     """(2, columns + 1) edges of equal columns, the same for both directions."""
     return np.tile(np.linspace(low, max(high, low + 1e-12), columns + 1), (2, 1))

@@ -72,9 +72,9 @@ def estimate_velocity_lag(runs: Sequence[Run]) -> VelocityLag | None:
     best = int(np.argmax(likelihood))
     unexplained = float(np.median([share[best] for share, _, _ in fits]))
     scale = float(np.median([scales[best] for _, scales, _ in fits]))
-    lag = _refine(lags, np.asarray(likelihood), best)
+    lag = _find_parabola_maximum(lags, np.asarray(likelihood), best)
     deviations = [
-        abs(_refine(lags, -np.log(share + EXACT), int(share.argmin())) - lag)
+        abs(_find_parabola_maximum(lags, -np.log(share + EXACT), int(share.argmin())) - lag)
         for share, _, _ in fits
     ]
     several = len(deviations) > 1
@@ -112,7 +112,7 @@ def _fit_run(run: Run, lags: Array) -> tuple[Array, Array, int] | None:
     return np.maximum(1.0 - slope * product / total, 0.0), slope, int(times.size)
 
 
-def _refine(lags: Array, likelihood: Array, best: int) -> float:
+def _find_parabola_maximum(lags: Array, likelihood: Array, best: int) -> float:
     """[s] the maximum of the parabola through the best delay and its two neighbors."""
     if not 0 < best < lags.size - 1:
         return float(lags[best])

@@ -10,7 +10,6 @@ Nothing here needs a screen, and no function keeps state between calls.
 """
 
 from sim.plot.acceleration import plot_acceleration_velocity
-from sim.plot.charts import plot_curves, plot_misses
 from sim.plot.gain_tables import tabulate_fits, tabulate_gains
 from sim.plot.gap_bars import plot_gap_bars
 from sim.plot.logs import plot_time_series
@@ -25,9 +24,7 @@ __all__ = [
     "Table",
     "make_residual_views",
     "plot_acceleration_velocity",
-    "plot_curves",
     "plot_gap_bars",
-    "plot_misses",
     "plot_time_series",
     "plot_voltage_residual",
     "plot_voltage_velocity",

@@ -50,10 +50,10 @@ def plot_acceleration_velocity(log: Log) -> Picture:
     axes.set_ylabel(f"acceleration [{per.symbol}/s²]", color=INK)
     add_legend(figure, [axes])
     alt = "Acceleration against velocity of each test, as recorded and filtered."
-    return Picture(figure, alt, _table(samples, per))
+    return Picture(figure, alt, _tabulate(samples, per))
 
 
-def _line(speed: Array, height: Array) -> tuple[float, float] | tuple[str, str]:
+def _fit_line(speed: Array, height: Array) -> tuple[float, float] | tuple[str, str]:
     """Value at velocity 0 and slope of the fitted line; dashes if no line can be fitted."""
     if speed.size < FEWEST or not np.ptp(speed) > 0.0:
         return "–", "–"
@@ -61,13 +61,13 @@ def _line(speed: Array, height: Array) -> tuple[float, float] | tuple[str, str]:
     return float(rest), float(slope)
 
 
-def _table(samples: Mapping[str, tuple[Array, Array]], per: Unit) -> Table:
+def _tabulate(samples: Mapping[str, tuple[Array, Array]], per: Unit) -> Table:
     symbol = f"{per.symbol}/s"
     return Table(
         ("test", "samples", f"slowest [{symbol}]", f"fastest [{symbol}]",
          f"at standstill [{symbol}²]", "slope [1/s]"),
         tuple(
-            (test, speed.size, float(speed.min()), float(speed.max()), *_line(speed, height))
+            (test, speed.size, float(speed.min()), float(speed.max()), *_fit_line(speed, height))
             for test, (speed, height) in samples.items()
         ),
         caption="Acceleration against velocity, the rows of the fit",

@@ -51,13 +51,13 @@ def decimate_cloud(x: Array, y: Array, *, most: int) -> NDArray[np.intp]:
     cells = FINEST
     kept: NDArray[np.intp] = np.arange(x.size)
     while kept.size > most and cells > 1:
-        where = _cell(x, cells) * cells + _cell(y, cells)
+        where = _find_cells(x, cells) * cells + _find_cells(y, cells)
         kept = np.sort(np.unique(where, return_index=True)[1])
         cells = int(COARSER * cells)
     return kept[:most]
 
 
-def _cell(values: Array, cells: int) -> NDArray[np.intp]:
+def _find_cells(values: Array, cells: int) -> NDArray[np.intp]:
     """(n,) index of the cell of each value, of ``cells`` cells of equal width."""
     low, high = float(values.min()), float(values.max())
     share = (values - low) / ((high - low) or 1.0)

@@ -101,7 +101,7 @@ class EffectSearch:
                 advice="Run the cell again to start from the beginning.",
             )
         before, begun = self.gaps["validation"], monotonic()
-        after = self._measure(effects)["validation"]
+        after = self._measure_gap(effects)["validation"]
         self.effects = effects
         verdict = "better than" if is_narrower(after, before) else "no better than"
         self.message = (
@@ -143,7 +143,7 @@ class EffectSearch:
     @property
     def gaps(self) -> dict[str, float]:
         """The gaps of the model on the log and on the validation log [times the noise]."""
-        return self._measure(self.effects)
+        return self._measure_gap(self.effects)
 
     @property
     def views(self) -> ResidualViews:
@@ -153,7 +153,7 @@ class EffectSearch:
     @property
     def pictures(self) -> list[Picture]:
         """The gaps of the models tried so far, and what remains from five sides."""
-        self._measure(())
+        self._measure_gap(())
         tried = {" + ".join(one) or NONE: gaps for one, gaps in self._tried.items()}
         shown = dict(list(tried.items())[-MOST_BARS:])
         return [
@@ -191,7 +191,7 @@ class EffectSearch:
     def _unit(self) -> Unit:
         return find_unit(self.hand.recordings.log.units)
 
-    def _measure(self, effects: tuple[str, ...]) -> dict[str, float]:
+    def _measure_gap(self, effects: tuple[str, ...]) -> dict[str, float]:
         if effects not in self._tried:
             point = self.hand.fit(effects)
             self._tried[effects] = {

@@ -53,13 +53,13 @@ def plot_fit_overview(runs: Sequence[RunReplay], *, per: Unit) -> Picture:
     ):
         row[0].set_ylabel(name, color=INK, fontsize=9)
     add_legend(figure, [row[0] for row in grid], columns=5)
-    sentences = [_describe(one, per=per) for one in drawn]
+    sentences = [_describe_replay(one, per=per) for one in drawn]
     if len(runs) > MOST_RUNS:
         sentences.append(f"The other {len(runs) - MOST_RUNS} runs are not drawn.")
     return Picture(figure, " ".join(sentences))
 
 
-def _describe(one: RunReplay, *, per: Unit) -> str:
+def _describe_replay(one: RunReplay, *, per: Unit) -> str:
     """A description of the picture of a run, with numbers."""
     where = one.moving if one.moving.any() else np.ones(len(one.run), dtype=bool)
     off = float(np.sqrt(np.mean(one.velocity_error[where] ** 2)))

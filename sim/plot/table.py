@@ -33,13 +33,13 @@ class Table:
         caption = f"<caption>{escape(self.caption)}</caption>" if self.caption else ""
         left = self._left
         head = "".join(
-            _cell("th", name, left=way) for name, way in zip(self.header, left, strict=True)
+            _write_cell("th", name, left=way) for name, way in zip(self.header, left, strict=True)
         )
         body = "".join(
             "<tr>"
-            + _cell("th", to_text(row[0]), left=True, scope="row")
+            + _write_cell("th", to_text(row[0]), left=True, scope="row")
             + "".join(
-                _cell("td", to_text(cell), left=way)
+                _write_cell("td", to_text(cell), left=way)
                 for cell, way in zip(row[1:], left[1:], strict=True)
             )
             + "</tr>"
@@ -81,7 +81,7 @@ def _is_text_column(column: Sequence[Cell]) -> bool:
     )
 
 
-def _cell(tag: str, text: str, *, left: bool, scope: str = "col") -> str:
+def _write_cell(tag: str, text: str, *, left: bool, scope: str = "col") -> str:
     """One cell as HTML, aligned to the left or to the right."""
     style = f"text-align:{'left' if left else 'right'};padding:0.1em 0.7em"
     if tag == "td":

@@ -112,8 +112,8 @@ class ResidualViews:
     def headline(self) -> str:
         """A sentence about the share of the residual that each view explains."""
         if self.is_noise:
-            return "Only noise remains."
-        share = _percent(self.unexplained)
+            return f"At least {_format_percent(1.0 - LEAST)} of this is noise."
+        share = _format_percent(self.unexplained)
         return f"{share} of the gap beyond noise shows in no plot."
 
 
@@ -223,8 +223,10 @@ def _make_views(joined: Mapping[str, Array], variance: Array, log: Log) -> Resid
         if name == DIRECTION:  # only the difference of both means: a push in one direction
             table = np.ones((at.size, 1))
         columns.append(table)
-        views[name] = replace(view, explains=_explain(table, missing, variance, beyond=beyond))
-    rest = 1.0 - _explain(np.hstack(columns), missing, variance, beyond=beyond)
+        views[name] = replace(
+            view, explains=_compute_share(table, missing, variance, beyond=beyond)
+        )
+    rest = 1.0 - _compute_share(np.hstack(columns), missing, variance, beyond=beyond)
     return ResidualViews(views, rest, min(float(np.sum(variance)) / total, 1.0))
 
 
@@ -236,7 +238,7 @@ def _make_columns(view: ResidualView) -> Array:
     return table[:, np.isfinite(view.mean)]
 
 
-def _explain(table: Array, missing: Array, variance: Array, *, beyond: float) -> float:
+def _compute_share(table: Array, missing: Array, variance: Array, *, beyond: float) -> float:
     """Share of the squared residual beyond noise that regressors explain; noise fits a little."""
     if not table.shape[1]:
         return 0.0
@@ -285,10 +287,12 @@ def plot_voltage_residual(
         DIRECTION: "direction of the motion",
     }  # fmt: skip
     places = [axes for row in grid for axes in row]
-    high = 1.15 * max(float(np.quantile(np.abs(missing), DRAWN_QUANTILE)), _largest(found), 1e-9)
+    high = 1.15 * max(
+        float(np.quantile(np.abs(missing), DRAWN_QUANTILE)), _find_largest(found), 1e-9
+    )
     for axes, (name, view) in zip(places, found.items(), strict=False):
         _draw(axes, view, high=high)
-        axes.set_title(f"{name}: {_percent(view.explains)}", fontsize=10, color=INK)
+        axes.set_title(f"{name}: {_format_percent(view.explains)}", fontsize=10, color=INK)
         axes.set_xlabel(labels[name], color=INK)
         if name == DIRECTION:
             axes.set_xticks([-1.0, 1.0], ["reverse", "forward"])
@@ -301,7 +305,7 @@ def plot_voltage_residual(
     figure.suptitle(headline, fontsize=11, color=INK)
     add_legend(figure, (places[0], places[-1]), columns=4)
     typical = float(np.sqrt(np.mean(missing**2)))
-    shares = ", ".join(f"{name} {_percent(view.explains)}" for name, view in found.items())
+    shares = ", ".join(f"{name} {_format_percent(view.explains)}" for name, view in found.items())
     alt = (
         f"{NUMBERS[len(found)]} views of the voltage residual, which is {to_text(typical)} V "
         "typically. Each sample is a pale dot. A line connects the means of nearby samples, with "
@@ -309,7 +313,7 @@ def plot_voltage_residual(
         f"{headline} The last plot shows the measured and the simulated velocity of one run."
     )
     return Picture(figure, alt, Table(("plotted over", "explains", "means [V]"), tuple(
-        (name, _percent(view.explains), _format_means(view)) for name, view in found.items()
+        (name, _format_percent(view.explains), _format_means(view)) for name, view in found.items()
     )))  # fmt: skip
 
 
@@ -377,14 +381,14 @@ def _draw(axes: "Axes", view: ResidualView, *, high: float) -> None:
     axes.set_ylim(-high, high)
 
 
-def _largest(found: Mapping[str, ResidualView]) -> float:
+def _find_largest(found: Mapping[str, ResidualView]) -> float:
     return max(
         (float(np.nanmax(np.abs(v.mean))) for v in found.values() if np.isfinite(v.mean).any()),
         default=0.0,
     )
 
 
-def _percent(share: float) -> str:
+def _format_percent(share: float) -> str:
     return f"{100.0 * share:.0f} %"
 
 
@@ -392,9 +396,9 @@ def _format_means(view: ResidualView) -> str:
     """The means of the bins; of many bins only the lowest and the highest."""
     known = view.mean[np.isfinite(view.mean)]
     if known.size > FINE:
-        return f"from {_signed(known.min())} to {_signed(known.max())}"
-    return ",\N{NO-BREAK SPACE}".join("–" if np.isnan(m) else _signed(m) for m in view.mean)
+        return f"from {_format_signed(known.min())} to {_format_signed(known.max())}"
+    return ",\N{NO-BREAK SPACE}".join("–" if np.isnan(m) else _format_signed(m) for m in view.mean)
 
 
-def _signed(volts: float) -> str:
+def _format_signed(volts: float) -> str:
     return f"{volts:+.2f}".replace("-", "−")

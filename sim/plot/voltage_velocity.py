@@ -67,7 +67,7 @@ def plot_voltage_velocity(log: Log, *, lines: Mapping[str, Line] | None = None) 
         BadRequest: the log has no quasistatic test.
     """
     per = find_unit(log.units)
-    ramps = _ramps([run for run in log.runs if run.kind == "quasistatic" and len(run)], per)
+    ramps = _join_ramps([run for run in log.runs if run.kind == "quasistatic" and len(run)], per)
     if not ramps:
         raise BadRequest(
             "this log has no quasistatic test",
@@ -80,7 +80,7 @@ def plot_voltage_velocity(log: Log, *, lines: Mapping[str, Line] | None = None) 
     figure, ((whole, close),) = make_panels(1, 2)
     _draw(whole, ramps, drawn, top=top, most=MOST)
     _set_limits(close, ramps, drawn, near=near, both=log.type in {"elevator", "arm"})
-    _draw(close, _within(ramps, close), drawn, top=top, most=CLOSEST)
+    _draw(close, _select_shown(ramps, close), drawn, top=top, most=CLOSEST)
     for axes in (whole, close):
         axes.set_xlabel(f"velocity [{per.symbol}/s]", color=INK)
     whole.set_ylabel("voltage [V]", color=INK)
@@ -88,10 +88,10 @@ def plot_voltage_velocity(log: Log, *, lines: Mapping[str, Line] | None = None) 
     close.set_title("close to standstill", fontsize=10, color=INK)
     whole.legend(fontsize=9)
     alt = "Two panels show voltage against velocity: the whole voltage ramp, and its slow part."
-    return Picture(figure, alt, _table(ramps, drawn, per, top=top))
+    return Picture(figure, alt, _tabulate(ramps, drawn, per, top=top))
 
 
-def _ramps(runs: Sequence[Run], per: Unit) -> list[_Ramps]:
+def _join_ramps(runs: Sequence[Run], per: Unit) -> list[_Ramps]:
     """The runs joined by direction; directions without runs are left out."""
     found = []
     for way in DIRECTIONS:
@@ -125,7 +125,7 @@ def _set_limits(
     axes.set_ylim(float(seen.min()) - margin, float(seen.max()) + margin)
 
 
-def _within(ramps: Sequence[_Ramps], axes: "Axes") -> list[_Ramps]:
+def _select_shown(ramps: Sequence[_Ramps], axes: "Axes") -> list[_Ramps]:
     """The samples that a panel shows."""
     (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
     shown = []
@@ -166,7 +166,7 @@ def _draw(
         )
 
 
-def _moving(one: _Ramps, *, top: float) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+def _is_moving(one: _Ramps, *, top: float) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
     """Whether each sample (n,) moves in the direction of its test; an elevator falls at first."""
     sign = 1.0 if one.way == "forward" else -1.0
     return np.asarray(sign * one.velocity > MOVING * top)
@@ -174,7 +174,7 @@ def _moving(one: _Ramps, *, top: float) -> np.ndarray[tuple[int], np.dtype[np.bo
 
 def _rms_from_line(one: _Ramps, *, top: float) -> float | None:
     """RMS distance [V] of moving samples from their best straight line; None if undefined."""
-    moving = _moving(one, top=top)
+    moving = _is_moving(one, top=top)
     velocity, voltage = one.velocity[moving], one.voltage[moving]
     if velocity.size < FEWEST or not np.ptp(velocity) > 0.0:
         return None
@@ -182,7 +182,9 @@ def _rms_from_line(one: _Ramps, *, top: float) -> float | None:
     return float(np.sqrt(np.mean((voltage - line(velocity)) ** 2)))
 
 
-def _table(ramps: Sequence[_Ramps], lines: Mapping[str, Line], per: Unit, *, top: float) -> Table:
+def _tabulate(
+    ramps: Sequence[_Ramps], lines: Mapping[str, Line], per: Unit, *, top: float
+) -> Table:
     """A table of the lines; without lines, of the samples."""
     if lines:
         return Table(

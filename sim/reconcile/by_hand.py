@@ -69,13 +69,13 @@ class HandSearch:
         names = tuple(effects)
         if names not in self._fits:
             self._fits[names] = (
-                self._add(self.fit(names[:-1]), names[-1])
+                self._add_effect(self.fit(names[:-1]), names[-1])
                 if names
                 else fit_base_model(self._problem, self.recordings)
             )
         return self._fits[names]
 
-    def _add(self, before: Estimate, effect: str) -> Estimate:
+    def _add_effect(self, before: Estimate, effect: str) -> Estimate:
         find_effect(effect)
         residual = SelectionData(
             self.recordings.fitted_runs, self._problem, self._folds
@@ -104,7 +104,8 @@ class HandSearch:
             with suppress(BadRequest):
                 starts.append(self.fit(names).values)
         found = [
-            minimize(self._problem, self._evaluate(structure, {**one, **values})) for one in starts
+            minimize(self._problem, self._evaluate_model(structure, {**one, **values}))
+            for one in starts
         ]
         return min(found, key=lambda one: one.cost)
 
@@ -112,13 +113,13 @@ class HandSearch:
         """An estimate with the parameters of a model, of which nothing is fitted."""
         parts = {f"{one.effect}.{n}": v for one in model.parts for n, v in one.parameters.items()}
         names = tuple(one.effect for one in model.parts)
-        return self._evaluate(ModelStructure(model.type, names), {**model.gains, **parts})
+        return self._evaluate_model(ModelStructure(model.type, names), {**model.gains, **parts})
 
     def fit_near(self, model: Model) -> Estimate:
         """All parameters, searched for a few steps from those of a model: quicker than ``fit``."""
         return levenberg_marquardt(self._problem, self.evaluate_model(model), steps=STEPS)
 
-    def _evaluate(self, structure: ModelStructure, values: dict[str, float]) -> Estimate:
+    def _evaluate_model(self, structure: ModelStructure, values: dict[str, float]) -> Estimate:
         problem = self._problem
         nuisance, noise = problem.initial_nuisance, problem.noise.velocity**2
         return problem.evaluate(structure, values, nuisance, noise)

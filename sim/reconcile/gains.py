@@ -17,7 +17,7 @@ def estimate_gains(
     """The gains of an estimate, in the log's unit, with errors that allow for varying runs."""
     spread = compute_run_variation_covariance(problem, point)
     gains, errors = compute_gains_with_errors(point, spread, type=point.structure.type)
-    return _describe(
+    return _make_estimates(
         convert_gains(gains, factor=unit.si), convert_gains(errors, factor=unit.si), unit
     )
 
@@ -35,10 +35,10 @@ def fit_without_effects(
     found = recordings.fitted
     if found is None:
         return estimate_gains(problem, base, recordings.unit)
-    return _describe(found.gains, found.errors, recordings.unit)
+    return _make_estimates(found.gains, found.errors, recordings.unit)
 
 
-def _describe(
+def _make_estimates(
     gains: Mapping[str, float], errors: Mapping[str, float], unit: Unit
 ) -> dict[str, ParameterEstimate]:
     return {

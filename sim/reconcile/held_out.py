@@ -127,7 +127,7 @@ class HeldOutLog:
 
     def make_chapters(self, rounds: Sequence[SelectionRound]) -> tuple[Chapter, ...]:
         """Each model's gap and simulated runs."""
-        return tuple(map(self._chapter, rounds))
+        return tuple(map(self._write_chapter, rounds))
 
     def measure_gaps_without(self, rounds: Sequence[SelectionRound]) -> dict[str, float]:
         """[log's unit/s] effect -> the gap of the last model without this effect.
@@ -136,12 +136,12 @@ class HeldOutLog:
         """
         found = {}
         for before, one in pairwise(rounds):
-            gap = self._gap(one.without.estimate)
-            gap = gap if math.isfinite(gap) else self._gap(before.candidate.estimate)
+            gap = self._measure_gap(one.without.estimate)
+            gap = gap if math.isfinite(gap) else self._measure_gap(before.candidate.estimate)
             found[one.candidate.effect] = gap
         return found
 
-    def _gap(self, point: Estimate) -> float:
+    def _measure_gap(self, point: Estimate) -> float:
         return measure_open_loop_gap(self.problem, point) / find_unit(self.log.units).si
 
     def simulate(self, point: Estimate) -> tuple[float, tuple[Array, ...]]:
@@ -150,9 +150,9 @@ class HeldOutLog:
         model = point.structure.model(point.values)
         track = self.problem.simulate(model, nuisance).sensor_readings
         runs = tuple(track[first:last] for first, last in pairwise(self.problem.run_edges.tolist()))
-        return self._gap(point), runs
+        return self._measure_gap(point), runs
 
-    def _chapter(self, one: SelectionRound) -> Chapter:
+    def _write_chapter(self, one: SelectionRound) -> Chapter:
         point = one.candidate.estimate
         model = point.structure.model(point.values)
         return Chapter(one.candidate.effect, model, one.tried, *self.simulate(point))

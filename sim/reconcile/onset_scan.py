@@ -198,13 +198,14 @@ class _Scan:
         every = range(len(self.problem.records))
         shares_momentum = any(kind.values())
         shares = [0.0] if shares_momentum else [0.0, *((n + 0.5) / CELLS for n in range(CELLS))]
-        table = [self._sums(kind, share, every) for share in shares]
+        table = [self._sum_effect(kind, share, every) for share in shares]
         later = _Sums(0.0, 0.0, np.zeros(self.basis.shape[1]))
         for run in reversed(every):
             sums = [(share, row[run]) for share, row in zip(shares, table, strict=True)]
             if shares_momentum:
                 sums += [
-                    (one, self._sums(kind, one, (run,))[0]) for one in self._velocity_losses(run)
+                    (one, self._sum_effect(kind, one, (run,))[0])
+                    for one in self._velocity_losses(run)
                 ]
             for after in (None, later) if run < every[-1] else (None,):
                 tried = (
@@ -222,7 +223,7 @@ class _Scan:
             step *= 0.5
             shares = (one.share - step, one.share + step)
             tried = [
-                replace(one, share=share, here=self._sums(one.kind, share, (one.run,))[0])
+                replace(one, share=share, here=self._sum_effect(one.kind, share, (one.run,))[0])
                 for share in shares
                 if 0.0 < share < 1.0
             ]
@@ -275,7 +276,9 @@ class _Scan:
     def _size_parameters(self, size: float) -> dict[str, float]:
         return {one.name: size for one in self.effect.parameters if one.searched}
 
-    def _sums(self, kind: Mapping[str, float], share: float, runs: Sequence[int]) -> list[_Sums]:
+    def _sum_effect(
+        self, kind: Mapping[str, float], share: float, runs: Sequence[int]
+    ) -> list[_Sums]:
         """For each run, the sums of the effect from that share of the run to its end."""
         isolated, nuisance = self._isolate_runs(tuple(runs))
         onset = max(self.durations)  # the same in all runs, whose clocks are shifted to it

@@ -83,36 +83,36 @@ class Recordings:
         """The problem of all runs that may be fitted, without damaged intervals."""
         fitted = [name for name in self.logs_by_name if name != "held_out"]
         return self._make_problem(
-            [one for n, name in enumerate(fitted) for one in self._records(name, session=n)]
+            [one for n, name in enumerate(fitted) for one in self._make_records(name, session=n)]
         )
 
     def make_shown_problem(self, name: str) -> PredictionErrorProblem:
         """The problem of one log alone, on which a gap can be shown."""
-        return self._make_problem(self._records(name))
+        return self._make_problem(self._make_records(name))
 
     def count_repeated_runs(self, name: str) -> int:
         """Number of a log's runs that were recorded before, in it or in an earlier log."""
         if name not in self.logs_by_name:
             return 0
-        known = [run for log in self._before(name) for run in log.runs]
+        known = [run for log in self._list_logs_before(name) for run in log.runs]
         count = 0
         for run in self.logs_by_name[name].runs:
             count += any(_is_same_run(run, other) for other in known)
             known.append(run)
         return count
 
-    def _before(self, name: str) -> list[Log]:
+    def _list_logs_before(self, name: str) -> list[Log]:
         """The logs that were recorded before one."""
         return [
             log for one, log in self.logs_by_name.items() if ORDER.index(one) < ORDER.index(name)
         ]
 
-    def _records(self, name: str, *, session: int = 0) -> tuple[RunRecord, ...]:
+    def _make_records(self, name: str, *, session: int = 0) -> tuple[RunRecord, ...]:
         """The runs of one log, whose clock continues where the log before it ended."""
         return make_run_records(
             self.logs_by_name[name],
             session=session,
-            since=compute_session_length(*self._before(name)),
+            since=compute_session_length(*self._list_logs_before(name)),
             aside=self.damage.excluded.get(name, ()),
         )
 

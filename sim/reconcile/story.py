@@ -1,6 +1,5 @@
 """The result of reconcile: verdict, findings, and the gap at each step."""
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -12,6 +11,7 @@ from sim.core.log import Array, Log
 from sim.gap.place import Place
 from sim.physics.model import Model
 from sim.reconcile.probability import JudgedEffect
+from sim.support.printable import finite_or_none
 
 if TYPE_CHECKING:
     from sim.reconcile.model_variant import ModelVariants
@@ -168,14 +168,14 @@ class Story:
             **_gains_to_json(self.gains),
             "without_effects": _gains_to_json(self.gains_without),
             "noise_floor": self.noise_floor,
-            "gap_before": _finite(self.gap_before),
-            "gap_after": _finite(self.gap_after),
+            "gap_before": finite_or_none(self.gap_before),
+            "gap_after": finite_or_none(self.gap_after),
             "where": [
                 {
                     "what": one.what,
                     "where": one.where,
                     "signal": one.signal,
-                    "error": _finite(one.error),
+                    "error": finite_or_none(one.error),
                     "sure": one.sure,
                 }
                 for one in self.where
@@ -185,16 +185,11 @@ class Story:
         }
 
 
-def _finite(number: float | None) -> float | None:
-    """The number; None where it is not finite, which JSON cannot say."""
-    return number if number is not None and math.isfinite(number) else None
-
-
 def _gains_to_json(gains: Mapping[str, ParameterEstimate]) -> dict[str, Any]:
     """Gains and standard errors, with the keys of ``sysid fit --json``."""
     return {
         "gains": {name: one.value for name, one in gains.items()},
-        "errors": {name: _finite(one.error) for name, one in gains.items()},
+        "errors": {name: finite_or_none(one.error) for name, one in gains.items()},
     }
 
 
@@ -206,11 +201,11 @@ def _finding_to_json(one: Finding) -> dict[str, Any]:
         "probability": one.probability,
         "ambiguous_with": list(one.ambiguous_with),
         "parameters": {
-            name: {"value": p.value, "error": _finite(p.error), "unit": p.unit}
+            name: {"value": p.value, "error": finite_or_none(p.error), "unit": p.unit}
             for name, p in one.parameters.items()
         },
-        "gap_before": _finite(one.gap_before),
-        "gap_after": _finite(one.gap_after),
+        "gap_before": finite_or_none(one.gap_before),
+        "gap_after": finite_or_none(one.gap_after),
         "separating_test": one.separating_test,
         "sentence": one.sentence,
         "inspect": one.inspect,

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 
 from sim.core.doubt import Doubt
 from sim.core.units import find_unit
+from sim.fit.replay import SENSOR_LAGS
 from sim.physics.effects import EFFECTS
 from sim.reconcile.story import (
     AMBIGUOUS,
@@ -15,6 +16,7 @@ from sim.reconcile.story import (
     Story,
 )
 from sim.reconcile.thresholds import MAJOR_UNEXPLAINED, PROBABLE, VISIBLE_FLOORS
+from sim.support.printable import join_names, write_minus_sign
 
 FAR = 3.0  # [standard errors] by which two estimates of one gain hardly ever differ
 LEAST_ERROR = 1e-4  # [1] relative standard error below which only this limit is written
@@ -36,15 +38,15 @@ def _write_verdict(story: Story) -> str:
     majors = [one for one in story.findings if one.kind != FAULT and one.size == MAJOR]
     damaged = _describe_damage(faults, also="also " if majors else "")
     if story.verdict == UNEXPLAINED:
-        known = f"{_join([one.effect for one in majors])}, and " if majors else ""
-        gaps = _gaps(story)
+        known = f"{join_names([one.effect for one in majors])}, and " if majors else ""
+        gaps = _write_gaps(story)
         cause = "no known effect explains" if story.complete else "the search has not found so far"
         said = [f"The model is missing {known}something that {cause}.", gaps]
     elif majors:
-        missing = _join([_name_with_rivals(one) for one in majors])
+        missing = join_names([_name_with_rivals(one) for one in majors])
         doubt = "; these logs cannot tell which" if story.verdict == AMBIGUOUS else ""
         guess = "" if all(one.probability >= PROBABLE for one in majors) else "probably "
-        said = [f"The model is {guess}missing {missing}{doubt}.", _gaps(story)]
+        said = [f"The model is {guess}missing {missing}{doubt}.", _write_gaps(story)]
     elif story.verdict == NOTHING_MISSING or not faults:
         return _nothing_missing(story)
     else:
@@ -59,7 +61,7 @@ def _write_verdict(story: Story) -> str:
     if majors and story.remainder and story.complete and story.verdict != UNEXPLAINED:
         said.append("Something else remains that no known effect explains.")
     if suspected:
-        names = _join([one.effect for one in suspected])
+        names = join_names([one.effect for one in suspected])
         said.append(f"It may be what an inspection of the log finds: {names}.")
     return " ".join(said)
 
@@ -69,8 +71,10 @@ def _describe_damage(faults: Sequence[Finding], *, also: str) -> str:
     sure = [one.effect for one in faults if one.probability >= PROBABLE]
     unsure = [one.effect for one in faults if one.effect not in sure]
     if not sure:
-        return f"The log is probably {also}damaged: {_join(unsure)}." if unsure else ""
-    return f"The log is {also}damaged: {_join([*sure, *(f'probably {one}' for one in unsure)])}."
+        return f"The log is probably {also}damaged: {join_names(unsure)}." if unsure else ""
+    return (
+        f"The log is {also}damaged: {join_names([*sure, *(f'probably {one}' for one in unsure)])}."
+    )
 
 
 def list_effect_names(story: Story, size: str) -> list[str]:
@@ -112,12 +116,14 @@ def format_estimate(one: ParameterEstimate) -> tuple[str, str]:
     """An estimate and its standard error, as text with as many digits as they deserve."""
     if one.error is None or not (math.isfinite(one.error) and one.error > 0.0):
         chosen = one.error is None
-        return _minus(f"{one.value:.4g}"), "chosen, not searched" if chosen else "not known"
+        return write_minus_sign(
+            f"{one.value:.4g}"
+        ), "chosen, not searched" if chosen else "not known"
     if one.error < LEAST_ERROR * abs(one.value):
-        return _minus(f"{one.value:#.5g}".rstrip(".")), f"< {LEAST_ERROR:.2%} of it"
+        return write_minus_sign(f"{one.value:#.5g}".rstrip(".")), f"< {LEAST_ERROR:.2%} of it"
     size = max(abs(one.value), one.error)
     digits = 1 + math.floor(math.log10(size)) - math.floor(math.log10(one.error))
-    return _minus(f"{one.value:#.{max(digits + 1, 2)}g}".rstrip(".")), f"{one.error:.2g}"
+    return write_minus_sign(f"{one.value:#.{max(digits + 1, 2)}g}".rstrip(".")), f"{one.error:.2g}"
 
 
 def format_parameter(name: str, one: ParameterEstimate) -> str:
@@ -143,7 +149,7 @@ def list_gains(story: Story) -> tuple[tuple[str, str, str], ...]:
 def describe_gains(story: Story) -> str:
     """The heading of the gains: which effects the model has beside them."""
     added = [name for size in (MAJOR, MINOR) for name in list_effect_names(story, size)]
-    return f"Gains with {_join(added)}" if added else "Gains of the model without effects"
+    return f"Gains with {join_names(added)}" if added else "Gains of the model without effects"
 
 
 def list_gain_doubts(story: Story) -> tuple[Doubt, ...]:
@@ -155,15 +161,19 @@ def list_gain_doubts(story: Story) -> tuple[Doubt, ...]:
     if not moved or narrows_gap(story):
         return ()
     text = (
-        f"The effects change {_join(moved)} by far more than their errors allow, and narrow the "
-        "gap only a little. Before you use these gains, record another log, and compare."
+        f"The effects change {join_names(moved)} by far more than their errors allow, and narrow "
+        "the gap only a little. Before you use these gains, record another log, and compare."
     )
     return (Doubt("gains-move", text, gains=tuple(moved)),)
 
 
 def narrows_gap(story: Story) -> bool:
-    """Whether the effects narrow the gap so much that their gains are taken unasked."""
-    return story.gap_after < MAJOR_UNEXPLAINED * story.gap_before
+    """Whether the effects narrow the gap so much that their gains are taken unasked.
+
+    Lags of the sensor do not count: the fit has estimated them, too.
+    """
+    added = {one.added for one in story.chapters[1:]}
+    return bool(added - SENSOR_LAGS) and story.gap_after < MAJOR_UNEXPLAINED * story.gap_before
 
 
 def _differ(one: ParameterEstimate, other: ParameterEstimate) -> bool:
@@ -196,29 +206,29 @@ def list_remarks(story: Story) -> tuple[str, ...]:
 
 def _nothing_missing(story: Story) -> str:
     minor = list_effect_names(story, MINOR)
-    little = f", only a little {_join(minor)}" if minor else ""
+    little = f", only a little {join_names(minor)}" if minor else ""
     last = story.gap_after / story.noise_floor if story.noise_floor > 0.0 else math.inf
     if last > VISIBLE_FLOORS:
-        small = f" (a little: {_join(minor)})" if minor else ""
+        small = f" (a little: {join_names(minor)})" if minor else ""
         which = "known effect" if story.complete else "effect that was tried"
-        return f"No {which} makes the simulation error much smaller{small}. {_error(story)}"
+        return f"No {which} makes the simulation error much smaller{small}. {_write_error(story)}"
     big = " big" if minor or story.remainder else ""
     if not story.complete:
-        return f"So far it has found nothing{big}{little}. {_error(story)}"
+        return f"So far it has found nothing{big}{little}. {_write_error(story)}"
     rest = " Something small remains that no known effect explains." if story.remainder else ""
-    return f"Nothing{big} is missing{little}. {_error(story)}{rest}"
+    return f"Nothing{big} is missing{little}. {_write_error(story)}{rest}"
 
 
-def _error(story: Story) -> str:
+def _write_error(story: Story) -> str:
     gap = format_gap(story.gap_after, story)
     return f"The simulation error is {gap} times the sensor noise{_in_speed(story)}."
 
 
-def _gaps(story: Story) -> str:
+def _write_gaps(story: Story) -> str:
     before, after = (format_gap(gap, story) for gap in (story.gap_before, story.gap_after))
     added = [*list_effect_names(story, MAJOR), *list_effect_names(story, MINOR)]
     if len(story.chapters) == 1 or not added:
-        return _error(story)
+        return _write_error(story)
     all_ = {1: added[0], 2: "both"}.get(len(added), "all of them")
     with_ = f"With {all_} added, the simulation error"
     if len(added) > 1 and list_effect_names(story, MINOR):
@@ -240,13 +250,4 @@ def _name_with_rivals(one: Finding) -> str:
     """A finding, what it is, and its rivals: ``a (…), b or c``."""
     short = describe_effect(one.effect).partition(" (")[0]
     name = f"{one.effect} ({short})" if short else one.effect
-    return _join([name, *one.ambiguous_with], word="or")
-
-
-def _join(names: Sequence[str], *, word: str = "and") -> str:
-    *first, last = names or ("nothing",)
-    return f"{', '.join(first)} {word} {last}" if first else last
-
-
-def _minus(text: str) -> str:
-    return text.replace("-", "−") if "e" not in text else text
+    return join_names([name, *one.ambiguous_with], word="or")

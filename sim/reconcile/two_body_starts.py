@@ -64,20 +64,20 @@ class TwoBodyStarts:
         if heavy:
             tried += [{**one, "kA": HEAVIER * self.point.values["kA"]} for one in starts]
         rated = rate_starts(self.problem, self.point, structure, tried, jacobian=self.jacobian)
-        optimized = self._step(_best_of_each(rated, effect))
+        optimized = self._take_steps(_best_of_each(rated, effect))
         for most in FURTHER:
-            optimized = self._step(_one_per_minimum(optimized, names)[:most])
+            optimized = self._take_steps(_one_per_minimum(optimized, names)[:most])
         best = _one_per_minimum(optimized, names)
         if not best:
             return []
-        least = max(NEAR * self._gain(best[0]), LEAST_SCORE)
-        found = [one for one in best if self._gain(one) > least][:MINIMA]
+        least = max(NEAR * self._compute_improvement(best[0]), LEAST_SCORE)
+        found = [one for one in best if self._compute_improvement(one) > least][:MINIMA]
         return [{name: one.values[name] for name in names} for one in found]
 
-    def _step(self, points: Iterable[Estimate]) -> list[Estimate]:
+    def _take_steps(self, points: Iterable[Estimate]) -> list[Estimate]:
         return [levenberg_marquardt(self.problem, one, steps=1) for one in points]
 
-    def _gain(self, point: Estimate) -> float:
+    def _compute_improvement(self, point: Estimate) -> float:
         return self.point.cost - point.cost
 
 

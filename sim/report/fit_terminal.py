@@ -116,14 +116,14 @@ def format_error(value: float, error: float) -> str:
         return "not known"
     if error < FINEST * abs(value):
         return f"< {FINEST:.2%} of it"
-    return _round(error, _count_places(value, error))
+    return _write_rounded(error, _count_places(value, error))
 
 
 def format_value(value: float, error: float) -> str:
     """A value as text, with as many decimals as its error has: 0.250 for an error of 0.013."""
     if not math.isfinite(error):
         return f"{value:.4g}"
-    return _round(value, _count_places(value, error))
+    return _write_rounded(value, _count_places(value, error))
 
 
 def _count_places(value: float, error: float) -> int:
@@ -132,5 +132,5 @@ def _count_places(value: float, error: float) -> int:
     return 1 - math.floor(math.log10(error)) if error > 0.0 else 0
 
 
-def _round(number: float, places: int) -> str:
+def _write_rounded(number: float, places: int) -> str:
     return f"{round(number, places):.{max(places, 0)}f}"

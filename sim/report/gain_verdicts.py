@@ -39,7 +39,7 @@ def write_gain_verdict(found: Fit, log: Log | None = None) -> str:
         error = _format_error(name, found.gains[name], found.errors.get(name, math.nan))
         label = "angle" if name == "offset_rad" else name
         if not _is_usable(name, found.gains[name], found.errors.get(name, math.nan)):
-            advice = _advice(name, log) if log is not None else ""
+            advice = _advise_test(name, log) if log is not None else ""
             others.setdefault(advice, []).append(f"{label} not usable ({error})")
         elif any(name in doubt.gains for doubt in found.doubts):
             others.setdefault(READ, []).append(f"{label} not usable ({error})")
@@ -58,13 +58,14 @@ def judge_gains(found: Fit) -> str:
         for name, value in found.gains.items()
         if _is_usable(name, value, found.errors.get(name, math.nan))
     ]
+    doubted = {name for doubt in found.doubts for name in doubt.gains}
     if any(doubt.grave for doubt in found.doubts):
         return "Do not use"
-    if any(name in doubt.gains for doubt in found.doubts for name in sure):
+    if doubted >= set(sure):
+        return "Not usable"
+    if doubted & set(sure):
         return "Check first"
-    return (
-        "Not usable" if not sure else "Usable" if len(sure) == len(found.gains) else "Partly usable"
-    )
+    return "Usable" if len(sure) == len(found.gains) else "Partly usable"
 
 
 def list_gain_advice(found: Fit, log: Log) -> tuple[str, ...]:
@@ -79,7 +80,7 @@ def list_gain_advice(found: Fit, log: Log) -> tuple[str, ...]:
         for name, value in found.gains.items()
         if not _is_usable(name, value, found.errors.get(name, math.nan))
     ]
-    return tuple(dict.fromkeys(_advice(name, log) for name in unusable))
+    return tuple(dict.fromkeys(_advise_test(name, log) for name in unusable))
 
 
 def _is_usable(name: str, value: float, error: float) -> bool:
@@ -108,24 +109,24 @@ def _one_digit(number: float) -> str:
     return f"{float(f'{number:.1g}'):g}"
 
 
-def _advice(name: str, log: Log) -> str:
+def _advise_test(name: str, log: Log) -> str:
     """A sentence about the test that makes a gain usable."""
     slow, fast = (
         [run for run in log.runs if run.kind == kind] for kind in ("quasistatic", "dynamic")
     )
     if name == "kA":
-        step = _largest(fast)
+        step = _find_largest_voltage(fast)
         if step < SMALL_STEP and fast:
             return f"repeat the dynamic tests with a larger step than {step:.2g} V"
         return "repeat the dynamic tests, and log every loop" if fast else "add a dynamic test"
     missing = [way for way in DIRECTIONS if not any(run.direction == way for run in log.runs)]
     if missing or not slow:
         return f"add the tests in {missing[0]}" if slow else "add a quasistatic test"
-    if _largest(slow) < SMALL_STEP:
-        return f"let the quasistatic tests run beyond {_largest(slow):.2g} V"
+    if _find_largest_voltage(slow) < SMALL_STEP:
+        return f"let the quasistatic tests run beyond {_find_largest_voltage(slow):.2g} V"
     return "repeat the quasistatic tests with a slower ramp"
 
 
-def _largest(runs: Sequence[Run]) -> float:
+def _find_largest_voltage(runs: Sequence[Run]) -> float:
     """[V] the largest voltage of some runs, of either sign; 0 if there are none."""
     return max((float(np.max(np.abs(run.voltage), initial=0.0)) for run in runs), default=0.0)

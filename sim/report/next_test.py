@@ -17,6 +17,7 @@ from sim.inspect.detect_faults import Inspection
 from sim.inspect.fault import Damage
 from sim.inspect.launch import find_step_start
 from sim.report.gain_verdicts import list_gain_advice
+from sim.support.printable import join_names
 
 SETTLES = 3.0  # [time constants] after which a step has almost reached its final speed
 FEWEST = 2  # [samples] at reduced voltage that are taken as a limit
@@ -43,14 +44,14 @@ def advise_next(log: Log, *, found: Fit | None, inspection: Inspection, last: Se
             return problem
     missing = list_missing_tests(log)
     if missing:
-        return f"{_enumerate(missing)} {'is' if len(missing) == 1 else 'are'} missing."
+        return f"{join_names(missing)} {'is' if len(missing) == 1 else 'are'} missing."
     if found is None:
         return "All four tests are there, but they give no gains. Look for faults in the log."
     grave = [doubt for doubt in found.doubts if doubt.grave]
     if grave:
         return grave[0].text
     advice = list_gain_advice(found, log)
-    return f"{_capital('; '.join(advice))}." if advice else ENOUGH
+    return f"{_capitalize_first('; '.join(advice))}." if advice else ENOUGH
 
 
 def list_missing_tests(log: Log) -> tuple[str, ...]:
@@ -142,10 +143,5 @@ def _round_down(volts: float) -> float:
     return max(math.floor(volts / FINE + 1e-9) * FINE, FINE)
 
 
-def _enumerate(names: Sequence[str]) -> str:
-    """The names as a list in a sentence: ``a, b and c``."""
-    return " and ".join(filter(None, [", ".join(names[:-1]), names[-1]]))
-
-
-def _capital(text: str) -> str:
+def _capitalize_first(text: str) -> str:
     return text[:1].upper() + text[1:]

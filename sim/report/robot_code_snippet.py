@@ -30,6 +30,7 @@ from sim.core.units import TURN, find_unit
 from sim.feedback import PRESETS, Preset
 from sim.fit import Fit
 from sim.fit.feedback_trial import try_feedback_gains
+from sim.report.gain_verdicts import write_gain_verdict
 from sim.report.page_file import load_templates
 
 MOST_DIGITS = 5  # significant digits: errors of the model are larger than the next digit
@@ -183,7 +184,7 @@ def write_robot_code(
     if found.type not in chosen.units:
         raise BadRequest(
             f"an {found.type} for {chosen.name}, which holds the gains of a drive motor",
-            advice="Fit the log of the drive motors with --type simple.",
+            advice=Action("drive-type"),
         )
     converted = convert_units(found, chosen.units[found.type], radius=radius)
     feedback = tuple(_list_feedback(found, chosen, converted))
@@ -215,9 +216,12 @@ def write_robot_code(
 
 
 def _list_warnings(found: Fit) -> Iterator[str]:
-    """The lines of a list with the first sentence of each doubt."""
-    for doubt in found.doubts:
-        first = re.split(r"(?<=[.!?])\s+(?=[A-Z`])", doubt.message, maxsplit=1)[0]
+    """The lines of a list: the verdict on the gains, and the first sentence of each doubt."""
+    if not found.doubts:
+        return
+    messages = (f"Verdict: {write_gain_verdict(found)}", *(doubt.message for doubt in found.doubts))
+    for message in messages:
+        first = re.split(r"(?<=[.!?])\s+(?=[A-Z`])", message, maxsplit=1)[0]
         yield from textwrap.wrap(
             first, LINE, initial_indent="- ", subsequent_indent="  ", break_long_words=False
         )

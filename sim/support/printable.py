@@ -1,5 +1,6 @@
-"""Text to display: untrusted text without control characters, and shortened lists."""
+"""Text to display: untrusted text without control characters, lists, and numbers."""
 
+import math
 import unicodedata
 from collections.abc import Sequence
 
@@ -41,3 +42,19 @@ def _is_control(character: str) -> bool:
     if character in KEPT:
         return False
     return character in DIRECTIONS or unicodedata.category(character) in {"Cc", "Cs"}
+
+
+def join_names(names: Sequence[str], *, word: str = "and") -> str:
+    """The names as a list in a sentence: ``a, b and c``; ``nothing`` without any."""
+    *first, last = names or ("nothing",)
+    return f"{', '.join(first)} {word} {last}" if first else last
+
+
+def finite_or_none(number: float | None) -> float | None:
+    """The number; None where it is not finite, which JSON cannot say."""
+    return number if number is not None and math.isfinite(number) else None
+
+
+def write_minus_sign(number: str) -> str:
+    """A number as text with a minus sign (−); a power of ten keeps its hyphen, to be copied."""
+    return number if "e" in number else number.replace("-", "−")

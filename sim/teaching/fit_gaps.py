@@ -5,11 +5,13 @@ a = α·v + β·V + γ·sgn(v)        kS = −γ/β, kV = −α/β, kA = 1/β
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from textwrap import fill
 
 import numpy as np
 
 from sim.core.log import Array
 
+WIDTH = 80  # [characters] of a printed line; JupyterLab breaks longer ones inside a word
 SAMPLES = 12  # rows on which a student's line is compared with the right one
 CLOSE = 1e-9  # [1] relative tolerance for rounding errors
 
@@ -25,7 +27,7 @@ class FilledGaps:
         left: function of voltage, velocity and acceleration, (n,) each; the left side, (n,).
         columns: function of the same; the columns of α, β and γ, (n,) each.
         gains: function of α, β and γ; kS [V], kV and kA.
-        report: the feedback, one line for each blank.
+        report: the feedback to each blank.
     """
 
     left: Callable[[Array, Array, Array], Array]
@@ -79,8 +81,13 @@ def fill_gaps(*, left: Signals, columns: Signals, gains: Solved) -> FilledGaps:
         left if right[0] else put_acceleration_left,  # type: ignore[arg-type]  # judged to return such an array
         columns if right[1] else make_columns,  # type: ignore[arg-type]  # the same
         gains if right[2] else compute_gains,  # type: ignore[arg-type]  # the same
-        "\n".join(f"Gap {number}: {one}" for number, one in enumerate(feedback, start=1)),
+        format_report("Gap", feedback),
     )
+
+
+def format_report(label: str, feedback: Sequence[str]) -> str:
+    """The feedback to each blank, numbered and wrapped."""
+    return "\n".join(fill(f"{label} {k}: {one}", WIDTH) for k, one in enumerate(feedback, start=1))
 
 
 RIGHT, EMPTY = "right.", "still empty. Put your answer in place of the three dots."

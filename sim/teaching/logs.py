@@ -49,7 +49,7 @@ def read_own_log() -> tuple[Log, str]:
     made = sorted(OWN.glob("*/log.wpilog"))
     if made:
         log = read(made[0])
-        return log, f"Read {made[0]}: a log of {log.mechanism or 'a mechanism'}, in {log.units}."
+        return log, f"Read {made[0]}: a log of a {log.mechanism or 'mechanism'}, in {log.units}."
     rng = np.random.default_rng(9)
     log = simulate(MECHANISMS["shooter"].draw(rng), Routine(ramp=0.5, step=3.5), rng=rng)
     return log, (

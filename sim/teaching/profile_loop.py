@@ -11,6 +11,7 @@ on a robot. The mechanism is a simulated one, with its hidden effects, battery a
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from textwrap import fill
 
 import numpy as np
 
@@ -22,6 +23,7 @@ from sim.core.units import BATTERY
 from sim.physics.engine import NO_WIRES, simulate_run
 from sim.physics.engine import State as Body
 from sim.physics.model import Model
+from sim.teaching.fit_gaps import EMPTY, WIDTH
 
 LOOP = 0.02  # [s] loop period of the robot program
 SETTLING = 0.5  # [s] simulated after the end of the profile
@@ -285,7 +287,6 @@ Loop = Callable[[ElevatorFeedforward, PIDController, LoopInput], float]
 EXAMPLE = LoopInput(Setpoint(0.4, 0.8), Setpoint(0.418, 0.92), 0.37, 0.74)
 CLOSE = 1e-9  # [1] relative tolerance for rounding errors
 RIGHT = "Your loop: right."
-OURS = " The next cells use our loop until then."
 
 
 @dataclass(frozen=True)
@@ -294,7 +295,7 @@ class CheckedLoop:
 
     Args:
         loop: the student's function if it is right, else ``compute_loop_voltage``.
-        report: the feedback to it, one line.
+        report: the feedback to it.
     """
 
     loop: Loop
@@ -316,12 +317,10 @@ def check_loop(mine: Callable[..., object]) -> CheckedLoop:
     try:
         answer = mine(*_controllers(), EXAMPLE)
         if answer is ... or answer is None:
-            feedback_text = "Your loop: still empty. Put your answer in place of the three dots."
-            return CheckedLoop(compute_loop_voltage, feedback_text + OURS)
+            return _refuse_loop(EMPTY)
         found = float(answer)  # type: ignore[arg-type]  # whatever it is, the next lines say so
     except Exception as error:  # noqa: BLE001 - a student's line may fail in any way
-        feedback_text = f"Your loop: it stops with an error: {error}."
-        return CheckedLoop(compute_loop_voltage, feedback_text + OURS)
+        return _refuse_loop(f"it stops with an error: {error}.")
     wanted = compute_loop_voltage(*_controllers(), EXAMPLE)
     if math.isclose(found, wanted, rel_tol=CLOSE):
         return CheckedLoop(mine, RIGHT)  # type: ignore[arg-type]  # judged to answer with a number
@@ -329,7 +328,13 @@ def check_loop(mine: Callable[..., object]) -> CheckedLoop:
         (says for value, says in _wrong_loops() if math.isclose(found, value, rel_tol=CLOSE)),
         "Add two things: ff.calculateWithVelocities(…) and pid.calculate(…).",
     )
-    return CheckedLoop(compute_loop_voltage, f"Your loop: not yet. {hint}{OURS}")
+    return _refuse_loop(f"not yet. {hint}")
+
+
+def _refuse_loop(feedback: str) -> CheckedLoop:
+    """Our loop, with the feedback to the student's."""
+    report = f"Your loop: {feedback} The next cells use our loop until then."
+    return CheckedLoop(compute_loop_voltage, fill(report, WIDTH))
 
 
 def _controllers() -> tuple[ElevatorFeedforward, PIDController]:

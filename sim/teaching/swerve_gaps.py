@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from sim.core.units import GRAVITY
-from sim.teaching.fit_gaps import RIGHT, judge_gap
+from sim.teaching.fit_gaps import RIGHT, format_report, judge_gap
 
 WHEELS = 4
 SPIN = (31.4, 0.41, 40.0)  # rotation of the robot [rad], lever arm [m], turns of the wheel
@@ -29,7 +29,7 @@ class FilledFormulas:
             moment of inertia [kg·m²].
         grip: function of motor torque [N·m], gear ratio, wheel radius [m] and mass [kg]; the
             coefficient of friction [1].
-        report: the feedback, one line for each formula.
+        report: the feedback to each formula.
     """
 
     radius: Callable[[float, float, float], float]
@@ -83,5 +83,5 @@ def check_formulas(*, radius: Formula, inertia: Formula, grip: Formula) -> Fille
         radius if right[0] else compute_radius,  # type: ignore[arg-type]  # judged to return a number
         inertia if right[1] else compute_inertia,  # type: ignore[arg-type]  # the same
         grip if right[2] else compute_grip,  # type: ignore[arg-type]  # the same
-        "\n".join(f"Formula {number}: {one}" for number, one in enumerate(feedback, start=1)),
+        format_report("Formula", feedback),
     )

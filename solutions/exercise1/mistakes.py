@@ -76,7 +76,7 @@ MISTAKES = (
     Mistake("no acceleration while it brakes", ANSWERS, volts("braking", lambda s, v, _a, _: s + v),
         "braking", "kA·a is missing"),
     Mistake("braking as if it sped up", ANSWERS, volts("braking", lambda s, v, a, _: s + v - a),
-        "braking", "getting slower, a is negative"),
+        "braking", "slower, so a is negative"),
     Mistake("neither friction nor acceleration while it brakes", ANSWERS,
         volts("braking", lambda _s, v, _a, _: v), "braking", "maybe there are two mistakes"),
     Mistake("an acceleration at a steady speed", ANSWERS,

@@ -60,6 +60,9 @@ MISTAKES = (
     Mistake("the offset from vertical", ANSWERS,
         change_number("arm_offset", lambda right: right["arm_offset"] - 90.0), "arm-offset",
         "from vertical?"),
+    Mistake("the offset half a turn off", ANSWERS,
+        change_number("arm_offset", lambda right: right["arm_offset"] + 180.0), "arm-offset",
+        "it is 180° off"),
     Mistake("cosine over sine for the tangent", ANSWERS,
         change_number(
             "arm_offset",

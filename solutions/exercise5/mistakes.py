@@ -60,6 +60,16 @@ MISTAKES = (
         "share the trigger"),
     Mistake("two tests on one button, Python", PYTHON,
         replace_text(("self.driver.y()", "self.driver.x()")), "held", "share the trigger"),
+    Mistake("one test after the other on one button", JAVA,
+        replace_text(
+            (
+                "m_subsystem.sysIdDynamic(SysIdRoutine.Direction.kForward));",
+                (
+                    "m_subsystem.sysIdDynamic(SysIdRoutine.Direction.kForward).andThen(\n"
+                    "            m_subsystem.sysIdDynamic(SysIdRoutine.Direction.kReverse)));"
+                ),
+            )
+        ), "held", "one after the other"),
     Mistake("a method with the bindings that nobody calls", JAVA,
         replace_text(("    configureBindings();\n", "")), "held",
         "nothing calls configureBindings"),

@@ -1,6 +1,6 @@
 """Wrong answers to exercise 7, and what a learner must be told about each.
 
-They change the first log, which has one fault in a part of one test.
+Most change the first log, which has one fault in a part of one test.
 """
 
 import re
@@ -20,6 +20,7 @@ TAKEN_FOR = {
     "hard-stop": "brownout",
     "loop-overrun": "stale-samples",
 }
+DIP = 1.0  # [s] more than the cut: about as long as the speed takes to come back
 OTHER_WAY = {"forward": "reverse", "reverse": "forward"}
 
 
@@ -37,6 +38,15 @@ def first(line: str, **changes: Callable[[str], str]) -> Callable[[str], str]:
     return edit_text
 
 
+def name_whole_dip(text: str) -> str:
+    """Let a brownout end where the speed is back, not where the motor is on again."""
+    alone = re.compile(r'^(log\d+ = "brownout, \S+ [\d.]+ to )([\d.]+)(, rerun")$', re.MULTILINE)
+    wrong = alone.sub(lambda one: f"{one[1]}{float(one[2]) + DIP:.2f}{one[3]}", text)
+    if wrong == text:
+        raise ValueError("the solution has no brownout alone")
+    return wrong
+
+
 def milli(seconds: str) -> str:
     """A time in milliseconds."""
     return f"{1000 * float(seconds):.0f}"
@@ -52,6 +62,8 @@ MISTAKES = (
         "would look like this"),
     Mistake("the other way", ANSWERS, first(WHOLE, way=OTHER_WAY.__getitem__), "log01",
         "the place"),
+    Mistake("the whole dip of a brownout", ANSWERS, name_whole_dip, "log*",
+        "from the moment when the velocity begins to fall until it begins to rise"),
     Mistake("milliseconds", ANSWERS, first(WHOLE, begin=milli, end=milli), "log01",
         "Are your times in milliseconds?"),
     Mistake("no place", ANSWERS, first("{fault}, {action}"), "log01", "Where is it?"),

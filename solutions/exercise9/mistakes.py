@@ -14,6 +14,7 @@ from grader.mistake import (
 )
 
 ANSWERS, FUNCTION = "answers.toml", "fit.py"
+R2 = "simulated_velocity_r2"
 RAMP, PERIOD = 0.5, 0.02  # [V/s], [s] of the learner's log
 
 
@@ -120,9 +121,17 @@ MISTAKES = (
     Mistake(
         "R² in percent",
         ANSWERS,
-        scale_numbers(100, "acceleration_r2", "simulated_velocity_r2"),
+        scale_numbers(100, "acceleration_r2", R2),
         "metrics",
         "not percent",
+        "M-R2",
+    ),
+    Mistake(
+        "the R² of textbooks",
+        ANSWERS,
+        change_number(R2, lambda right: 1 - (1 - right[R2]) ** 2),
+        "metrics",
+        "That is the R² of textbooks",
         "M-R2",
     ),
     Mistake(

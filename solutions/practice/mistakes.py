@@ -23,7 +23,7 @@ MISTAKES = (
     Mistake("kV for rpm", ANSWERS, scale_numbers(1 / 60, "kV"), "gains-kv", "rpm", "M-UNITS"),
     Mistake("no kP noted", ANSWERS, make_wrong_answer("kP", '""'), "gains-kp", "nothing yet"),
     Mistake("R² in percent", ANSWERS, scale_numbers(100.0, "simulated_velocity_r2"), "r2",
-        "There are two R² values. Write the simulated", "M-R2"),
+        "write a fraction, not percent", "M-R2"),
     Mistake("an output for the theory's volts", ANSWERS, scale_numbers(1 / 12, "kV_theory"),
         "theory-kv-theory", "volts", "M-DUTY"),
     Mistake("a wrong verdict", ANSWERS, make_wrong_answer("verdict", '"inspect"'), "theory-verdict",

@@ -16,7 +16,6 @@ from sim.physics.effects import EFFECTS
 
 FAULTS = ("encoder-slip", "hard-stop")  # damage that a solver names among its findings
 SINGLES = (("real", False), ("subtle", False), ("real", True), ("subtle", True))
-OTHERS = ("complete", "unknown", "two")
 SHUFFLED = 20  # cases whose voltage is another's
 REAL, SUBTLE = "real", "subtle"
 

@@ -6,14 +6,14 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
+from places import ROOT
+
 from grader.check import Status
-from grader.course import find_course
 from grader.course_check import prepare_solved
 from grader.exercise import Exercise, Grade
 from mutation.mutant import Mutant
 from sim.core.errors import Refusal
 
-ROOT = find_course(Path(__file__).resolve().parent)
 BASES = Path(__file__).parent / "bases"
 STUDENT = "ann"
 GENERIC = ("something is wrong", "try again", "look at the answer again")

@@ -77,6 +77,7 @@ class Gains:
         line: where it is made.
         gains: the numbers in it, by place: ``kV``, ``kCos``, ``SensorToMechanismRatio``; None if
             nobody knows it.
+        step: [s] time step of a feedforward of WPILib; None if nobody knows it.
         choices: setting -> constant: ``GravityType`` -> ``Arm_Cosine``.
     """
 
@@ -84,6 +85,7 @@ class Gains:
     line: int
     gains: dict[str, float | None]
     choices: dict[str, str] = field(default_factory=dict)
+    step: float | None = None
 
 
 @dataclass(frozen=True)
@@ -211,7 +213,7 @@ def list_feedforwards() -> Iterator[Gains]:
     for one in [one for one in made if one.ks or one.kv or one.ka or one.kg] or made:
         kind = _name_class(one, CLASSES)
         gains = {name: to_number(getattr(one, name.lower())) for name in CLASSES[kind]}
-        yield Gains(kind, int(one._line), gains)
+        yield Gains(kind, int(one._line), gains, step=to_number(one.dt))
 
 
 def _list_made(kind: type) -> list[Any]:

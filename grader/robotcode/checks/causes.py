@@ -5,6 +5,7 @@ from collections.abc import Iterable, Mapping
 
 from grader.check import NotReachedError, WrongAnswer
 from grader.robotcode.bench.facts import TESTS, Outcome, ProgramFacts
+from sim.support.printable import join_names
 
 WHEN = {  # where a program stopped, in words
     "start": "when the robot's program starts",
@@ -27,8 +28,9 @@ def quote(line: int) -> str:
 
 def list_tests(tests: Iterable[str]) -> str:
     """Tests in words: ``dynamic forward and dynamic reverse``; all four are ``every test``."""
-    found = [one.replace("-", " ") for one in dict.fromkeys(tests)]
-    return "every test" if len(found) == len(TESTS) else " and ".join(found)
+    asked = set(tests)
+    found = [one.replace("-", " ") for one in TESTS if one in asked]
+    return "every test" if len(found) == len(TESTS) else join_names(found)
 
 
 def ask_for_files(unknown: Mapping[str, int], earned: float = 0.0) -> None:

@@ -31,7 +31,7 @@ def _add_setting(cls: type, name: str, attribute: str, kind: type = float) -> No
 
 
 class Feedforward(Fake):
-    """What all feedforwards share: ``ks``, ``kg``, ``kv``, ``ka`` are its gains at the moment.
+    """What all feedforwards share: gains ``ks``, ``kg``, ``kv``, ``ka``, and the time step ``dt``.
 
     What it computes is unknown: no test of SysId depends on it.
     """
@@ -47,7 +47,7 @@ class SimpleMotorFeedforward(Feedforward):
     """Of a flywheel or a drivetrain: allwpilib v2026.2.2, .../SimpleMotorFeedforward.java."""
 
     def __init__(self, kS: float, kV: float, kA: float = 0.0, dt: float = PERIOD) -> None:
-        self._register(ks=kS, kv=kV, ka=kA)
+        self._register(ks=kS, kv=kV, ka=kA, dt=dt)
 
 
 class ElevatorFeedforward(Feedforward):
@@ -56,7 +56,7 @@ class ElevatorFeedforward(Feedforward):
     def __init__(
         self, kS: float, kG: float, kV: float, kA: float = 0.0, dt: float = PERIOD
     ) -> None:
-        self._register(ks=kS, kg=kG, kv=kV, ka=kA)
+        self._register(ks=kS, kg=kG, kv=kV, ka=kA, dt=dt)
 
 
 class ArmFeedforward(ElevatorFeedforward):

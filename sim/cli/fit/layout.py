@@ -36,21 +36,21 @@ def write_layout(log: Path, tops: Sequence[str]) -> None:
     Raises:
         BadRequest: the file cannot be written.
     """
-    tabs = [_tab("", DOCUMENTATION, None)]
+    tabs = [_make_tab("", DOCUMENTATION, None)]
     for top in tops:
         name = top.rpartition("/")[2] if len(tops) > 1 else ""
         texts = (f"{top}/test", f"{top}/fault")
-        velocity = _line_graph(
+        velocity = _make_graph(
             (f"{top}/measured/velocity", f"{top}/simulated/velocity"), (f"{top}/voltage",), texts
         )
-        residual = _line_graph(
+        residual = _make_graph(
             (f"{top}/residual/velocity", f"{top}/innovation/velocity"),
             (f"{top}/residual/position", f"{top}/innovation/position"),
             texts,
         )
         tabs += [
-            _tab(f"{name} velocity".strip(), LINE_GRAPH, velocity),
-            _tab(f"{name} residual".strip(), LINE_GRAPH, residual),
+            _make_tab(f"{name} velocity".strip(), LINE_GRAPH, velocity),
+            _make_tab(f"{name} residual".strip(), LINE_GRAPH, residual),
         ]
     state = {
         "sidebar": {"width": 300, "expanded": ["/sysid", *(tops if len(tops) > 1 else ())]},
@@ -61,7 +61,7 @@ def write_layout(log: Path, tops: Sequence[str]) -> None:
     write_page_file(json.dumps(content, indent=2), choose_layout_path(log))
 
 
-def _tab(title: str, kind: int, controller: dict[str, Any] | None) -> dict[str, Any]:
+def _make_tab(title: str, kind: int, controller: dict[str, Any] | None) -> dict[str, Any]:
     return {
         "type": kind,
         "title": title,
@@ -72,14 +72,14 @@ def _tab(title: str, kind: int, controller: dict[str, Any] | None) -> dict[str, 
     }
 
 
-def _line_graph(left: Sequence[str], right: Sequence[str], texts: Sequence[str]) -> dict[str, Any]:
+def _make_graph(left: Sequence[str], right: Sequence[str], texts: Sequence[str]) -> dict[str, Any]:
     """The state of a line graph: numbers on its left and right axis, and texts as stripes."""
     colors = iter(COLORS)
     return {
-        "leftSources": [_number(key, next(colors)) for key in left],
-        "rightSources": [_number(key, next(colors)) for key in right],
+        "leftSources": [_make_number_source(key, next(colors)) for key in left],
+        "rightSources": [_make_number_source(key, next(colors)) for key in right],
         "discreteSources": [
-            _source("stripes", key, "String", {"color": color})
+            _make_source("stripes", key, "String", {"color": color})
             for key, color in zip(texts, COLORS, strict=False)
         ],
         "leftLockedRange": None,
@@ -91,9 +91,9 @@ def _line_graph(left: Sequence[str], right: Sequence[str], texts: Sequence[str])
     }
 
 
-def _number(key: str, color: str) -> dict[str, Any]:
-    return _source("stepped", key, "Number", {"color": color, "size": "normal"})
+def _make_number_source(key: str, color: str) -> dict[str, Any]:
+    return _make_source("stepped", key, "Number", {"color": color, "size": "normal"})
 
 
-def _source(kind: str, key: str, of: str, options: dict[str, str]) -> dict[str, Any]:
+def _make_source(kind: str, key: str, of: str, options: dict[str, str]) -> dict[str, Any]:
     return {"type": kind, "logKey": key, "logType": of, "visible": True, "options": options}

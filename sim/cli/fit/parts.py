@@ -67,7 +67,7 @@ def fit_parts(parts: Parts, find: Callable[[Log], Fit], *, files: int = 1) -> Po
     found = pool_fits(fits)
     if len(parts) == 1:
         return PooledParts(found, fits)
-    kind = _kind(parts, files)
+    kind = _name_kind(parts, files)
     left_out = tuple(
         Doubt("part-left-out", f"{kind} {name!r} cannot be fitted and was left out: {said.what}.")
         for name, said in refused.items()
@@ -79,7 +79,7 @@ def fit_parts(parts: Parts, find: Callable[[Log], Fit], *, files: int = 1) -> Po
     return PooledParts(found, fits, () if differ else (_describe_agreement(fits, kind),))
 
 
-def _kind(parts: Parts, files: int) -> str:
+def _name_kind(parts: Parts, files: int) -> str:
     """The word for the parts: side, motor or file."""
     if set(map(str.lower, parts)) == set(SIDES):
         return SIDE

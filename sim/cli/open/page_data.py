@@ -5,17 +5,18 @@ Samples are in SI; gains and their unit are those of the log, with the factor be
 
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, replace
 from typing import Any
 
 import numpy as np
 
 from sim.cli.entries import describe_entry
-from sim.cli.inspect import name_confidence
+from sim.cli.inspect import SURE, name_confidence
 from sim.cli.open.session import OpenLog, Reading, Session
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, Refusal, refuse_unknown
+from sim.core.leave_out import LeftOutPart
 from sim.core.log import Array, Log
 from sim.core.units import find_unit
 from sim.estimation.measurements import MIN_SAMPLES
@@ -24,8 +25,9 @@ from sim.fit import Fit
 from sim.fit.feedback_trial import try_feedback_gains, warn_of_bad_suggestions
 from sim.fit.fit_doubts import MISFIT
 from sim.fit.physics import Parts
-from sim.fit.physics.parts import check_radius_unit
+from sim.fit.physics.parts import check_radius_unit, fit_in_si
 from sim.fit.replay import replay_fit
+from sim.fit.sysid_doubts import UNSURE_GAIN, warn_of_uncertain_gains
 from sim.inspect.detect_faults import Inspection
 from sim.io.entries.entry import NUMBERS, SECOND, STRING, Entry
 from sim.physics.engine import engine_can_compile, engine_is_cached
@@ -36,6 +38,7 @@ from sim.reconcile.story import ParameterEstimate
 from sim.report.fit_terminal import format_gains
 from sim.report.gain_verdicts import judge_gains, write_gain_verdict
 from sim.report.robot_code_snippet import ORDER, write_robot_code
+from sim.support.printable import finite_or_none, join_names
 
 SIGNALS = ("time", "voltage", "position", "velocity")
 MOST_ENTRIES = 400  # entries listed to choose from
@@ -48,6 +51,7 @@ MEANS = {
     "kG": "gravity: the volts that hold it where gravity pulls most",
     "offset_rad": "what to add to the sensor's angle, to count from horizontal",
 }
+WORDS = ("type", "preset", "units", "before", "motor")  # of a request for feedback gains
 ALLOWED = ("position_error", "velocity_error", "volts")  # weights of the regulator
 LAGS = 1e-5  # [s] a shorter lag is shown as 0
 
@@ -101,6 +105,7 @@ def describe_log(one: OpenLog, reading: Reading) -> dict[str, Any]:
         "mechanism": log.mechanism,
         "runs": runs,
         "samples": sum(map(len, log.runs)),
+        "top": log.top_speed / unit.si,
         "compiles": not engine_is_cached(),
         "compiled": engine_can_compile(),
     }
@@ -166,7 +171,11 @@ def describe_faults(found: Inspection, one: OpenLog) -> dict[str, Any]:
     for fault in data["faults"]:
         fault["evidence"] = _without_path(fault["evidence"], one)
         fault["sureness"] = name_confidence(fault["confidence"])
-    return {"faults": data["faults"], "doubts": _doubts(found.doubts, one), "clean": data["clean"]}
+    return {
+        "faults": data["faults"],
+        "doubts": _describe_doubts(found.doubts, one),
+        "clean": data["clean"],
+    }
 
 
 def describe_fit(
@@ -190,7 +199,7 @@ def describe_fit(
             "label": label,
             "value": found.gains[name],
             "text": text.replace("-", "−"),
-            "error": _finite(found.errors.get(name, math.nan)),
+            "error": finite_or_none(found.errors.get(name, math.nan)),
             "error_text": error,
             "unit": unit,
             "means": MEANS[name],
@@ -200,8 +209,8 @@ def describe_fit(
     return {
         "type": found.type,
         "gains": gains,
-        **_judge(found, log),
-        "doubts": _doubts(found.list_doubts(), one),
+        **_describe_verdict(found, log),
+        "doubts": _describe_doubts(found.list_doubts(), one),
         "notes": [] if chosen else list(pooled.notes),
         "tracks": _list_tracks(chosen, log) if chosen else None,
         "parts": [] if chosen else sorted(part.effect for part in found.parts),
@@ -227,7 +236,7 @@ def _apply_model(found: Fit, chosen: ModelVariant | None) -> Fit:
     return replace_gains(found, chosen.gains, chosen.parts, chosen.doubts)
 
 
-def _judge(found: Fit, log: Log) -> dict[str, str]:
+def _describe_verdict(found: Fit, log: Log) -> dict[str, str]:
     return {"word": judge_gains(found), "verdict": write_gain_verdict(found, log)}
 
 
@@ -239,8 +248,8 @@ def describe_directions(one: OpenLog, reading: Reading) -> dict[str, Any]:
     """
     found, (doubted, notes) = one.fit(reading).found, one.compare_directions(reading)
     more = [doubt for doubt in doubted.doubts if doubt not in found.doubts]
-    verdict = _judge(doubted.in_log_units(), one.combine_runs(reading))
-    return verdict | {"doubts": _doubts(more, one), "notes": list(notes)}
+    verdict = _describe_verdict(doubted.in_log_units(), one.combine_runs(reading))
+    return verdict | {"doubts": _describe_doubts(more, one), "notes": list(notes)}
 
 
 def _describe_starts(found: Fit, log: Log) -> dict[str, Any]:
@@ -294,7 +303,8 @@ def write_code(
     moved = {name: float(query[name]) for name in found.gains if _is_number(query.get(name, ""))}
     errors = {name: error for name, error in found.errors.items() if name not in moved}
     # A value set by hand has no standard error
-    doubts = tuple(replace(some, message=_without_path(some.message, one)) for some in found.doubts)
+    known = (*found.doubts, *_doubt_faults(one, reading))
+    doubts = tuple(replace(some, message=_without_path(some.message, one)) for some in known)
     found = replace(found, gains={**found.gains, **moved}, errors=errors, doubts=doubts)
     radius = float(query["radius"]) if _is_number(query.get("radius", "")) else None
     code = write_robot_code(found, target=language, season=int(season), radius=radius)
@@ -302,6 +312,22 @@ def write_code(
         comment = "#" if language == "python" else "//"
         code = f"{comment} Moved by hand, not measured: {', '.join(moved)}\n{code}"
     return {"code": code}
+
+
+def _doubt_faults(one: OpenLog, reading: Reading) -> Iterator[Doubt]:
+    """A doubt for each kind of fault that is sure, where it was not left out."""
+    gone = [LeftOutPart.parse(part) for part in reading.left_out]
+    for kind in one.inspect(reading).group_by_kind():
+        left = [
+            where.test or "the whole log"
+            for where in (fault.where for fault in kind if fault.confidence >= SURE)
+            if not any(part.covers(where.test, where.start, where.end) for part in gone)
+        ]
+        if left:
+            tests = join_names(list(dict.fromkeys(left)))
+            yield Doubt(
+                kind[0].fault, f"{kind[0].fault.replace('-', ' ').capitalize()} in {tests}."
+            )
 
 
 def _is_number(text: str) -> bool:
@@ -322,13 +348,25 @@ def describe_feedback(query: Mapping[str, str]) -> dict[str, Any]:
     Raises:
         Refusal: there are no feedback gains for these numbers.
     """
-    numbers = {name: float(text) for name, text in query.items() if _is_number(text)}
     type_, chosen = query.get("type", "simple"), query.get("preset", "default")
     refuse_unknown("preset", chosen, PRESETS)
+    texts = {name: text for name, text in query.items() if text and name not in WORDS}
+    wrong = [name for name, text in texts.items() if not _is_number(text)]
+    wrong += [
+        name
+        for name in ALLOWED
+        if name in texts and name not in wrong and float(texts[name]) <= 0.0
+    ]
+    if wrong:
+        label = wrong[0].replace("_", " ")
+        raise BadRequest(f"{texts[wrong[0]]!r} is no {label}", advice="Type a number above zero.")
+    numbers = {name: float(text) for name, text in texts.items()}
     delays = {name: numbers.get(name, 0.0) for name in ("position_delay", "velocity_delay")}
     gains = {name: numbers.get(name, 0.0) for name in (*ORDER.get(type_, ()), "offset_rad")}
-    found = Fit.from_gains(gains, type=type_, units=query.get("units", "meters"), **delays)
-    per = find_unit(found.units)
+    units = query.get("units", "meters")
+    given = Fit.from_gains(gains, type=type_, units=query.get("before") or units, **delays)
+    found = given.in_units(units)
+    per = find_unit(units)
     if query.get("motor"):
         count, ratio, radius = (numbers.get(name, 1.0) for name in ("count", "ratio", "radius"))
         motor = find_motor(query["motor"])
@@ -336,12 +374,12 @@ def describe_feedback(query: Mapping[str, str]) -> dict[str, Any]:
         check_radius_unit(parts, found)
         theory = {"kV": parts.kv * per.si, "kA": (parts.ka or 0.0) * per.si}
         found = replace(found, gains=gains | theory)
-    allowed = {name: numbers[name] for name in ALLOWED if numbers.get(name, 0.0) > 0.0}
+    allowed = {name: numbers[name] for name in ALLOWED if name in numbers}
     tried = try_feedback_gains(found, PRESETS[chosen], allowed=allowed)
     rows = []
-    for trial in tried:
-        units = PRESETS[chosen].format_units(trial.loop, per.symbol)
-        pairs = zip(("kP", "kD"), (trial.gains.kp, trial.gains.kd), units, strict=True)
+    for trial in filter(lambda trial: trial.is_good, tried):
+        symbols = PRESETS[chosen].format_units(trial.loop, per.symbol)
+        pairs = zip(("kP", "kD"), (trial.gains.kp, trial.gains.kd), symbols, strict=True)
         shown = [f"{name} {value:.4g} {unit}" for name, value, unit in pairs if value]
         rows.append({"loop": trial.loop, "gains": shown, "step": trial.verdict.description})
     doubts = [one.message for one in warn_of_bad_suggestions(found, tried)]
@@ -389,7 +427,7 @@ def describe_refusal(refusal: Refusal, folder: str) -> dict[str, Any]:
     }
 
 
-def _doubts(doubts: Sequence[Doubt], one: OpenLog) -> list[dict[str, Any]]:
+def _describe_doubts(doubts: Sequence[Doubt], one: OpenLog) -> list[dict[str, Any]]:
     return [
         {
             "code": doubt.code,
@@ -411,11 +449,6 @@ def _without_path(text: str, one: OpenLog) -> str:
     return f"{start}{short[1:]}".replace(str(one.path), one.name)
 
 
-def _finite(value: float) -> float | None:
-    """The value, or None if it is not finite, which JSON cannot hold."""
-    return value if math.isfinite(value) else None
-
-
 def replace_gains(
     plain: Fit,
     gains: Mapping[str, ParameterEstimate],
@@ -427,11 +460,14 @@ def replace_gains(
     That the model without effects misses the log says nothing about these gains, unless it is
     grave; everything else that is doubted of the log still holds.
     """
-    kept = (one for one in plain.doubts if one.grave or one.code not in MISFIT)
-    return replace(
+    gone = MISFIT | {UNSURE_GAIN}
+    found = replace(
         plain,
         gains={name: one.value for name, one in gains.items()},
         errors={name: one.error for name, one in gains.items() if one.error is not None},
         parts=parts,
-        doubts=(*kept, *doubts),
+        doubts=(*(one for one in plain.doubts if one.grave or one.code not in gone), *doubts),
     )
+    si = fit_in_si(found)
+    unsure = warn_of_uncertain_gains(si.gains, si.errors, per=find_unit(found.units))
+    return replace(found, doubts=(*found.doubts, *unsure))

@@ -89,7 +89,7 @@ class ReconcileJob:
             logs = self._read()
             self._said = {doubt.text for log in logs.values() for doubt in log.doubts}
             self.story = search_effects(
-                logs, type=self._type, effort=self._effort, progress=self._note,
+                logs, type=self._type, effort=self._effort, progress=self._store_progress,
                 is_stopped=self._stopped.is_set, left_out=self._left_out,
             )  # fmt: skip
         except Refusal as refusal:
@@ -101,7 +101,7 @@ class ReconcileJob:
                 advice="Try sysid reconcile, which says more.",
             )
 
-    def _note(self, words: str, share: float) -> None:
+    def _store_progress(self, words: str, share: float) -> None:
         self._words, self._share = words, share
 
 
@@ -190,14 +190,14 @@ def search_effects(
     """
     progress("looking for damage", 0.0)
     log, *_ = logs.values()
-    damages = {name: inspect_damage(some) for name, some in logs.items()}
+    damages = {name: inspect_damage(some) for name, some in logs.items() if name != "log"}
     gone = [
         DamagedInterval(k, float(time[0]), float(time[-1]), LEFT_OUT, 1.0, "", "")
         for part in left_out
         for k, run in enumerate(log.runs)
         if (time := run.time[part.find(run)]).size
     ]
-    rest = [one for one in damages["log"] if not any(map(one.is_within, gone))]
+    rest = inspect_damage(log, left_out=left_out)
     return reconcile(
         log,
         validation=logs.get("validation"),
@@ -210,11 +210,24 @@ def search_effects(
     )
 
 
-def inspect_damage(log: Log) -> tuple[DamagedInterval, ...]:
-    """The damaged intervals that an inspection finds in a log, as ``reconcile`` takes them."""
+def inspect_damage(
+    log: Log, *, left_out: Sequence[LeftOutPart] = ()
+) -> tuple[DamagedInterval, ...]:
+    """The damaged intervals that an inspection finds in a log, as ``reconcile`` takes them.
+
+    What is ordinary, such as frames of 20 ms, is no damage.
+
+    Args:
+        log: the log.
+        left_out: parts whose damage does not count.
+    """
     found = []
     for one in inspect(log).damages:
         where = one.where
+        if one.ordinary or any(
+            part.covers(where.test, where.start, where.end) for part in left_out
+        ):
+            continue
         intervals: tuple[tuple[float, float], ...] = ((where.start, where.end),)
         if one.fault == DROPOUT and where.run is not None:
             intervals = find_dropout_intervals(

@@ -139,7 +139,7 @@ class PageRequest(BaseHTTPRequestHandler):
             case "GET", ["feedback"]:
                 self._send_json(page_data.describe_feedback(query))
             case "GET", ["logs", number, what]:
-                self._send_of_log(self._log(number), what, query)
+                self._send_of_log(self._find_log(number), what, query)
             case "GET", [name]:
                 self._send_file(name)
             case "POST", ["logs"]:
@@ -147,20 +147,20 @@ class PageRequest(BaseHTTPRequestHandler):
                 self._receive(path)
                 self._send_json(page_data.name_log(session.add(name, path)))
             case "POST", ["example"]:
-                self._drain()
+                self._discard_body()
                 self._send_json(page_data.name_log(session.add_example()))
             case "DELETE", ["logs", number]:
-                self._drain()
-                session.close(self._log(number).number)
+                self._discard_body()
+                session.close(self._find_log(number).number)
                 self._send_json({})
             case "DELETE", ["logs", number, "reconcile"]:
-                self._drain()
-                self._search(self._log(number), query).stop()
+                self._discard_body()
+                self._start_search(self._find_log(number), query).stop()
                 self._send_json({})
             case _:
                 self._refuse(HTTPStatus.NOT_FOUND, "there is nothing here")
 
-    def _log(self, number: str) -> OpenLog:
+    def _find_log(self, number: str) -> OpenLog:
         return self.server.session.find(int(number) if number.isdecimal() else 0)
 
     def _send_of_log(self, one: OpenLog, what: str, query: Mapping[str, str]) -> None:
@@ -174,7 +174,9 @@ class PageRequest(BaseHTTPRequestHandler):
                 "this page shows the data alone", advice="Open the log with sysid open FILE."
             )
         reading = Reading.from_query(query)
-        search = self._search(one, query) if what == "reconcile" or query.get("effects") else None
+        search = (
+            self._start_search(one, query) if what == "reconcile" or query.get("effects") else None
+        )
         if what == "samples":
             content = page_data.pack_samples(one.combine_runs(reading))
             self._send(content, "application/octet-stream")
@@ -194,9 +196,9 @@ class PageRequest(BaseHTTPRequestHandler):
             else:
                 self._send_json(data)
 
-    def _search(self, one: OpenLog, query: Mapping[str, str]) -> ReconcileJob:
+    def _start_search(self, one: OpenLog, query: Mapping[str, str]) -> ReconcileJob:
         """The search that a request names; it begins if there is none yet."""
-        others = {role: self._log(query[role]) for role in ROLES if query.get(role)}
+        others = {role: self._find_log(query[role]) for role in ROLES if query.get(role)}
         effort = 5.0 if query.get("longer") else 1.0
         return one.reconcile(Reading.from_query(query), others, effort)
 
@@ -227,7 +229,7 @@ class PageRequest(BaseHTTPRequestHandler):
                 stream.write(piece)
                 left -= len(piece)
 
-    def _drain(self) -> None:
+    def _discard_body(self) -> None:
         """Read a body that is not needed, so that the next request of this connection is found."""
         length = self.headers.get("Content-Length", "0")
         if length.isdecimal() and int(length) <= PIECE:

@@ -93,13 +93,13 @@ class LiveFit:
         """
         recordings = tuple(self.source.poll())
         refusals: list[Refusal] = []
-        ended = [test for one in recordings for test in self._follow(one, refusals)]
+        ended = [test for one in recordings for test in self._read_ended_tests(one, refusals)]
         if not ended:
             return None
-        self.last = self._renew(recordings, tuple(ended), refusals)
+        self.last = self._fit_recordings(recordings, tuple(ended), refusals)
         return self.last
 
-    def _follow(self, one: Recording, refusals: list[Refusal]) -> list[str]:
+    def _read_ended_tests(self, one: Recording, refusals: list[Refusal]) -> list[str]:
         """Read a recording again if tests in it have ended; the names of these tests."""
         try:
             tests = one.growing.list_tests()
@@ -116,7 +116,7 @@ class LiveFit:
                 refusals.append(refusal)
         return new
 
-    def _renew(
+    def _fit_recordings(
         self, recordings: Sequence[Recording], ended: tuple[str, ...], refusals: Sequence[Refusal]
     ) -> WatchUpdate:
         """Fit and inspect all recordings, and write the advice."""

@@ -81,7 +81,7 @@ class NetworkTablesSource:
             elif isinstance(event.data, self._ntcore.TimeSyncEventData):
                 self._store_start(event.data)
             elif isinstance(event.data, self._ntcore.ValueEventData):
-                self._record(event.data.topic, event.data.value)
+                self._record_value(event.data.topic, event.data.value)
         if lost and not self._connected:
             # a client drops values older than its latest, and a robot's clock restarts at zero
             self._client.close()
@@ -101,7 +101,7 @@ class NetworkTablesSource:
             now = int(self._ntcore.Value.makeDouble(0.0).time())
             self._since = now + int(sync.serverTimeOffset)
 
-    def _record(self, topic: Any, value: Any) -> None:  # noqa: ANN401 - ntcore ships no types
+    def _record_value(self, topic: Any, value: Any) -> None:  # noqa: ANN401 - ntcore ships no types
         kind = TYPES.get(topic.getTypeString())
         if kind is None:
             return
@@ -172,11 +172,13 @@ class _TopicRecorder:
             if test in TESTS and time < self._since:
                 return
             if self._tests.get(name, (0, ""))[1] != test:
-                self._tests[name] = (self._count(time), test)
+                self._tests[name] = (self._count_microseconds(time), test)
         metadata = json.dumps({"properties": properties, "source": "NT"})  # as DataLogManager
-        self._file.record(_entry_name(name), kind, self._count(time), value, metadata=metadata)
+        self._file.record(
+            _entry_name(name), kind, self._count_microseconds(time), value, metadata=metadata
+        )
 
-    def _count(self, time: int) -> int:
+    def _count_microseconds(self, time: int) -> int:
         """The time since the recording began [µs]."""
         return max(time - self._since, 0)
 

@@ -72,9 +72,9 @@ class FileSource:
         self._known: dict[tuple[int, int], Recording] = {}
         self._sizes: dict[tuple[int, int], int] = {}
         if place.is_file():
-            self._begin(place, _identify(place))
+            self._begin_recording(place, _identify_file(place))
         elif place.is_dir():
-            self._sizes = {key: size for _, key, size in self._list()}
+            self._sizes = {key: size for _, key, size in self._list_logs()}
         else:
             raise UnreadableFile(
                 "there is no such file or folder",
@@ -91,15 +91,15 @@ class FileSource:
 
     def poll(self) -> Sequence[Recording]:
         """All recordings so far."""
-        for path, key, size in self._list():
+        for path, key, size in self._list_logs():
             if key in self._known:
                 self._known[key].growing.path = path
             elif self._sizes.get(key, -1) != size and self._is_followed(path):
-                self._begin(path, key)
+                self._begin_recording(path, key)
         if self._recordings and self._recordings[-1].path.exists():
             last = self._recordings[-1]
             if last.growing.was_replaced:
-                self._begin(last.path, _identify(last.path))
+                self._begin_recording(last.path, _identify_file(last.path))
         return self._recordings
 
     def close(self) -> None:
@@ -109,12 +109,12 @@ class FileSource:
         """Whether a new file is to be followed."""
         return self.place.is_dir() or path == self.place
 
-    def _begin(self, path: Path, key: tuple[int, int]) -> None:
+    def _begin_recording(self, path: Path, key: tuple[int, int]) -> None:
         recording = Recording(path, state=self._state)
         self._recordings.append(recording)
         self._known[key] = recording
 
-    def _list(self) -> list[tuple[Path, tuple[int, int], int]]:
+    def _list_logs(self) -> list[tuple[Path, tuple[int, int], int]]:
         """Path, identity and size [bytes] of each log in the folder, the oldest first."""
         folder = self.place if self.place.is_dir() else self.place.parent
         found = []
@@ -131,7 +131,7 @@ def _is_log(path: Path) -> bool:
     return path.suffix.lower() in SUFFIXES
 
 
-def _identify(path: Path) -> tuple[int, int]:
+def _identify_file(path: Path) -> tuple[int, int]:
     """The device and inode number of a file, which stay the same when it is renamed."""
     stat = path.stat()
     return stat.st_dev, stat.st_ino

@@ -94,12 +94,12 @@ def compute_moment_of_inertia(
     """
     if by_wheels:
         turning = _per_radian(turning, lever)
-    _check(turning, straight, mass=mass, lever=lever)
+    _refuse_unusable(turning, straight, mass=mass, lever=lever)
     turn, go = fit_in_si(turning), fit_in_si(straight)
     in_turns = find_unit(straight.units).angular
     from_speeds = turn.gains["kV"] / go.gains["kV"]
     if in_turns and lever is not None:  # the lever arm gives the meters per rotation
-        go, from_speeds = _scaled(go, from_speeds / lever), lever
+        go, from_speeds = _scale_gains(go, from_speeds / lever), lever
     arm = from_speeds if lever is None else lever
     value = mass * arm * turn.gains["kA"] / go.gains["kA"]
     parts = [one.errors["kA"] / one.gains["kA"] for one in (turn, go)]
@@ -124,11 +124,11 @@ def _per_radian(turning: Fit, lever: float | None) -> Fit:
             "the log of turning contains the distance of the wheels, not the angle of the robot",
             advice="Give --lever as well: trackwidth/√2 of a square swerve, half of it of a tank.",
         )
-    found = _scaled(turning.in_units("meters"), lever)
+    found = _scale_gains(turning.in_units("meters"), lever)
     return replace(found, units="radians", log_units="radians")
 
 
-def _scaled(found: Fit, factor: float) -> Fit:
+def _scale_gains(found: Fit, factor: float) -> Fit:
     """The fit with kV and kA for a unit of position that is ``factor`` times as large."""
     return replace(
         found,
@@ -137,7 +137,7 @@ def _scaled(found: Fit, factor: float) -> Fit:
     )
 
 
-def _check(turning: Fit, straight: Fit, *, mass: float, lever: float | None) -> None:
+def _refuse_unusable(turning: Fit, straight: Fit, *, mass: float, lever: float | None) -> None:
     """Refuse what ``compute_moment_of_inertia`` cannot use."""
     for name, number, unit in (("mass", mass, "kg"), ("lever", lever, "m")):
         if number is not None and not (math.isfinite(number) and number > 0.0):

@@ -122,6 +122,57 @@ def chart_gain_errors(errors: Mapping[str, float]) -> Chart:
     return Chart("standard error [% of the gain]", "", bars, tuple(errors), x=(0.0, 118.0))
 
 
+def chart_curves(
+    x: Sequence[float] | Array,
+    lines: Mapping[str, Sequence[float] | Array],
+    *,
+    xlabel: str,
+    ylabel: str,
+    levels: Mapping[str, float] | None = None,
+    marks: Mapping[str, tuple[float, float]] | None = None,
+) -> Chart:
+    """One or more curves over a common axis.
+
+    Args:
+        x: (n,) values of the horizontal axis.
+        lines: name -> (n,) values.
+        xlabel: label of the horizontal axis, with unit.
+        ylabel: label of the vertical axis, with unit.
+        levels: name -> height of a dashed line, as the truth or a limit.
+        marks: name -> point to mark.
+    """
+    ends = [x[0], x[-1]]
+    curves = [
+        *(Curve(name, x, y, "line", color) for color, (name, y) in enumerate(lines.items())),
+        *(Curve(name, ends, [level] * 2, "dashed") for name, level in (levels or {}).items()),
+        *(Curve(name, [at], [up], "dots") for name, (at, up) in (marks or {}).items()),
+    ]
+    return Chart(xlabel, ylabel, curves)
+
+
+def chart_line_errors(
+    x: Array, y: Array, *, intercept: float, slope: float, xlabel: str, ylabel: str
+) -> Chart:
+    """A few points, a straight line, and the error of the line at each point.
+
+    Args:
+        x: (n,) horizontal coordinates of the points.
+        y: (n,) vertical coordinates of the points.
+        intercept: value of the line at x = 0.
+        slope: slope of the line.
+        xlabel: label of the horizontal axis, with unit.
+        ylabel: label of the vertical axis, with unit.
+    """
+    line, ends = intercept + slope * x, np.array([0.0, 1.05 * x.max()])
+    gap = np.full(x.size, np.nan)  # ends one error before the next begins
+    errors = Curve("errors", np.repeat(x, 3), np.stack([line, y, gap], axis=1).ravel(), "line", 3)
+    fitted = Curve("the line", ends, intercept + slope * ends, "dashed", 1)
+    total = to_text(float(np.sum((y - line) ** 2)))
+    title = f"The sum of the squared errors is {total}."
+    samples = Curve("samples", x, y, "dots", 0)
+    return Chart(xlabel, ylabel, (fitted, errors, samples), title=title)
+
+
 def chart_bands(values: Mapping[str, float], bands: Mapping[str, float], *, xlabel: str) -> Chart:
     """Numbers as dots, one in a row, on the named bands of a scale.
 

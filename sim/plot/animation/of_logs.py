@@ -18,7 +18,8 @@ from sim.plot.animation import (
 )
 
 STEP = 0.005  # of a slider
-SLIDERS = {"kS": ("V", 0.6), "kV": ("V·s/m", 4.0), "kA": ("V·s²/m", 0.8)}  # and its end
+# Gain -> its unit, and both ends of its slider: without a kV or a kA, no model moves.
+SLIDERS = {"kS": ("V", 0.0, 0.6), "kV": ("V·s/m", STEP, 4.0), "kA": ("V·s²/m", STEP, 0.8)}
 
 
 def animate_logs(
@@ -87,8 +88,8 @@ def animate_model(
         choices=(Choice("test", tuple(tests)),),
         panels=(Panel("velocity", "velocity [m/s]", low=0.0, high=1.4),),
         knobs=[
-            Knob(name, f"{name} [{unit}]", 0.0, high, STEP, round(gains[name], 3))
-            for name, (unit, high) in SLIDERS.items()
+            Knob(name, f"{name} [{unit}]", low, high, STEP, round(gains[name], 3))
+            for name, (unit, low, high) in SLIDERS.items()
         ],
         score=Score("model"),
         alt=alt,

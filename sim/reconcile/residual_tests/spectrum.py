@@ -58,7 +58,9 @@ def find_spectral_peak(problem: PredictionErrorProblem, point: Estimate) -> Spec
             wave = np.exp(-2j * np.pi * rates[place] * time)
             power[place] += abs(wave @ values) ** 2 / (values.size * mean)
         count[slowest:] += 1.0
-    sizes = (_surprisal(p, int(n)) for p, n in zip(power.tolist(), count.tolist(), strict=True))
+    sizes = (
+        _compute_surprisal(p, int(n)) for p, n in zip(power.tolist(), count.tolist(), strict=True)
+    )
     found = (SpectralPeak(size, rate) for size, rate in zip(sizes, rates.tolist(), strict=True))
     return max(found, key=lambda one: one.size, default=SpectralPeak())
 
@@ -77,7 +79,7 @@ def _disturbances_by_run(
             yield record.measurements.time[rows], values - np.mean(values)
 
 
-def _surprisal(power: float, count: int) -> float:
+def _compute_surprisal(power: float, count: int) -> float:
     """-ln of the probability that ``count`` exponential deviates sum to more (Erlang tail)."""
     if not (power > 0.0 and count):
         return 0.0

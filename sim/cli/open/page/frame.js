@@ -33,7 +33,6 @@ export function drawRuns(chart, to) {
 }
 
 export function drawFaults(chart, to) {
-  const { fault } = chart.colors;
   let free = 0;
   to.textBaseline = "alphabetic";
   chart.clip(to, () => {
@@ -42,8 +41,9 @@ export function drawFaults(chart, to) {
       const end = Math.max(chart.xOf(chart.timeline.placeOf(one.run, one.end)), from + 2);
       const run = chart.timeline.spanOf(one.run).map((place) => chart.xOf(place));
       const within = ([first, last]) => Math.min(last, chart.right) - Math.max(first, chart.left);
-      if (within([from, end]) < WHOLE * within(run)) fillBox(to, fault, 0.14, from, TOP - 22, end - from, chart.bottom - TOP + 26);
-      fillBox(to, fault, 1, from, TOP - 22, end - from, 3);
+      const color = chart.colors[one.color];
+      if (one.color === "quiet" || within([from, end]) < WHOLE * within(run)) fillBox(to, color, 0.14, from, TOP - 22, end - from, chart.bottom - TOP + 26);
+      fillBox(to, color, 1, from, TOP - 22, end - from, 3);
       const width = to.measureText(one.name).width;
       const at = Math.max(Math.min(from, chart.right - width - 6), chart.left);
       if (from < chart.right && end > chart.left && at > free) {
@@ -123,7 +123,7 @@ export function drawTimes(chart, to) {
 /** Draw an overview of the whole log, and which part of it is visible. */
 export function drawOverview(chart, to) {
   const { top, bottom } = chart.overview;
-  const { measured, simulated, rule, fault, stripe } = chart.colors;
+  const { measured, simulated, rule, stripe } = chart.colors;
   const x = (place) => chart.left + (place / chart.timeline.end) * (chart.right - chart.left);
   const [low, high] = chart.wholeRange;
   const y = (value) => bottom - ((value - low) / (high - low)) * (bottom - top);
@@ -137,7 +137,7 @@ export function drawOverview(chart, to) {
   }
   for (const one of chart.faults) {
     const from = x(chart.timeline.placeOf(one.run, one.start));
-    fillBox(to, fault, 1, from, top, Math.max(x(chart.timeline.placeOf(one.run, one.end)) - from, 2), 3);
+    fillBox(to, chart.colors[one.color], 1, from, top, Math.max(x(chart.timeline.placeOf(one.run, one.end)) - from, 2), 3);
   }
   const [from, end] = chart.view.map((place) => Math.min(Math.max(x(place), chart.left), chart.right));
   draw(to, { color: rule }, () => to.rect(chart.left + 0.5, top + 0.5, chart.right - chart.left - 1, bottom - top - 1));

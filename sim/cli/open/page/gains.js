@@ -67,7 +67,7 @@ function showMeter(log, error) {
   const { si, symbol } = log.summary.units;
   const floors = (error * si) / log.fit.noise;
   const gap = make("p", "gap", make("b", "", floors.toPrecision(floors < 10 ? 2 : 3)), " × sensor noise, ",
-    make("b", "", (100 * error / log.top).toPrecision(2)), "\u00a0% of top speed");
+    make("b", "", (100 * error / log.summary.top).toPrecision(2)), "\u00a0% of top speed");
   const ratio = error / log.fitError;
   const moved = log.moved ? `, ${ratio >= 10 ? Math.round(ratio) : ratio.toFixed(2)} × that of the fit` : "";
   const bar = make("div", `bar-of-error${floors > 2 ? " far" : ""}`);
@@ -82,8 +82,10 @@ async function showCode() {
   const [language, season] = [at("language").value, at("season").value];
   const query = { ...modelQuery(log), ...Object.fromEntries(moved), language, season, radius: at("radius").value.replace(",", ".") };
   at("code-text").textContent = "Writing…";
+  at("copy").disabled = true; // a refusal is no code
   try {
     at("code-text").textContent = (await askLog(log.id, "code", query)).code;
+    at("copy").disabled = false;
     at("radius-row").hidden = !query.radius;
   } catch (problem) {
     at("code-text").textContent = sentence(problem);

@@ -137,7 +137,6 @@ function take(log, summary, samples) {
     const part = summary.runs.some((one) => one.part !== run.part) ? run.part : "";
     return { ...run, part, time, voltage, position: inUnit(position), velocity: inUnit(velocity) };
   });
-  log.top = log.runs.reduce((top, run) => run.velocity.reduce((most, one) => Math.max(most, Math.abs(one)), top), 0);
 }
 
 /** Take the values of one more entry of a log; without a name, none. */
@@ -188,7 +187,8 @@ function takeFit(log, fit) {
 
 /** Fit again without these parts: {test, start, end}, in the log's time. */
 export function leaveOut(log, parts) {
-  Object.assign(log, { leftOut: parts, effects: [], search: null, fit: null, fitRefused: null, asked: {} });
+  const named = new Map(parts.map((part) => [nameOfPart(part), part])); // each once
+  Object.assign(log, { leftOut: [...named.values()], effects: [], search: null, fit: null, fitRefused: null, asked: {} });
   setBusy(log, true);
   for (const what of ["faults", "fit", "story"]) changed(log, what);
   guarded(log.name, () => askFit(log, log.asked)).then(() => setBusy(log, false));

@@ -1,18 +1,19 @@
 // The dialog of feedback gains: for the gains of the log, for those of theory, or for typed ones.
 
 import { ask } from "./api.js";
-import { figure, make, prose, sentence } from "./elements.js";
+import { make, prose, sentence } from "./elements.js";
 import { shownLog, state } from "./logs.js";
 import { at } from "./page.js";
 
 const DIGITS = 5; // significant digits of the log's gains
 const form = at("loop-form");
+let unitsShown = "";
 
 /** Open the dialog with the gains of the log that is shown, if there is one. */
 export function openLoops() {
   if (!form.motor.length) {
     const { motors, presets } = state.view;
-    form.motor.append(new Option("typed gains", ""), ...motors.map((one) => new Option(one)));
+    form.motor.append(new Option("these numbers", ""), ...motors.map((one) => new Option(one)));
     form.preset.append(...Object.entries(presets).map(([value, name]) => new Option(name, value)));
   }
   const log = shownLog();
@@ -25,19 +26,23 @@ export function openLoops() {
 }
 
 /** Ask for the feedback gains of what the form holds, and show them. */
-async function showLoops() {
+async function showLoops(event) {
   const query = Object.fromEntries([...new FormData(form)].map(([name, value]) => [name, value.replace(",", ".")]));
+  const asked = (showLoops.asked = {}); // an answer to an older request is not shown
+  const before = event?.target === form.units ? unitsShown : ""; // then the gains are converted
+  unitsShown = query.units;
   at("loop-parts").hidden = !query.motor;
   try {
-    const { gains, rows, doubts, symbol } = await ask(`feedback?${new URLSearchParams(query)}`);
-    if (query.motor) for (const name of ["kV", "kA"]) form[name].value = figure(gains[name]);
+    const { gains, rows, doubts, symbol } = await ask(`feedback?${new URLSearchParams({ ...query, before })}`);
+    if (showLoops.asked !== asked) return;
+    if (query.motor || before) for (const name of ["kV", "kA"]) form[name].value = Number(gains[name].toPrecision(DIGITS));
     for (const one of form.querySelectorAll("i")) one.textContent = symbol;
     const shown = rows.map(({ loop, gains: words, step }) => [
       make("dt", "", `${loop} loop`), make("dd", "", words.join("\n")), make("dd", "quiet", `In simulation, it ${step}.`)]);
-    const none = [make("dd", "quiet", "There are none: kV and kA have to be above zero.")];
-    at("loop-gains").replaceChildren(...rows.length ? shown.flat() : none, ...doubts.map((one) => make("dd", "advice", prose(one))));
+    const why = query.motor && !query.load ? "Type the mass or the inertia, for kA." : doubts.length ? "" : "There are none: kV and kA have to be above zero.";
+    at("loop-gains").replaceChildren(...rows.length ? shown.flat() : [make("dd", "quiet", why)], ...doubts.map((one) => make("dd", "advice", prose(one))));
   } catch (problem) {
-    at("loop-gains").replaceChildren(make("dd", "advice", sentence(problem)));
+    if (showLoops.asked === asked) at("loop-gains").replaceChildren(make("dd", "advice", sentence(problem)));
   }
 }
 

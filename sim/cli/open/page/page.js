@@ -26,9 +26,10 @@ function showRefusal(name, problem) {
 export function say(words) {
   const toast = at("toast");
   toast.textContent = words;
+  toast.showPopover();
   toast.classList.add("seen");
   clearTimeout(say.waiting);
-  say.waiting = setTimeout(() => toast.classList.remove("seen"), 2600);
+  say.waiting = setTimeout(() => { toast.classList.remove("seen"); toast.hidePopover(); }, 2600);
 }
 
 export async function copy(place) {

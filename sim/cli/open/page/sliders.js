@@ -22,6 +22,7 @@ export class Sliders {
   show(gains, values, { fixed = false } = {}) {
     this.rows = gains.map((gain) => this.makeRow(gain, values[gain.name]));
     this.form.inert = fixed;
+    this.form.title = fixed ? "The sliders rest while effects are in the model. Untick them to move the gains." : "";
     this.form.classList.toggle("fixed", fixed);
     this.form.replaceChildren(...this.rows.map((row) => row.place));
   }

@@ -43,11 +43,13 @@ function showRuns(log) {
   at("runs").replaceChildren(button("chip all", "All", () => chart.showAll()), ...chips);
 }
 
-/** The faults that have a place on the time axis. */
+/** The faults that have a place on the time axis, and the parts that were left out. */
 export function listMarks(log) {
-  return (log.faults?.faults ?? [])
-    .filter((one) => one.run !== null && one.test)
-    .map((one) => ({ run: one.run, start: one.start_s, end: one.end_s, name: one.fault }));
+  const faults = (log.faults?.faults ?? []).filter((one) => one.run !== null && one.test)
+    .map((one) => ({ run: one.run, start: one.start_s, end: one.end_s, name: one.fault, color: "fault" }));
+  const left = log.leftOut.flatMap(({ test, start, end }) => log.runs.flatMap(({ test: of, time }, run) =>
+    (of === test && time.at(-1) >= start && time[0] <= end ? [{ run, start: Math.max(start, time[0]), end: Math.min(end, time.at(-1)), name: "", color: "quiet" }] : [])));
+  return [...left, ...faults];
 }
 
 /** Show the signals of a log, or its fit. */
@@ -134,6 +136,7 @@ at("span-leave").addEventListener("click", () => {
   const log = shownLog();
   const marked = [...chart.spans].map(([run, [first, last]]) => ({ test: log.runs[run].test, start: log.runs[run].time[first], end: log.runs[run].time[last] }));
   leaveOut(log, [...log.leftOut, ...marked]);
+  at("span-clear").click();
   say("Left out. The gains are those of the rest.");
 });
 at("span-clear").addEventListener("click", () => { for (const run of [...chart.spans.keys()]) chart.setSpan(run, null); });

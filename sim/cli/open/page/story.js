@@ -76,11 +76,12 @@ function searchForm(search, others, begin) {
 }
 
 /** The gap of each model as a bar, in times the noise; 1 is noise alone. */
-function gapBars({ gaps }) {
+function gapBars({ gaps, findings }) {
+  const damaged = findings.some(({ kind }) => kind === "fault");
   const most = Math.max(1, ...gaps.map(({ gap }) => gap ?? 0));
   const rows = gaps.map(({ name, text, gap }, k) => make("div", k === gaps.length - 1 ? "last" : "",
     make("span", "", name), make("i", { style: `--share: ${(gap ?? most) / most}` }), make("b", "", text)));
-  return make("div", "gaps", make("p", "quiet", "Simulation error, in times the noise of the velocity"), rows);
+  return make("div", "gaps", make("p", "quiet", `Simulation error, in times the noise of the velocity${damaged ? ", without the damaged parts" : ""}`), rows);
 }
 
 at("look").addEventListener("click", () => {

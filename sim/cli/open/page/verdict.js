@@ -1,7 +1,7 @@
 // The verdict and its warnings, and the faults of the log.
 
 import { button, foldedItem, make, prose } from "./elements.js";
-import { choose, leaveOut, nameOfPart, shownLog } from "./logs.js";
+import { choose, leaveOut, shownLog } from "./logs.js";
 import { at } from "./page.js";
 import { chart, listMarks } from "./stage.js";
 
@@ -26,7 +26,7 @@ export function showFaults() {
   const left = faults.filter((one) => !isLeftOut(log, one));
   const lines = left.slice(0, MOST_LINES).map((one) => {
     const words = `${one.fault.replaceAll("-", " ")} (${one.sureness})${one.test ? `: ${nameOfTest(log, one)}` : ""}`;
-    return make("li", "grave", button("link", words, () => showFault(one)), " ", canLeaveOut(one) && leaveButton(log, one, "link"));
+    return make("li", "grave", button("link", words, () => showFault(one)), canLeaveOut(one) && [" · ", leaveButton(log, one, "link")]);
   });
   if (left.length > MOST_LINES) lines.push(make("li", "busy", button("link", `${left.length - MOST_LINES} more below`, () => at("faults").scrollIntoView({ behavior: "smooth" }))));
   at("fault-lines").replaceChildren(...faults.length ? lines : [make("li", "well", none)], ...leftOutLines(log));
@@ -44,7 +44,8 @@ const nameOfTest = (log, { run, test }) => `${log.runs[run]?.part ?? ""} ${test}
 const partOf = (one) => ({ test: one.test, start: one.start_s, end: one.end_s });
 
 function isLeftOut(log, one) {
-  return log.leftOut.some((part) => nameOfPart(part) === nameOfPart(partOf(one)));
+  const { test, start, end } = partOf(one);
+  return log.leftOut.some((part) => part.test === test && part.start <= start && part.end >= end);
 }
 
 function faultCard(log, one) {
@@ -75,8 +76,8 @@ function leftOutLines(log) {
 export function showDoubts() {
   const log = shownLog();
   const { fit, fitRefused, faults } = log;
-  const sure = faults?.faults.some((one) => one.sureness === "sure");
-  const word = fitRefused ? "No gains" : !fit ? "Fitting…" : sure && fit.word !== "Do not use" ? "Check first" : fit.word;
+  const sure = faults?.faults.some((one) => one.sureness === "sure" && !isLeftOut(log, one));
+  const word = fitRefused ? "No gains" : !fit ? "Fitting…" : !faults ? "Checking…" : sure && fit.word !== "Do not use" ? "Check first" : fit.word;
   at("word").textContent = word;
   if (fit) at("verdict").replaceChildren(...prose(fit.verdict));
   at("verdict-card").classList.toggle("wrong", Boolean(fitRefused) || word === "Do not use");

@@ -1,4 +1,0 @@
-from commands2.sysid import SysIdRoutine
-
-print "starting"
-routine = SysIdRoutine(SysIdRoutine.Config(), None)

@@ -1,3 +1,0 @@
-class Ruined:
-    def __init__(self):
-    self.motor = None

@@ -1,3 +1,0 @@
-"""The docstring that never ends.
-
-from commands2.sysid import SysIdRoutine
