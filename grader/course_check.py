@@ -234,8 +234,10 @@ def find_mistake_flaws(solved: SolvedExercise, mistake: Mistake) -> Iterator[str
     elif mistake.says not in said:
         yield f"{says}, must be told {mistake.says!r}, but is told {said!r}"
     elif result.misconception != mistake.misconception:
-        code = result.misconception or "none"
-        yield f"{says}, shows {mistake.misconception or 'none'}, but {code} is named"
+        yield (
+            f"{says}, must name the misconception {mistake.misconception or 'none'}, but "
+            f"names {result.misconception or 'none'}; it says {said!r}"
+        )
 
 
 def find_draw_flaws(one: Exercise) -> Iterator[str]:

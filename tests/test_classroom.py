@@ -249,11 +249,11 @@ def test_a_class_that_cannot_be_graded_gets_one_line(tmp_path, capsys, make, rea
 
 
 @pytest.mark.usefixtures("course")
-def test_unknown_format_and_unknown_exercise_are_refused(tmp_path, capsys, reads):
+def test_unknown_format_and_unknown_exercise_are_refused(tmp_path, capsys):
     there = hand_in(tmp_path / "in", ann=RIGHT)
 
-    assert run_command(["class", str(there), "--export", "moodle"]) == 2
-    reads(capsys.readouterr().err)
+    assert run_command(["class", str(there), "--export", "paper"]) == 2
+    assert "no format 'paper'. Choose one of: canvas, " in capsys.readouterr().err
     assert run_command(["class", str(there), "--exercise", "7"]) == 2
 
 

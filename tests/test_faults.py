@@ -9,6 +9,7 @@ from collections import Counter
 from contextlib import suppress
 from dataclasses import fields
 from itertools import pairwise
+from zlib import crc32
 
 import numpy as np
 import pytest
@@ -39,15 +40,15 @@ SIGNALS = ("time", "voltage", "position", "velocity")
 
 
 def bench_log(seed, *, types=None):
-    """A sound log of a mechanism drawn at random; all mechanisms, routines and periods in turn."""
+    """A sound log of a mechanism drawn at random; routines and periods in turn.
+
+    A new mechanism takes its share of the seeds, and changes no other log.
+    """
     names = [name for name, built in MECHANISMS.items() if types is None or built.type in types]
-    turn, which = divmod(seed, len(names))
+    chosen = max(names, key=lambda name: crc32(f"{seed} {name}".encode()))
     rng = np.random.default_rng([20, seed])
     return simulate(
-        MECHANISMS[names[which]].draw(rng),
-        ROUTINES[turn % 2],
-        rng=rng,
-        period=PERIODS[turn // 2 % 2],
+        MECHANISMS[chosen].draw(rng), ROUTINES[seed % 2], rng=rng, period=PERIODS[seed // 2 % 2]
     )
 
 
@@ -111,9 +112,9 @@ def test_severity_zero_changes_nothing(name, sound_logs):
 
 @pytest.mark.parametrize("name", FAULTS)
 def test_the_same_state_of_chance_gives_the_same_damage(name, sound_logs):
-    log = sound_logs(1, FAULTS[name].types)
+    log = sound_logs(2, FAULTS[name].types)
 
-    one, two = (damaged(log, name, seed=1) for _ in range(2))
+    one, two = (damaged(log, name, seed=2) for _ in range(2))
 
     assert one.where == two.where
     assert same(one.log, two.log)
@@ -213,8 +214,9 @@ def test_what_coasts_to_rest_or_is_stepped_down_onto_its_stop_is_sound(name, pac
 
 @pytest.mark.parametrize("name", FAULTS)
 def test_a_fault_is_found_where_it_struck(name, sound_logs, table):
-    found = tried = seed = 0
+    tried = seed = 0
     others: Counter[str] = Counter()
+    missed = []
     while tried < SEEDS:
         log = sound_logs(seed, FAULTS[name].types)
         seed += 1
@@ -226,15 +228,17 @@ def test_a_fault_is_found_where_it_struck(name, sound_logs, table):
             continue
         tried += 1
         seen = inspect(spoilt.log).damages
-        found += all(
+        if not all(
             any(true.overlap(it.where) >= OVERLAP for it in seen if it.fault == name)
             for true in spoilt.where
-        )
+        ):
+            missed.append(seed)
         others.update({it.fault for it in seen} - {name})
 
+    found = tried - len(missed)
     confused = ", ".join(f"{count} {other}" for other, count in others.most_common())
     table.append(f"{name:17} {found:4} of {tried} found; also said: {confused or 'nothing'}")
-    assert found >= FOUND * tried, table[-1]
+    assert found >= FOUND * tried, f"{table[-1]}; missed with the seeds {missed}"
     assert sum(others.values()) <= (1.0 - FOUND) * tried, table[-1]
 
 

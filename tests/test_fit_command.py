@@ -152,5 +152,8 @@ def test_units_that_contradict_the_file_are_reported_first(tmp_path, fit):
 
 
 def test_paste_offers_every_target_and_season():
-    assert tuple(TARGETS) == options.TARGETS
+    assert sorted(TARGETS) == options.TARGETS, "a row in TARGETS, and a template of its name"
+    page = (options.SIM / "cli/open/page/index.html").read_text(encoding="utf-8")
+    missing = [name for name in TARGETS if f'<option value="{name}">' not in page]
+    assert not missing, f"index.html of sysid open has no option for {missing}"
     assert tuple(map(str, SEASONS)) == options.SEASONS

@@ -30,9 +30,24 @@ def rng():
 
 
 @pytest.mark.parametrize("name", MECHANISMS)
+def test_a_mechanism_lies_within_its_own_spread(name):
+    built = MECHANISMS[name]
+
+    own = {one: getattr(built, one) for one in built.spread}
+    outside = [
+        f"{one} is {value:g}, but spread draws it from {built.spread[one]}, least and most"
+        for one, value in own.items()
+        if value and not built.spread[one][0] <= value <= built.spread[one][1]
+    ]
+    assert not outside
+
+
+@pytest.mark.parametrize("name", MECHANISMS)
 @pytest.mark.parametrize("seed", range(5))
 def test_a_mechanism_drawn_at_random_is_fitted_to_its_own_truth(name, seed):
     drawn = MECHANISMS[name].draw(np.random.default_rng(seed))
+    holding = drawn.gains["kS"] + drawn.gains.get("kG", 0.0)
+    assert holding < 3.5, f"a step of 3.5 V cannot lift it: kS + kG is {holding:.2f} V"
     log = simulate(drawn, Routine(ramp=0.5, step=3.5), rng=np.random.default_rng(seed))
 
     gains = fit(log, method="sysid").gains

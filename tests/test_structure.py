@@ -4,6 +4,7 @@ import ast
 import re
 
 import pytest
+from ci_scripts import load_script
 from places import ROOT
 
 OURS = ("sim", "grader")
@@ -112,6 +113,16 @@ def test_files_that_a_page_names_are_there(page):
     named = set(re.findall(r"`([\w./]+\.py)`", text)) - {"lessons/NN_name.py"}
 
     assert {name for name in named if not there(page, name)} == set()
+
+
+@pytest.mark.parametrize(("folder", "contract"), load_script("check_addition").CONTRACTS.items())
+def test_the_check_of_an_addition_names_a_folder_and_tests_that_are_there(folder, contract):
+    tests = [ROOT / "tests" / f"test_{one}.py" for one in contract.tests.split()]
+
+    assert (ROOT / folder).is_dir()
+    assert [path.name for path in tests if not path.is_file()] == []
+    text = "\n".join(path.read_text(encoding="utf-8") for path in tests)
+    assert [word for word in contract.words.split() if word not in text] == []
 
 
 def test_names_of_the_architecture_page_are_in_the_code():

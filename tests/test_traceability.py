@@ -208,7 +208,7 @@ def test_the_pointer_hint_sends_to_sections_that_are_there(name):
     for lesson, heading in TABLE["pointers"][name]:
         assert heading in sections(lesson), f"lesson {lesson} has no section {heading!r}"
         meant.add((lesson, sections(lesson)[heading][0]))
-    assert sent == meant
+    assert sent == meant, "left: lesson and section in the hint; right: in [pointers]"
 
 
 @pytest.mark.parametrize("code", MISCONCEPTIONS)

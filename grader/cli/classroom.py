@@ -1,11 +1,16 @@
 """``grade class``: its options."""
 
+from pathlib import Path
 from typing import Any
 
 import click
 
 from grader import cli
 from grader.cli.course_here import ONLY, PATH
+
+EXPORTS = sorted(
+    path.stem for path in (Path(cli.__file__).parents[1] / "classroom/exports").glob("[!_]*.py")
+)
 
 
 @click.command("class")
@@ -21,8 +26,8 @@ from grader.cli.course_here import ONLY, PATH
               "check, points, why.")  # fmt: skip
 @click.option("--student", metavar="NAME", help="FOLDER is what this one student handed in.")
 @ONLY
-@click.option("--export", "wanted", multiple=True, metavar="FORMAT", help="canvas, github, "
-              "gradescope, junit; may be repeated.")  # fmt: skip
+@click.option("--export", "wanted", multiple=True, metavar="FORMAT",
+              help=f"{', '.join(EXPORTS)}; may be repeated.")  # fmt: skip
 @click.option("--name", help="Name of the class, for the overview.  [default: the folder's]")
 @click.option(
     "--processes",

@@ -18,10 +18,10 @@ from sim.support.completion import complete_members
 Option: TypeAlias = Callable[[Callable[..., Any]], Callable[..., Any]]
 
 READING = ("units", "motor", "pick", "velocity_scale", "ignore_velocity")  # options of LogReader
-TARGETS = ("java", "python", "phoenix6", "revlib", "yagsl")  # of robot code
 SEASONS = ("2026", "2027")
 FILE = click.Path(path_type=Path)
 SIM = Path(__file__).resolve().parents[1]
+TARGETS = sorted(path.stem for path in (SIM / "report" / "robot_code").glob("[!_]*.jinja"))
 MECHANISM_NAMES = complete_members(SIM / "bench" / "mechanisms")
 EFFECT_NAMES = complete_members(SIM / "physics" / "effects")
 FAULT_NAMES = complete_members(SIM / "inspect" / "faults")
