@@ -19,7 +19,7 @@ from sim.inspect.log_features import find_held_samples
 
 LIGHT = 0.1  # [share of kA] inertia of wheels and rotors
 STEPS = 120  # of the simulation
-SCALES = np.geomspace(0.15, 2.5, 32)  # [times the time constant] that are tried
+SCALES, SLOWEST = 32, 2.5  # time constants that are tried; the longest [times the usual one]
 DELAYS = 25  # between voltage and motion that are tried
 LATEST = 0.08  # [s] the longest of them
 SIZE = (0.7, 1.4)  # [1] limits of the top speed over that predicted from the rest of the log
@@ -87,12 +87,14 @@ class FittedRise:
         scale: [s] time constant.
         share: [share of the step] limit of grip or current; 1 if there is none.
         delay: [s] between voltage and motion.
+        size: [1] its speed over that predicted from the rest of the log.
     """
 
     error: float
     scale: float = 1.0
     share: float = 1.0
     delay: float = 0.0
+    size: float = 1.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,17 +122,22 @@ class StepRise:
         """[m/s or rad/s] the largest steady-state speed."""
         return float(self.push.max())
 
-    def fit(self, limited_by: str = "", shares: Array = ALL) -> FittedRise:
+    def fit(
+        self, limited_by: str = "", shares: Array = ALL, *, fastest: float = 0.15
+    ) -> FittedRise:
         """The nearest rise, searched on a coarse grid and then on finer ones.
 
         Args:
             limited_by: ``grip``, ``current``, or empty for a free rise.
             shares: [share of the step] limits to try.
+            fastest: [times the time constant] shortest time constant to try.
         """
         delays, cell = np.linspace(-self.period, LATEST, DELAYS, retstep=True)
-        best = self._search(limited_by, self.scale * SCALES, shares, delays)
+        scales = self.scale * np.geomspace(fastest, SLOWEST, SCALES)
+        best = self._search(limited_by, scales, shares, delays)
         for narrow in FINER:
             scales = best.scale * (1.0 + 0.2 * narrow) ** CELLS
+            scales = np.maximum(scales, fastest * self.scale)
             if limited_by:
                 shares = np.clip(best.share + 0.15 * narrow * CELLS, 0.05, 1.0)
             delays = np.maximum(best.delay + 2.0 * cell * narrow * CELLS, -self.period)
@@ -172,12 +179,13 @@ class StepRise:
             if self.summed:
                 moved -= moved.mean(axis=0)
             product, norm = signal @ moved, np.einsum("ij,ij->j", moved, moved)
-            size = np.clip(product / np.maximum(norm, 1e-300), *SIZE)
+            size = product / np.maximum(norm, 1e-300)
+            size = size if self.summed else np.clip(size, *SIZE)
             errors = np.maximum(signal @ signal - 2.0 * size * product + size**2 * norm, 0.0)
             i = int(np.argmin(errors))
             error = float(np.sqrt(errors[i] / signal.size))
             if error < best.error:
-                best = FittedRise(error, float(scale[i]), float(share[i]), delay)
+                best = FittedRise(error, float(scale[i]), float(share[i]), delay, float(size[i]))
         return best
 
 

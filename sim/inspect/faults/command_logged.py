@@ -44,6 +44,8 @@ ROUNDING = 0.0051  # [V] the same, for voltages written with two digits
 
 FEWEST = 8  # [samples] of a start that is evaluated
 BENT = 0.0012  # [share of speed times time constant] RMS error of a start without a limit, at least
+FLAT = 0.8  # [share of the step] largest current limit that is plausible
+TRUE = 1.25  # [1] largest factor between the speed and that of the baseline model
 BETTER = 0.3  # [share] of its squared error that a limit leaves, at most
 
 
@@ -88,7 +90,7 @@ def _detect_limit(index: int, run: Run, rise: StepRise) -> Damage | None:
         return None
     held = rise.fit("current", np.linspace(0.1, 1.0, 10))
     left = (held.error / free.error) ** 2
-    if left >= BETTER:
+    if left >= BETTER or held.share > FLAT or not 1.0 / TRUE < held.size < TRUE:
         return None
     volts = float(np.median(run.voltage))
     return Damage(

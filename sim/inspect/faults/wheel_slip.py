@@ -46,6 +46,8 @@ SHOWS = 5.0  # [samples] shortest slip
 STARTS = 0.1  # [time constants] after which a motion shows
 GRIPS = np.arange(0.05, 0.75, 0.05)  # [share of the step] grips that are tried
 LIMITS = np.linspace(0.1, 1.0, 10)  # [share of the step] current limits that are tried
+AT_REST = 0.5  # [share of the top speed] a faster first sample is not the start of a step
+FASTEST = 0.4  # [times the time constant] a shorter one is that of the wheels alone
 SETTLED = 30.0  # [time constants] after which a slip is over
 FINE = 8  # simulation steps per sample
 FEWEST = 6  # [samples] of a rise, at least
@@ -147,15 +149,15 @@ def _fit_slip(features: LogFeatures, index: int, run: Run) -> Damage | None:
     """Wheel slip that explains a step much better than a rise without slip; else None."""
     baseline = features.baseline
     rise = find_rise(run, baseline, period=features.period) if baseline else None
-    if rise is None:
+    if rise is None or rise.signal[0] > AT_REST * rise.signal.max():
         return None
     least = CLEAR * float(rise.signal.max())
-    plain = rise.fit().error
+    plain = rise.fit(fastest=FASTEST).error
     if plain > least:
-        plain = min(plain, rise.fit("current", LIMITS).error)
+        plain = min(plain, rise.fit("current", LIMITS, fastest=FASTEST).error)
     if plain <= least:
         return None
-    loose = rise.fit("grip", GRIPS)
+    loose = rise.fit("grip", GRIPS, fastest=FASTEST)
     share = 1.0 - (loose.error / plain) ** 2
     if share < BELIEVED:
         return None
