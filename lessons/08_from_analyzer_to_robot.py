@@ -15,6 +15,9 @@
 #
 # *About 40 minutes. You need lessons 1, 2 and 7. You need no robot today.*
 #
+# ![The speed of a wheel over time. With feedback alone, it reaches half of the wanted speed. With
+# feedforward and feedback, it reaches the wanted speed.](attachment:picture.png)
+#
 # **At the end you can**
 #
 # - write the gains of a fit as constants, with units that somebody else understands;
