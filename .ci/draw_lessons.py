@@ -35,13 +35,13 @@ from sim.plot.animation.charts import (  # noqa: E402 - the same
     chart_line_errors,
 )
 from sim.plot.picture import COLORS, INK, add_legend, make_panels  # noqa: E402 - the same
-from sim.teaching.profile_loop import simulate_loop  # noqa: E402 - the same
 from sim.teaching.runway import Floor, drive_test  # noqa: E402 - the same
 
 SECONDS, SPEED, VOLTS = "time [s]", "speed [m/s]", "voltage [V]"
 RAMP = "quasistatic-forward"
 ROUTINE = sim.Routine(ramp=2.0, step=3.5, timeout=3.0)
-DRIVETRAIN, ELEVATOR, SHOOTER = map(sim.MECHANISMS.get, ("drivetrain", "elevator", "shooter"))
+DRIVETRAIN, ELEVATOR = sim.MECHANISMS["drivetrain"], sim.MECHANISMS["elevator"]
+TRUTH = DRIVETRAIN.gains
 GUESS = {"kS": 0.1, "kV": 2.0, "kA": 0.1}
 TIME = np.arange(0.0, 2.5, 0.02)
 WANTED = np.interp(TIME, [0.2, 0.7, 1.7, 2.2], [0.0, 2.0, 2.0, 0.0])  # [m/s]
@@ -62,10 +62,13 @@ def split_voltage(gains: Mapping[str, float]) -> dict[str, Array]:
     }
 
 
-def drive_with(gains: Mapping[str, float]) -> Array:
-    """The speed of the drivetrain when a program with these gains wants ``WANTED``."""
-    volts = sum(split_voltage(gains).values())
-    return move_gains_only(DRIVETRAIN.gains, time=TIME, voltage=volts)[1]
+def chart_drives(programs: Mapping[str, Mapping[str, float]]) -> Chart:
+    """The wanted speed, and the speeds that programs with other gains reach."""
+    lines = {"wanted": WANTED}
+    for name, gains in programs.items():
+        volts = sum(split_voltage(gains).values())
+        lines[name] = move_gains_only(TRUTH, time=TIME, voltage=volts)[1]
+    return chart_curves(TIME, lines, xlabel=SECONDS, ylabel=SPEED)
 
 
 def lift_with(volts: float) -> float:
@@ -74,26 +77,12 @@ def lift_with(volts: float) -> float:
     return simulate_run(ELEVATOR.model, time=TIME[:20], voltage=held, state=start).velocity[-1]
 
 
-def spin_with(share: float) -> Array:
-    """The speed of a wheel that gets feedback and a share of its feedforward."""
-    gains = SHOOTER.gains
-    fed = share * (gains["kS"] + gains["kV"] * 250.0)
-
-    def volts(_: int, __: list[float], velocity: list[float]) -> float:
-        return fed + gains["kV"] * (250.0 - velocity[-1])
-
-    return simulate_loop(SHOOTER.model, volts, loops=TIME.size)[1]
-
-
 def chart_tests(log: Log, directions: str) -> Chart:
     """Voltage and speed of a log's tests, interrupted between them."""
     runs = [run for run in log.runs if run.direction in directions]
-
-    def join(signal: str) -> Array:
-        return np.concatenate([np.append(getattr(run, signal), np.nan) for run in runs])
-
-    signals = {VOLTS: join("voltage"), SPEED: join("velocity")}
-    return chart_curves(join("time"), signals, xlabel=SECONDS, ylabel="")
+    signals = [np.array([run.time, run.voltage, run.velocity]) for run in runs]
+    time, volts, speed = np.hstack([np.insert(one, one.shape[1], np.nan, 1) for one in signals])
+    return chart_curves(time, {VOLTS: volts, SPEED: speed}, xlabel=SECONDS, ylabel="")
 
 
 def chart_lessons() -> Iterator[Chart]:
@@ -102,11 +91,10 @@ def chart_lessons() -> Iterator[Chart]:
     run = log.runs[0]
 
     # 0: guessed and measured gains
-    lines = {"measured gains": drive_with(fit(log).gains), "guessed gains": drive_with(GUESS)}
-    yield chart_curves(TIME, {"wanted": WANTED} | lines, xlabel=SECONDS, ylabel=SPEED)
+    yield chart_drives({"measured gains": fit(log).gains, "guessed gains": GUESS})
 
     # 1: the terms of a voltage
-    terms = split_voltage(DRIVETRAIN.gains)
+    terms = split_voltage(TRUTH)
     lines = terms | {"V, their sum": sum(terms.values())}
     yield chart_curves(TIME, lines, xlabel=SECONDS, ylabel=VOLTS)
 
@@ -138,10 +126,9 @@ def chart_lessons() -> Iterator[Chart]:
     slope, offset = np.polyfit(x, y, 1)
     yield chart_line_errors(x, y, intercept=offset, slope=slope, xlabel=SPEED, ylabel=VOLTS)
 
-    # 8: a wheel with and without feedforward
-    lines = {"feedback alone": spin_with(0.0), "feedforward and feedback": spin_with(1.0)}
-    wanted = {"wanted": 250.0}
-    yield chart_curves(TIME, lines, xlabel=SECONDS, ylabel="speed [rad/s]", levels=wanted)
+    # 8: gains in the wrong places
+    swapped = TRUTH | {"kV": TRUTH["kA"], "kA": TRUTH["kV"]}
+    yield chart_drives({"right order": TRUTH, "kV and kA swapped": swapped})
 
     # 9: a log, and simulations without and with drag
     robot = DRIVETRAIN.hide("drag")

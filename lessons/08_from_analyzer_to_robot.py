@@ -15,8 +15,8 @@
 #
 # *About 40 minutes. You need lessons 1, 2 and 7. You need no robot today.*
 #
-# ![The speed of a wheel over time. With feedback alone, it reaches half of the wanted speed. With
-# feedforward and feedback, it reaches the wanted speed.](attachment:picture.png)
+# ![Speed over time. With the gains in the right order, the robot does what you want. With kV and kA
+# swapped, it starts much too fast, almost stops, and then drives backward.](attachment:picture.png)
 #
 # **At the end you can**
 #
