@@ -4,9 +4,11 @@
     python .ci/derive_notebooks.py --check    only say which are out of date; exit code 1 if any is
 
 The text is what people edit. A notebook holds no outputs, and deriving it again changes nothing.
+It holds the picture of its lesson from .ci/pictures/, so that it shows it wherever it is opened.
 Each begins with a folded cell that installs the course where a notebook is opened alone.
 """
 
+import base64
 import hashlib
 import re
 import sys
@@ -17,6 +19,8 @@ import jupytext
 import nbformat
 
 LESSONS = Path(__file__).resolve().parents[1] / "lessons"
+PICTURES = Path(__file__).with_name("pictures")
+PICTURE = "picture.png"  # as the text names it: ![words](attachment:picture.png)
 LONGEST_IN_SIGHT = 12  # [lines] of a cell
 # What a cell does whose code nobody needs to read: import, ask, show a widget, animate, list.
 PLUMBING = re.compile(
@@ -61,6 +65,9 @@ def derive(text: Path) -> nbformat.NotebookNode:
         )
         if cell.cell_type == "code" and folded:
             cell.metadata = nbformat.from_dict({"jupyter": {"source_hidden": True}})
+        if f"(attachment:{PICTURE})" in cell.source:
+            drawn = base64.b64encode((PICTURES / f"{text.stem}.png").read_bytes()).decode("ascii")
+            cell.attachments = nbformat.from_dict({PICTURE: {"image/png": drawn}})
     nbformat.validate(notebook)
     return notebook
 

@@ -4,7 +4,6 @@ Pages and exercises are rendered as GitHub shows them, and lessons as `grade edi
 executed notebooks. A lesson whose outputs the tests kept in build/lessons/ is not run again.
 """
 
-import base64
 import logging
 import re
 import sys
@@ -52,7 +51,7 @@ ANCHOR = re.compile(
 )
 HEADING = re.compile(r"<h([1-6])>(.*?)</h\1>", re.DOTALL)
 H1 = re.compile(r"<h1>(.+?)</h1>")
-PICTURE = re.compile(r'<img alt="([^"]*)" src="data:image/svg\+xml;base64,([^"]+)"')
+PICTURE = re.compile(r'<img (alt="[^"]*") src="data:image/png;base64,')
 ABLE = re.compile(r"At the end you can</strong></p>\s*<ul>\s*<li>(.+?)[;.]?</li>", re.DOTALL)
 MADE_FROM = "made_from"  # in a kept notebook's metadata: the digest of what its outputs depend on
 LESSONS_HERE = "<!-- lessons -->"  # in the first page: where their cards stand
@@ -88,9 +87,6 @@ def on_files(files: Files, *, config: MkDocsConfig) -> Files:
         text = f"# {H1.search(html)[1]}\n{html}"
         files.append(File.generated(config, f"lessons/{path.stem}.md", content=text))
         files.append(File.generated(config, f"lessons/{path.name}", abs_src_path=str(path)))
-        if picture := PICTURE.search(html):
-            drawing = base64.b64decode(picture[2])
-            files.append(File.generated(config, f"lessons/{path.stem}.svg", content=drawing))
     return files
 
 
@@ -173,7 +169,7 @@ def make_card(path: Path, files: Files) -> str:
     """The first page's entry of a lesson: its picture, its title, what one can do afterwards."""
     html = files.get_file_from_path(f"lessons/{path.stem}.md").content_string
     able, picture = ABLE.search(html), PICTURE.search(html)
-    shown = f'<img alt="{picture[1]}" src="lessons/{path.stem}.svg">' if picture else ""
+    shown = f'<img {picture[1]} src="pictures/{path.stem}.png">' if picture else ""
     words = f"<p>You can {able[1]}.</p>" if able else ""
     return (
         f'<a class="card" href="lessons/{path.stem}.html">{shown}'

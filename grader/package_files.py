@@ -255,7 +255,7 @@ def strip_notebook(content: bytes, *, name: str, course: Path) -> bytes:
 
 
 def _strip_cell(cell: Any) -> Any:  # noqa: ANN401 - nbformat has no types
-    """A cell without outputs; of its metadata, whether JupyterLab shows its code folded.
+    """A cell with its pictures, without outputs; of its metadata, whether its code is folded.
 
     Raises:
         ValueError: its text is not the one that its id was made of.
@@ -267,7 +267,8 @@ def _strip_cell(cell: Any) -> Any:  # noqa: ANN401 - nbformat has no types
     hidden = cell.metadata.get("jupyter", {}).get("source_hidden") is True
     make: Any = v4.new_code_cell if cell.cell_type == "code" else v4.new_markdown_cell
     kept = {"jupyter": {"source_hidden": True}} if hidden else {}
-    return make(cell.source, id=cell.id, metadata=kept)
+    pictures = {"attachments": cell.attachments} if "attachments" in cell else {}
+    return make(cell.source, id=cell.id, metadata=kept, **pictures)
 
 
 def _refuse_changed(files: dict[str, bytes], listed: dict[str, str], course: Path) -> None:

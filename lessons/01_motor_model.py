@@ -15,6 +15,9 @@
 #
 # *About 40 minutes. You need lesson 0. No physics class is needed, and no calculus.*
 #
+# ![A voltage over time, and the three terms that it is the sum of. While the robot speeds up, all
+# three are above zero. At a steady speed, kA·a is zero.](attachment:picture.png)
+#
 # **At the end you can**
 #
 # - say what kS, kV and kA mean, and in which unit each is;

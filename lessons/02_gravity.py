@@ -16,6 +16,9 @@
 # *About 40 minutes. You need lesson 1: what kS, kV and kA mean. Section 4 uses the cosine and
 # explains it.*
 #
+# ![The speed of an elevator over its voltage. Below 1.76 V it sinks, above 2.26 V it rises. Between
+# them it stays, and kG is in the middle.](attachment:picture.png)
+#
 # **At the end you can**
 #
 # - say what kG is, and why a whole *window* of voltages holds an elevator still;

@@ -15,6 +15,9 @@
 #
 # *About 40 minutes. You need lessons 1 and 2. You need no robot today.*
 #
+# ![Voltage and speed of two tests. In the first test, both grow slowly. In the second test, the
+# voltage jumps, and the speed follows in half a second.](attachment:picture.png)
+#
 # **At the end you can**
 #
 # - say which gains you get from the slow ramp and which from the sudden step, and why you need

@@ -16,6 +16,9 @@
 # *About 35 minutes. You need lesson 3, and you should have written some robot code. You need no
 # robot today.*
 #
+# ![Voltage and speed of the four tests of a routine: slowly forward, slowly in reverse, a step
+# forward, a step in reverse.](attachment:picture.png)
+#
 # **At the end you can**
 #
 # - build a `SysIdRoutine` from its two parts, a `Config` and a `Mechanism`;

@@ -16,6 +16,10 @@
 # *About 40 minutes. You need lessons 3 and 4. You can read it without a robot. Print sections 5 and
 # 6, and take them to the robot.*
 #
+# ![The speed of a robot over its distance from the start, with a wall at 12 m. A robot that is
+# stopped at a tape stands at 8 m. Without a tape, it hits the wall at 3
+# m/s.](attachment:picture.png)
+#
 # **At the end you can**
 #
 # - name the four steps of a characterization;

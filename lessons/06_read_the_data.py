@@ -15,6 +15,9 @@
 #
 # *About 45 minutes. You need lessons 1 and 3. Today you decide whether you can trust a log.*
 #
+# ![The speed of the same test in a good log and in a damaged log. For 0.4 s, the damaged log shows
+# half the speed.](attachment:picture.png)
+#
 # **At the end you can**
 #
 # - say what a good log of each test looks like, and why;

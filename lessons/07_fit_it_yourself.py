@@ -16,6 +16,9 @@
 # *About 45 minutes. You need lessons 1 and 3. You do not need to know what a regression is: you
 # learn it here.*
 #
+# ![Voltage over speed: noisy samples, a straight line through them, and the error of the line at
+# each sample.](attachment:picture.png)
+#
 # **At the end you can**
 #
 # - compute gains from a log with five lines of NumPy;

@@ -15,6 +15,9 @@
 #
 # *About 40 minutes. You need lessons 1, 2 and 7. You need no robot today.*
 #
+# ![Speed over time. With the gains in the right order, the robot does what you want. With kV and kA
+# swapped, it starts much too fast, almost stops, and then drives backward.](attachment:picture.png)
+#
 # **At the end you can**
 #
 # - write the gains of a fit as constants, with units that somebody else understands;

@@ -16,6 +16,9 @@
 # *About 45 minutes. You need lessons 1 and 7. In this lesson you find out what is missing in your
 # model.*
 #
+# ![Speed over time: a log, and two simulations of it. With the gains alone, the simulation becomes
+# too fast. With gains and drag, it follows the log.](attachment:picture.png)
+#
 # **At the end you can**
 #
 # - measure the **gap**: how much a simulation with your gains differs from your robot;

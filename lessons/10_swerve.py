@@ -15,6 +15,9 @@
 #
 # *About 40 minutes. You need lessons 3, 6 and 8. This lesson is for teams with a swerve drive.*
 #
+# ![Four wheels from above, twice. To go straight, all of them point the same way. To turn on the
+# spot, each points along a circle.](attachment:picture.png)
+#
 # **At the end you can**
 #
 # - say what CTRE's three swerve routines measure, and in which units;

@@ -1,6 +1,7 @@
 """The lessons: notebook and text agree, every cell runs clean, every picture speaks."""
 
 import ast
+import io
 import math
 import os
 import re
@@ -15,11 +16,12 @@ import numpy as np
 import pytest
 from ci_scripts import load_script
 from jupyter_client.kernelspec import KernelSpecManager
+from matplotlib.image import imread
 from places import ROOT
 
 import grader
 import sim
-from grader.edition import SLIDES, VIEW, convert_notebook, execute_notebook
+from grader.edition import PAGE, SLIDES, VIEW, convert_notebook, execute_notebook
 from grader.robotcode.library import revlib
 from sim.bench.simulate import simulate
 from sim.fit import fit
@@ -32,6 +34,8 @@ TEXTS = sorted((ROOT / "lessons").glob("*.py"))
 PLUMBING = (  # what a cell in sight does not do
     r"^(?:import|from) |\b(?:ask_question|animate_charts|animate_mechanism)\("
 )
+LARGEST = 25_000  # [bytes] of a picture
+SAME = 0.002  # [1] mean difference of two drawings of one picture
 MOVING = 3  # figures of a lesson, at least
 SCREENFUL = 40  # [lines] of a function; what is longer belongs into sim
 DERIVE = "run  python .ci/derive_notebooks.py  and commit the notebook with its text"
@@ -111,10 +115,38 @@ def test_there_are_lessons():
 def test_a_notebook_is_its_text(text, derive):
     path = text.with_suffix(".ipynb")
     assert path.exists(), f"{path.name} is missing: {DERIVE}"
-    got = [(cell.cell_type, cell.source) for cell in nbformat.read(path, 4).cells]
-    assert got == [(cell.cell_type, cell.source) for cell in derive(text).cells], (
-        f"{path.name} is not what {text.name} says: {DERIVE}"
+    got, says = (
+        [(cell.cell_type, cell.source, cell.get("attachments")) for cell in notebook.cells]
+        for notebook in (nbformat.read(path, 4), derive(text))
     )
+    assert got == says, f"{path.name} is not what {text.name} says: {DERIVE}"
+
+
+@each_lesson
+def test_a_lesson_begins_with_a_picture_that_its_page_and_its_slides_show(text):
+    notebook = nbformat.read(text.with_suffix(".ipynb"), 4)
+    title = next(cell for cell in notebook.cells if cell.cell_type == "markdown")
+    head, _, _ = title.source.partition("**At the end you can**")
+
+    assert title.source.startswith("# ")
+    (words,) = re.findall(r"!\[([^]]+)\]\(attachment:picture\.png\)", head)
+    assert len(words) > 40
+    for template in (PAGE, SLIDES):
+        shown = Page(convert_notebook(notebook, template)).pictures[0]
+        assert shown["alt"].split() == words.split()
+        assert shown["src"].startswith("data:image/png;base64,")
+
+
+def test_the_pictures_of_lessons_are_what_their_command_draws():
+    script = load_script("draw_lessons")
+    for text, chart in zip(TEXTS, script.chart_lessons(), strict=True):
+        path = ROOT / ".ci" / "pictures" / f"{text.stem}.png"
+        kept, drawn = (imread(file) for file in (path, io.BytesIO(script.draw(chart))))
+
+        assert path.stat().st_size < LARGEST
+        assert kept.shape == drawn.shape
+        # Another processor may move a curve by a pixel.
+        assert np.abs(kept - drawn).mean() < SAME, f"{path.name}: run  python .ci/draw_lessons.py"
 
 
 @each_lesson

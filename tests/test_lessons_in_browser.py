@@ -30,6 +30,7 @@ TEXTS = (
     ".jp-OutputArea .widget-label, .jp-RenderedMarkdown p"
 )
 ADDRESS = re.compile(r"http://127\S+token=\w+")
+LAPTOP = {"width": 1366, "height": 768}
 HOME = {"127.0.0.1", "localhost"}
 DRAWN = "drawings => drawings.map(drawing => drawing.innerHTML).join()"
 TURN = """figure => {
@@ -136,6 +137,23 @@ def test_a_newcomer_soon_sees_something_move(printed, browser):
     assert listed == [lesson.name for lesson in LESSONS]
     assert page.get_by_text("Jupyter news").count() == 0
     page.close()
+
+
+@pytest.mark.parametrize("lesson", LESSONS[::5], ids=lambda path: path.stem)
+def test_the_first_screen_of_a_lesson_holds_its_picture(lesson, address, page):
+    page.set_viewport_size(LAPTOP)
+    page.goto(address.format(name=lesson.name))
+    picture = page.locator(".jp-RenderedMarkdown img").first
+    picture.wait_for()
+    page.wait_for_function(
+        "picture => picture.naturalWidth > 0", arg=picture.element_handle(), polling=OFTEN
+    )
+    box = picture.bounding_box()
+
+    assert box["y"] > 0
+    assert box["y"] + box["height"] < LAPTOP["height"]
+    assert box["x"] + box["width"] < LAPTOP["width"]
+    assert _colors(picture.screenshot()) > 50
 
 
 def test_a_prediction_a_quick_check_and_a_box_answer_a_click(address, page, tmp_path):

@@ -1,0 +1,174 @@
+"""Draw the picture that each lesson begins with: .ci/pictures/NAME.png, NAME as the lesson's file.
+
+    python .ci/draw_lessons.py
+
+Every curve is simulated. `.ci/derive_notebooks.py` puts the pictures into the notebooks. They are
+PNG on white, because JupyterLab shows no SVG that a notebook holds, and a page may be dark.
+"""
+
+import io
+import sys
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT))
+
+import sim  # noqa: E402 - the course in this folder
+from sim.bench.mechanism import Mechanism  # noqa: E402 - the same
+from sim.bench.simulate import move_gains_only, simulate  # noqa: E402 - the same
+from sim.core.log import Array, Log  # noqa: E402 - the same
+from sim.fit import fit  # noqa: E402 - the same
+from sim.inspect.contaminate import contaminate  # noqa: E402 - the same
+from sim.physics.engine import State, simulate_run  # noqa: E402 - the same
+from sim.physics.model import Model  # noqa: E402 - the same
+from sim.physics.replay import replay_log  # noqa: E402 - the same
+from sim.plot.animation.charts import (  # noqa: E402 - the same
+    Chart,
+    Curve,
+    chart_curves,
+    chart_hold_window,
+    chart_line_errors,
+)
+from sim.plot.picture import COLORS, INK, add_legend, make_panels  # noqa: E402 - the same
+from sim.teaching.runway import Floor, drive_test  # noqa: E402 - the same
+
+SECONDS, SPEED, VOLTS = "time [s]", "speed [m/s]", "voltage [V]"
+RAMP = "quasistatic-forward"
+ROUTINE = sim.Routine(ramp=2.0, step=3.5, timeout=3.0)
+DRIVETRAIN, ELEVATOR = sim.MECHANISMS["drivetrain"], sim.MECHANISMS["elevator"]
+TRUTH = DRIVETRAIN.gains
+GUESS = {"kS": 0.1, "kV": 2.0, "kA": 0.1}
+TIME = np.arange(0.0, 2.5, 0.02)
+WANTED = np.interp(TIME, [0.2, 0.7, 1.7, 2.2], [0.0, 2.0, 2.0, 0.0])  # [m/s]
+STYLES = {"line": "-", "bar": "-", "dashed": "--", "dots": "o"}
+
+
+def record(mechanism: Mechanism) -> Log:
+    """The log of a routine."""
+    return simulate(mechanism, ROUTINE, rng=np.random.default_rng(1))
+
+
+def split_voltage(gains: Mapping[str, float]) -> dict[str, Array]:
+    """The terms of the voltage for the wanted speed."""
+    return {
+        "kS·sgn(v)": gains["kS"] * np.sign(WANTED),
+        "kV·v": gains["kV"] * WANTED,
+        "kA·a": gains["kA"] * np.gradient(WANTED, TIME),
+    }
+
+
+def chart_drives(programs: Mapping[str, Mapping[str, float]]) -> Chart:
+    """The wanted speed, and the speeds that programs with other gains reach."""
+    lines = {"wanted": WANTED}
+    for name, gains in programs.items():
+        volts = sum(split_voltage(gains).values())
+        lines[name] = move_gains_only(TRUTH, time=TIME, voltage=volts)[1]
+    return chart_curves(TIME, lines, xlabel=SECONDS, ylabel=SPEED)
+
+
+def lift_with(volts: float) -> float:
+    """The speed of the elevator after 0.4 s of a voltage."""
+    held, start = np.full(20, volts), State.cold_at(0.6)
+    return simulate_run(ELEVATOR.model, time=TIME[:20], voltage=held, state=start).velocity[-1]
+
+
+def chart_tests(log: Log, directions: str) -> Chart:
+    """Voltage and speed of a log's tests, interrupted between them."""
+    runs = [run for run in log.runs if run.direction in directions]
+    signals = [np.array([run.time, run.voltage, run.velocity]) for run in runs]
+    time, volts, speed = np.hstack([np.insert(one, one.shape[1], np.nan, 1) for one in signals])
+    return chart_curves(time, {VOLTS: volts, SPEED: speed}, xlabel=SECONDS, ylabel="")
+
+
+def chart_lessons() -> Iterator[Chart]:
+    """The chart of each lesson, in order."""
+    log = record(DRIVETRAIN)
+    run = log.runs[0]
+
+    # 0: guessed and measured gains
+    yield chart_drives({"measured gains": fit(log).gains, "guessed gains": GUESS})
+
+    # 1: the terms of a voltage
+    terms = split_voltage(TRUTH)
+    lines = terms | {"V, their sum": sum(terms.values())}
+    yield chart_curves(TIME, lines, xlabel=SECONDS, ylabel=VOLTS)
+
+    # 2: the window that holds an elevator
+    kg, ks, volts = ELEVATOR.gains["kG"], ELEVATOR.gains["kS"], np.arange(1.2, 3.01, 0.02)
+    window, speeds = (kg - ks, kg + ks), [*map(lift_with, volts)]
+    yield chart_hold_window(volts, speeds, window=window, marks={"kG": kg})
+
+    # 3 and 4: two kinds of tests, each in two directions
+    yield chart_tests(log, "forward")
+    yield chart_tests(log, "forward, reverse")
+
+    # 5: a ramp on a floor
+    free, curves = replace(DRIVETRAIN, travel=None), [Curve("wall", [12.0] * 2, [0.0, 4.0], "bar")]
+    for color, (name, tape) in enumerate({"no tape": None, "stopped at the tape": 7.0}.items()):
+        went = drive_test(free, sim.Routine(), test=RAMP, floor=Floor(wall=12.0, tape=tape))
+        curves.append(Curve(name, went.position, went.velocity, "line", color))
+    yield Chart("distance from the start [m]", SPEED, curves)
+
+    # 6: an encoder that slips
+    slipped = contaminate(log, "encoder-slip", test=RAMP, rng=np.random.default_rng(2)).log
+    lines = {"good log": run.velocity, "damaged log": slipped.runs[0].velocity}
+    yield chart_curves(run.time, lines, xlabel=SECONDS, ylabel=SPEED)
+
+    # 7: noisy samples and their line
+    sensor = replace(DRIVETRAIN.sensor, velocity_noise=0.15)
+    noisy = record(replace(DRIVETRAIN, sensor=sensor)).runs[0]
+    x, y = noisy.velocity[10::8], noisy.voltage[10::8]
+    slope, offset = np.polyfit(x, y, 1)
+    yield chart_line_errors(x, y, intercept=offset, slope=slope, xlabel=SPEED, ylabel=VOLTS)
+
+    # 8: gains in the wrong places
+    swapped = TRUTH | {"kV": TRUTH["kA"], "kA": TRUTH["kV"]}
+    yield chart_drives({"right order": TRUTH, "kV and kA swapped": swapped})
+
+    # 9: a log, and simulations without and with drag
+    robot = DRIVETRAIN.hide("drag")
+    log = record(robot)
+    run = log.runs[0]
+    curves = [Curve("log", run.time[::5], run.velocity[::5], "dots", 0)]
+    models = {"gains alone": Model("simple", robot.gains), "gains and drag": robot.model}
+    for color, (name, model) in enumerate(models.items(), 1):
+        curves.append(Curve(name, run.time, replay_log(model, log)[0].velocity, "line", color))
+    yield Chart(SECONDS, SPEED, curves)
+
+    # 10: a swerve drive that goes straight, and one that turns on the spot
+    frame, curves = 0.3 * np.array([1 + 1j, 1 - 1j, -1 - 1j, -1 + 1j]), []  # x + j·y
+    for place, ways in ((0.0, [0.4] * 4), (2.0, 1j * frame)):
+        for corner, way in zip(place + frame, ways, strict=True):
+            path, wheel = corner + way * np.array([[0.0, 1.0], [-0.2, 0.2]])
+            curves.append(Curve("", path.real, path.imag, "line", 1))
+            curves.append(Curve("", wheel.real, wheel.imag, "bar", 0))
+    where = "x [m]: four wheels go straight, and turn on the spot"
+    yield Chart(where, "y [m]", curves, x=(-2.0, 4.0), y=(-0.7, 0.7))
+
+
+def draw(chart: Chart) -> bytes:
+    """A chart as PNG of few colors."""
+    figure, ((axes,),) = make_panels(1, 1, width=8.6, height=2.8)
+    for curve in chart.curves:
+        pen = {"color": INK if curve.color is None else COLORS[curve.color], "label": curve.name}
+        if curve.style == "area":
+            axes.fill(curve.x, curve.y, alpha=0.3, **pen)
+        else:
+            wide = 6.0 if curve.style == "bar" else 1.5
+            axes.plot(curve.x, curve.y, STYLES[curve.style], linewidth=wide, **pen)
+    axes.set(xlabel=chart.xlabel, ylabel=chart.ylabel, xlim=chart.x, ylim=chart.y)
+    add_legend(figure, [axes], columns=4)
+    drawn, small = io.BytesIO(), io.BytesIO()
+    figure.savefig(drawn, format="png", dpi=110)
+    Image.open(drawn).convert("RGB").quantize(128).save(small, format="png", optimize=True)
+    return small.getvalue()
+
+
+if __name__ == "__main__":
+    for lesson, chart in zip(sorted((ROOT / "lessons").glob("*.py")), chart_lessons(), strict=True):
+        (ROOT / ".ci" / "pictures" / f"{lesson.stem}.png").write_bytes(draw(chart))
