@@ -35,6 +35,7 @@ SHRINK = 0.6  # [share of what can be shrunk] for partial marks
 WORSE = 1.05  # [of the base's gap] beyond it, effects do harm
 SURE = 20.0  # [BIC] odds of about twenty thousand to one
 NARROWER = 0.985  # [of the gap without] what a refit by chance does not do
+LEAST_GAP = 0.5  # [times the noise] noise alone leaves more
 SAME = 1.1  # [1] ratio up to which two gaps are the same: rounding, and a search from elsewhere
 NARROW = 0.95  # [of the gap with gains alone] above which effects do nothing for the held-out log
 REPORTED = 0.5  # points for the two gaps
@@ -290,8 +291,8 @@ def _explain_gap(value: float, *, other: float, validation: float) -> WrongAnswe
 
 
 def _is_same(value: float, expected: float) -> bool:
-    """Whether two gaps are the same up to rounding; below the noise, all are."""
-    noise = 0.0 < value <= 1.0 and expected <= 1.0
+    """Whether two gaps are the same: up to rounding, or both no more than noise."""
+    noise = LEAST_GAP < value <= 1.0 and expected <= 1.0
     return noise or expected / SAME <= value <= SAME * expected
 
 
