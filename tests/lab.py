@@ -43,6 +43,7 @@ def serving(home):
         with contextlib.suppress(subprocess.TimeoutExpired):
             server.wait(timeout=20)
         server.kill()
+        server.wait()
 
 
 def open_notebook(page, address):
