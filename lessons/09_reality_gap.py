@@ -269,10 +269,13 @@ animate_charts(
 #    the parameters of the effect are fitted again. This takes one to three seconds.
 # 3. **Compare** by the gap of the *validation* log: press *Take back*, and try the other effects of
 #    the same line below. Keep the one with the smallest gap. If none helps, take the plot with the
-#    next percentage.
+#    next percentage. If most of the gap shows in *no* plot, try the effects of every line.
 # 4. **Look again.** Repeat this until the gap of the validation log is about 1, or until no other
 #    effect makes it smaller.
-# 5. **Stop.** But before you press the last button, read section 5.
+# 5. **Check.** If you have several effects, choose each in the menu, and press *Take back*. Does
+#    the gap stay the same without it? Then leave it out: another effect does its work. Else add it
+#    again.
+# 6. **Stop.** But before you press the last button, read section 5.
 #
 # Effects that can cause the largest percentage:
 #

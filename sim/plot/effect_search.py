@@ -112,7 +112,12 @@ class EffectSearch:
         return self.message
 
     def open(self) -> str:
-        """Open the held-out log: returns the lines of an answer, with both gaps of this log."""
+        """Open the held-out log: returns the lines of an answer, with both gaps of this log.
+
+        The effect that narrows the gap most comes first.
+        """
+        alone = {one: self._measure_gap((one,))["validation"] for one in self.effects}
+        self.effects = tuple(sorted(self.effects, key=lambda one: alone[one]))
         lines = self.answer
         if self.hand.recordings.held_out is not None:
             fits = (self.hand.fit(), self.hand.fit(self.effects))
@@ -228,7 +233,8 @@ class EffectSearch:
         about, shown = ipywidgets.HTML(), ipywidgets.HTML()
         buttons = {
             "Add and fit": lambda: self.add(menu.value or "no effect"),
-            "Take back": self.take_back,
+            # the effect that the menu shows, or else the last one
+            "Take back": lambda: self.take_back(menu.value if menu.value in self.effects else ""),
             "Stop, open the held-out log": self.open,
         }
         pressed = [ipywidgets.Button(description=name, layout=wide) for name in buttons]
