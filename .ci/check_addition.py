@@ -34,7 +34,7 @@ CONTRACTS = {
         "faults contaminate sentences", "struck sound catalogue each_fault"
     ),
     "sim/io/formats": Contract("formats", "formats"),
-    "sim/report/robot_code": Contract("controller_snippet fit_command", "paste"),
+    "sim/report/robot_code": Contract("robot_code_snippet fit_command", "paste"),
     "exercises": Contract(
         "exercises traceability instructors readme package_keys package_files guessing",
         "every_exercise guide item list_of_starters",

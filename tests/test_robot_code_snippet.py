@@ -396,5 +396,5 @@ def test_the_command_prints_robot_code(target, tmp_path, capsys):
 
     said = capsys.readouterr().out
     assert said.count("public final class") == 1
-    per = WHEEL if target == "phoenix6" else 1.0
+    per = WHEEL if TARGETS[target].units["simple"] == "rotations" else 1.0
     assert values(said)["kV"] / per == pytest.approx(2.524, rel=0.01)
