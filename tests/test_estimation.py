@@ -116,13 +116,13 @@ KALMAN_NOISE = SensorNoise(position=1e-5, velocity=0.0075, resolution=(1e-6, 1e-
 PERIOD = 0.02
 
 
-def filtered(process_noise):
+def run_kalman_filter(process_noise):
     return make_steady_state_filter(
         MODEL, noise=KALMAN_NOISE, process_noise=process_noise, period=PERIOD
     )
 
 
-def by_riccati(process_noise, voltage_error, *, before=3000):
+def solve_riccati(process_noise, voltage_error, *, before=3000):
     """The gain at each sample, by the recursion of the textbook, from a state that is known."""
     rate = MODEL.gains["kV"] / MODEL.gains["kA"]
     kept = math.exp(-rate * PERIOD)
@@ -144,9 +144,9 @@ def by_riccati(process_noise, voltage_error, *, before=3000):
 
 @pytest.mark.parametrize("process_noise", [1e-6, 1e-3])
 def test_the_steady_kalman_gain_is_the_limit_of_the_recursion(process_noise):
-    (gain,) = by_riccati(process_noise, [0.0])
+    (gain,) = solve_riccati(process_noise, [0.0])
 
-    assert filtered(process_noise).steady.ravel() == pytest.approx(gain, rel=1e-3)
+    assert run_kalman_filter(process_noise).steady.ravel() == pytest.approx(gain, rel=1e-3)
 
 
 @pytest.mark.parametrize("process_noise", [1e-6, 1e-3])
@@ -154,9 +154,9 @@ def test_gains_after_an_uncertain_voltage_are_those_of_the_recursion(process_noi
     error = np.zeros(60)
     error[5], error[6], error[20] = 0.1, 0.05, 0.3
 
-    schedule = filtered(process_noise).schedule(error)
+    schedule = run_kalman_filter(process_noise).schedule(error)
 
-    expected = by_riccati(process_noise, error)
+    expected = solve_riccati(process_noise, error)
     assert schedule.gains == pytest.approx(expected, abs=0.02 * np.abs(expected).max())
     assert schedule.gains[5:8] == pytest.approx(expected[5:8], rel=0.02)
     assert {5, 6, 20} <= set(schedule.uncertain.tolist())
@@ -165,7 +165,7 @@ def test_gains_after_an_uncertain_voltage_are_those_of_the_recursion(process_noi
 def test_innovations_of_uncertain_samples_are_scaled_to_the_usual_covariance():
     error = np.zeros(10)
     error[4] = 0.2
-    one = filtered(1e-4)
+    one = run_kalman_filter(1e-4)
 
     schedule = one.schedule(error)
 
@@ -251,7 +251,7 @@ def averaged(run, *, window):
 
 
 def held(run, n):
-    """A new frame of the sensor only every ``n`` samples."""
+    """The run with readings that change only every ``n`` samples, as a sensor's frames do."""
     latest = np.arange(len(run)) // n * n
     return replace(run, position=run.position[latest], velocity=run.velocity[latest])
 

@@ -116,7 +116,7 @@ def rhythm_session(*parts, seed, swings=0.0, size=SWING):
     return Log(tuple(runs), units="meters", type="simple")
 
 
-def found_peak(log):
+def find_peak(log):
     """The clearest rhythm in what the best model without effects leaves."""
     problem, point = based(log, GAINS)
     point = minimize_fully(problem, point)
@@ -126,7 +126,7 @@ def found_peak(log):
 @settings(max_examples=12, deadline=None)
 @given(seed=st.integers(0, 10**6))
 def test_shakes_have_no_rhythm(seed):
-    _, _, rhythm = found_peak(rhythm_session(seed=seed))
+    _, _, rhythm = find_peak(rhythm_session(seed=seed))
 
     assert rhythm.size < 0.2 * PERIODIC
 
@@ -134,7 +134,7 @@ def test_shakes_have_no_rhythm(seed):
 @settings(max_examples=12, deadline=None)
 @given(seed=st.integers(0, 10**6), swings=st.floats(0.6, 4.5))
 def test_a_swing_is_found_at_its_rate_though_it_passes_for_pushes_at_random(seed, swings):
-    problem, point, rhythm = found_peak(rhythm_session(seed=seed, swings=swings))
+    problem, point, rhythm = find_peak(rhythm_session(seed=seed, swings=swings))
 
     assert rhythm.size > PERIODIC
     assert rhythm.rate == pytest.approx(swings, abs=0.15)
@@ -145,7 +145,7 @@ def test_a_swing_is_found_at_its_rate_though_it_passes_for_pushes_at_random(seed
 def test_a_wave_along_the_position_is_reported_as_repeated_by_place():
     wave = Part("cogging", {"cosine": 0.25, "sine": 0.0, "turns": 3.0})
 
-    left = ResidualSummary.summarize(*found_peak(rhythm_session(wave, seed=2))[:2])
+    left = ResidualSummary.summarize(*find_peak(rhythm_session(wave, seed=2))[:2])
 
     assert left.is_repeated
     assert "At the same places" in remains_of(left)[2]

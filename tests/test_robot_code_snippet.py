@@ -49,7 +49,7 @@ RIGHT_ORDER = {
 }
 
 
-def found(type_, **changes):
+def make_fit(type_, **changes):
     gains, errors = GAINS, ERRORS
     if type_ != "simple":
         gains, errors = gains | GRAVITY, errors | {"kG": 0.0076}
@@ -113,7 +113,7 @@ def stand_ins():
 @pytest.mark.parametrize("season", SEASONS)
 @pytest.mark.parametrize("type_", TYPES)
 def test_a_java_snippet_parses_and_hands_the_gains_over_in_wpilibs_order(type_, season):
-    text = write_robot_code(found(type_), target="java", season=season, name="left drive")
+    text = write_robot_code(make_fit(type_), target="java", season=season, name="left drive")
 
     (made,) = java_nodes(text, "object_creation_expression")
     arguments = [
@@ -132,7 +132,7 @@ def test_a_java_snippet_parses_and_hands_the_gains_over_in_wpilibs_order(type_, 
 @pytest.mark.parametrize("season", SEASONS)
 @pytest.mark.parametrize("type_", TYPES)
 def test_a_python_snippet_runs_and_hands_the_gains_over_in_wpilibs_order(type_, season):
-    text = write_robot_code(found(type_), target="python", season=season)
+    text = write_robot_code(make_fit(type_), target="python", season=season)
 
     made = run(text, stand_ins())
 
@@ -144,7 +144,7 @@ def test_a_python_snippet_runs_and_hands_the_gains_over_in_wpilibs_order(type_, 
 @pytest.mark.parametrize(("language", "season"), SPELLINGS)
 @pytest.mark.parametrize("type_", TYPES)
 def test_the_numbers_come_back_within_a_tenth_of_their_errors(type_, language, season):
-    fit = found(type_)
+    fit = make_fit(type_)
 
     read = constants(write_robot_code(fit, target=language, season=season))
     for gain in RIGHT_ORDER[type_]:
@@ -157,7 +157,7 @@ def test_the_numbers_come_back_within_a_tenth_of_their_errors(type_, language, s
 @pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("units", ["rotations", "degrees"])
 def test_an_arm_counted_in_turns_is_pasted_per_radian_and_says_so(units, language):
-    fit = found("arm")
+    fit = make_fit("arm")
     turned = fit.in_units(units)
 
     text = write_robot_code(turned, target=language)
@@ -187,7 +187,7 @@ def discrete(type_, gains, *, now, then, angle=0.0):
 @pytest.mark.parametrize("type_", TYPES)
 def test_the_object_that_robotpy_makes_calculates_our_formula(type_):
     pytest.importorskip("wpimath.controller", reason="RobotPy is not installed (extra `robot`)")
-    fit = found(type_)
+    fit = make_fit(type_)
     text = write_robot_code(fit, target="python", season=2026)
     made, gains = run(text), constants(text)
     place, angle = -0.4, -0.4 + gains.get("kAngleOffset", 0.0)
@@ -233,7 +233,7 @@ GRAVE = Doubt("negative-gain", "kG = -1 is negative: is forward up in this log?"
 )
 def test_what_cannot_be_pasted_is_refused_in_one_line(changes, asked):
     with pytest.raises(BadRequest) as refused:
-        write_robot_code(found("simple", **changes), **({"target": "java"} | asked))
+        write_robot_code(make_fit("simple", **changes), **({"target": "java"} | asked))
 
     assert refused.value.advice
     assert "\n" not in str(refused.value)
@@ -243,9 +243,9 @@ def test_what_cannot_be_pasted_is_refused_in_one_line(changes, asked):
 def test_a_loop_without_gains_says_so_and_has_no_constant(language):
     # A light intake's gains: with a period of delay the regulator's kP comes out negative.
     light = {"kS": 0.46, "kV": 0.0498, "kA": 0.001525}
-    slow = found("simple", units="radians", gains=light, position_delay=DT)
+    slow = make_fit("simple", units="radians", gains=light, position_delay=DT)
     late = write_robot_code(slow, target=language)
-    none = write_robot_code(found("simple", gains=GAINS | {"kA": 0.0}), target=language)
+    none = write_robot_code(make_fit("simple", gains=GAINS | {"kA": 0.0}), target=language)
 
     assert "No gains for the position loop" in late
     assert "kPositionP" not in late
@@ -273,7 +273,7 @@ PER_ROTATION = [
 
 
 def fit_in(type_, units, **changes):
-    return found(type_, units=units, log_units=units, **changes)
+    return make_fit(type_, units=units, log_units=units, **changes)
 
 
 def values(text):
@@ -296,7 +296,7 @@ def calls(text):
     return made
 
 
-def rounded(gain):
+def round_gain(gain):
     return float(round_to_error((GAINS | GRAVITY)[gain], (ERRORS | {"kG": 0.0076})[gain]))
 
 
@@ -305,14 +305,14 @@ def test_phoenix_6_gets_volts_per_mechanism_rotation(type_, units, per):
     text = write_robot_code(fit_in(type_, units), target="phoenix6", radius=RADIUS)
     given, known = calls(text), values(text)
 
-    assert known[given["withKS"][0]] == pytest.approx(rounded("kS"), rel=1e-5)
+    assert known[given["withKS"][0]] == pytest.approx(round_gain("kS"), rel=1e-5)
     for method, gain in (("withKV", "kV"), ("withKA", "kA")):
-        assert known[given[method][0]] / per == pytest.approx(rounded(gain), rel=1e-5)
+        assert known[given[method][0]] / per == pytest.approx(round_gain(gain), rel=1e-5)
     assert given["withStaticFeedforwardSign"] == ["StaticFeedforwardSignValue.UseVelocitySign"]
     gravity = {"elevator": "Elevator_Static", "arm": "Arm_Cosine"}.get(type_)
     assert given.get("withGravityType") == ([f"GravityTypeValue.{gravity}"] if gravity else None)
     if gravity:
-        assert known[given["withKG"][0]] == pytest.approx(rounded("kG"), rel=1e-5)
+        assert known[given["withKG"][0]] == pytest.approx(round_gain("kG"), rel=1e-5)
 
 
 @pytest.mark.parametrize(("type_", "units", "per"), PER_ROTATION)
@@ -321,11 +321,11 @@ def test_revlib_gets_volts_per_unit_of_the_log_and_an_arm_its_ratio(type_, units
     given, known = calls(text), values(text)
 
     for gain in ("kS", "kV", "kA"):
-        assert known[given[gain][0]] == pytest.approx(rounded(gain), rel=1e-5)
+        assert known[given[gain][0]] == pytest.approx(round_gain(gain), rel=1e-5)
     assert ("kG" in given) == (type_ == "elevator")
     assert ("kCos" in given) == ("kCosRatio" in given) == (type_ == "arm")
     if type_ == "arm":
-        assert known[given["kCos"][0]] == pytest.approx(rounded("kG"), rel=1e-5)
+        assert known[given["kCos"][0]] == pytest.approx(round_gain("kG"), rel=1e-5)
         assert known[given["kCosRatio"][0]] * per == pytest.approx(1.0, rel=1e-5)
 
 
@@ -340,8 +340,8 @@ def test_yagsl_gets_volts_per_meter_of_the_wheel(units, per):
 
     ks, kv, ka = (values(text)[name] for name in given)
 
-    assert ks == pytest.approx(rounded("kS"), rel=1e-5)
-    assert (kv / per, ka / per) == pytest.approx((rounded("kV"), rounded("kA")), rel=1e-5)
+    assert ks == pytest.approx(round_gain("kS"), rel=1e-5)
+    assert (kv / per, ka / per) == pytest.approx((round_gain("kV"), round_gain("kA")), rel=1e-5)
     assert "replaceSwerveModuleFeedforward(FEEDFORWARD)" in text
 
 

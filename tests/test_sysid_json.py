@@ -203,7 +203,7 @@ def test_damaged_file_is_refused_with_its_place(tmp_path: Path, name: str) -> No
         assert "row 7" in said
 
 
-def read_or_refusal(path: Path, data: bytes) -> Log | Refusal:
+def read_or_refuse(path: Path, data: bytes) -> Log | Refusal:
     path.write_bytes(data)
     try:
         return sim.read(path)
@@ -234,7 +234,7 @@ def test_any_object_is_read_or_refused_in_one_line(
 ) -> None:
     path = tmp_path_factory.getbasetemp() / "any.json"
 
-    outcome = read_or_refusal(path, json.dumps(made).encode())
+    outcome = read_or_refuse(path, json.dumps(made).encode())
 
     assert isinstance(outcome, Log) or (str(path) in str(outcome) and "\n" not in str(outcome))
 

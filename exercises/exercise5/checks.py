@@ -176,7 +176,7 @@ def _list_faults(one: Press, facts: ButtonFacts) -> Iterator[tuple[bool, str, st
 
 
 def _describe_sequence(one: Press, facts: ButtonFacts) -> tuple[str, str] | None:
-    """What is seen of a binding that runs several tests, and the advice."""
+    """What happens at a binding that runs several tests, and the advice."""
     bound_apart = {p.test for p in facts.presses if p.line != one.line}
     if not one.together or bound_apart & set(one.together):
         return None

@@ -112,7 +112,7 @@ def refit_story(story: Story, effects: Collection[str]) -> ModelVariant:
         BadRequest: the story has no model with effects.
     """
     if story.variants is None:
-        raise BadRequest("no effect was found", advice="Take the gains of the fit.")
+        raise BadRequest("no effect was found", advice="Use the gains of the fit.")
     return replace(story.variants.refit(effects), doubts=list_gain_doubts(story))
 
 
