@@ -94,6 +94,6 @@ async function showCode() {
 }
 
 at("reset").addEventListener("click", () => sliders.reset());
-at("paste").addEventListener("click", async () => { await showCode(); at("code").showModal(); });
+at("paste").addEventListener("click", async () => { if (showCode.log !== shownLog()) at("radius").value = ""; showCode.log = shownLog(); await showCode(); at("code").showModal(); });
 at("copy").addEventListener("click", () => copy(at("code-text")));
 for (const id of ["language", "season", "radius"]) at(id).addEventListener("change", showCode);
