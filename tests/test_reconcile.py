@@ -237,9 +237,7 @@ def test_a_search_that_is_cut_short_says_so_and_claims_nothing(stop):
 
     assert (story.verdict, story.remainder, story.findings) == ("unexplained", True, ())
     assert not story.complete
-    assert write_headline(story).startswith(
-        "The search was stopped, or reached its limit, before it had tried every"
-    )
+    assert write_headline(story).startswith("The search ended before it had tried every effect.")
     assert "no known effect" not in write_headline(story)
     assert "--effort" in story.remains
 

@@ -21,7 +21,7 @@ from sim.cli import sysid
 from sim.inspect.contaminate import contaminate
 from sim.inspect.faults import FAULTS
 from sim.reconcile.story_text import list_inspections, list_next_tests, write_headline
-from sim.reconcile.verdict import STOPPED
+from sim.reconcile.verdict import CUT_SHORT
 from sim.report.story_terminal import show_story
 from sim.support.command_line import run_command
 
@@ -45,8 +45,8 @@ def test_reconcile_tells_a_story_in_these_words():
     off, unsure = STORIES["nothing missing"], STORIES["ambiguous"].findings[0]
     one = STORIES["explained"]
     stories = STORIES | {
-        "stopped": replace(STORIES["unexplained"], complete=False, remains=STOPPED),
-        "stopped after drag": replace(one, complete=False, remainder=True, remains=STOPPED),
+        "stopped": replace(STORIES["unexplained"], complete=False, remains=CUT_SHORT),
+        "stopped after drag": replace(one, complete=False, remainder=True, remains=CUT_SHORT),
         "perhaps damaged": story(
             SLIP, replace(SLIP, effect="hard-stop", probability=0.7), chapters=1
         ),

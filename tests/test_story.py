@@ -128,7 +128,7 @@ def test_a_stopped_search_says_so_first_and_denies_no_cause(name):
     headline, page = write_headline(stopped), json.dumps(describe_story(stopped))
 
     assert headline.startswith(
-        "The search was stopped, or reached its limit, before it had tried every effect. "
+        "The search ended before it had tried every effect. "
     )
     assert "known effect" not in headline
     assert "is missing." not in headline  # nothing is said to be complete

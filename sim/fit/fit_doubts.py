@@ -75,9 +75,12 @@ def warn_of_misfit(
         per: the log's unit of position.
         hint: a better type, or None.
     """
-    excess, top_speed = gains_only.excess, gains_only.top_speed
-    share = excess / top_speed if top_speed > 0.0 else 0.0
-    size = f"{excess / per.si:.2g} {per.symbol}/s (RMS), {share:.1%} of its top speed"
+    top_speed = gains_only.top_speed or math.inf
+    share = gains_only.excess / top_speed
+    size = (
+        f"{gains_only.rmse / per.si:.2g} {per.symbol}/s (RMS), "
+        f"{gains_only.rmse / top_speed:.0%} of its top speed"
+    )
     if share > NOTICED:
         return (
             Doubt(

@@ -55,7 +55,6 @@ from sim.fit.search import (
     predict_improvement,
     refine,
 )
-from sim.fit.sysid_doubts import warn_of_uncertain_gains
 
 PENALTY = 4.0  # [of -2 log L] more for a window below a sample period, which noise can imitate
 HINT = 2.0  # [of -2 log L] predicted improvement by short lags from which on longer ones are tried
@@ -407,7 +406,6 @@ def _make_result(
             *warn_of_opposed_signs(sign),
             *warn_of_lags(window, lag),
             *said,
-            *warn_of_uncertain_gains(signed, errors, per=find_unit(log.units)),
         ),
     )
 

@@ -16,12 +16,6 @@ DUBIOUS_R2 = 0.2  # acceleration R² below which WPILib's documentation calls kA
 GOOD_R2 = 0.9  # simulated velocity R² above which WPILib's documentation calls a fit good
 STALE = 0.6  # [share of accelerating samples] that repeat; up to one half, kA has no bias
 SURELY = 2.0  # [standard errors] below zero, from which on noise is not the cause
-TEST_FOR = (
-    "Repeat the quasistatic tests with a slower ramp.",
-    "Repeat the dynamic tests, and log every loop.",
-)  # kS, kV, kG and kA
-UNSURE_GAIN = "unsure-gain"
-UNSURE = 0.5  # [share of a gain] a standard error this large leaves even its sign in doubt
 
 
 def list_sysid_doubts(
@@ -39,7 +33,6 @@ def list_sysid_doubts(
         *_doubt_repeats(log),
         *_doubt_stale_velocities(log),
         *_doubt_signs(found.gains, found.errors, per=find_unit(log.units)),
-        *warn_of_uncertain_gains(found.gains, found.errors, per=find_unit(log.units)),
         *_doubt_low_r2(found.r2, simulated),
         *_doubt_slow_steps(prepared.velocity_delay, found.gains),
     )
@@ -135,28 +128,6 @@ def _doubt_signs(
         )
         for gain, why in cause.items()
         if gains.get(gain, 1.0) < 0
-    ]
-
-
-def warn_of_uncertain_gains(
-    gains: Mapping[str, float], errors: Mapping[str, float], *, per: Unit
-) -> list[Doubt]:
-    """Warnings about gains whose standard error is more than half of their value.
-
-    Args:
-        gains: gain -> value, in SI.
-        errors: gain -> one standard error, in SI.
-        per: the unit of position of the messages.
-    """
-    shown, sizes = (convert_gains(numbers, factor=per.si) for numbers in (gains, errors))
-    return [
-        Doubt(
-            UNSURE_GAIN,
-            f"{gain} = {shown[gain]:.2g} ± {sizes[gain]:.2g} {format_gain_unit(gain, per)}: this "
-            f"log does not show whether {gain} differs from 0. {TEST_FOR[gain == 'kA']}",
-        )
-        for gain, error in errors.items()
-        if gain != "offset_rad" and error > UNSURE * abs(gains[gain])
     ]
 
 

@@ -21,7 +21,7 @@ from sim.reconcile.thresholds import (
 )
 
 HARDLY, WIDENS = "hardly narrows the gap", "widens the gap"
-STOPPED = "the search was stopped before all were compared"
+CUT_SHORT = "the search ended before all were compared"
 TINY = 1e-300  # avoids a division by a gap of zero
 
 
@@ -48,7 +48,7 @@ def weigh_candidates(data: SelectionData, now: SelectionRound) -> list[WeighedCa
         found.append(WeighedCandidate(candidate, gap, tried))
     if data.is_budget_spent():
         found = [
-            replace(one, report=replace(one.report, admitted=False, why=STOPPED)) for one in found
+            replace(one, report=replace(one.report, admitted=False, why=CUT_SHORT)) for one in found
         ]
     return found
 

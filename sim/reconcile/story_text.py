@@ -21,13 +21,13 @@ from sim.support.printable import join_names, write_minus_sign
 FAR = 3.0  # [standard errors] by which two estimates of one gain hardly ever differ
 LEAST_ERROR = 1e-4  # [1] relative standard error below which only this limit is written
 FAULT, MAJOR, MINOR = "fault", "major", "minor"
-STOPPED = "The search was stopped, or reached its limit, before it had tried every effect."
+CUT_SHORT = "The search ended before it had tried every effect."
 
 
 def write_headline(story: Story) -> str:
     """The verdict in a few plain sentences: what is missing, and how much that explains."""
     verdict = _write_verdict(story)
-    return verdict if story.complete else f"{STOPPED} {verdict}"
+    return verdict if story.complete else f"{CUT_SHORT} {verdict}"
 
 
 def _write_verdict(story: Story) -> str:

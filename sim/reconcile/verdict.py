@@ -13,9 +13,9 @@ from sim.reconcile.selection_round import SelectionRound
 from sim.reconcile.story import AMBIGUOUS, EXPLAINED, NOTHING_MISSING, UNEXPLAINED, Finding
 from sim.reconcile.thresholds import COMPARABLE, LOST, VISIBLE_FLOORS, VISIBLE_SPEED
 
-STOPPED = (
-    "The search stopped before it had tried every effect, because a search has a limit. To search "
-    "further, give --effort a number above 1: with --effort 5, the limit is five times as high."
+CUT_SHORT = (
+    "A search has a limit. To search further, give --effort a number above 1: with --effort 5, "
+    "the limit is five times as high."
 )
 REFUTED = (
     "With {} the model fits the log better, but it misses runs that were not fitted by more. So "
@@ -49,7 +49,7 @@ def reach_verdict(
         )
         return UNEXPLAINED, True, remains
     remains = (
-        (STOPPED if not complete else "")
+        (CUT_SHORT if not complete else "")
         or (REFUTED.format(" and ".join(refuted)) if refuted else "")
         or _describe_residual(problem, residuals, unit)
         or _describe_remainder(findings, rounds, floors=floors)

@@ -25,9 +25,8 @@ from sim.fit import Fit
 from sim.fit.feedback_trial import try_feedback_gains, warn_of_bad_suggestions
 from sim.fit.fit_doubts import MISFIT
 from sim.fit.physics import Parts
-from sim.fit.physics.parts import check_radius_unit, fit_in_si
+from sim.fit.physics.parts import check_radius_unit
 from sim.fit.replay import replay_fit
-from sim.fit.sysid_doubts import UNSURE_GAIN, warn_of_uncertain_gains
 from sim.inspect.detect_faults import Inspection
 from sim.io.entries.entry import NUMBERS, SECOND, STRING, Entry
 from sim.physics.engine import engine_can_compile, engine_is_cached
@@ -460,14 +459,10 @@ def replace_gains(
     That the model without effects misses the log says nothing about these gains, unless it is
     grave; everything else that is doubted of the log still holds.
     """
-    gone = MISFIT | {UNSURE_GAIN}
-    found = replace(
+    return replace(
         plain,
         gains={name: one.value for name, one in gains.items()},
         errors={name: one.error for name, one in gains.items() if one.error is not None},
         parts=parts,
-        doubts=(*(one for one in plain.doubts if one.grave or one.code not in gone), *doubts),
+        doubts=(*(one for one in plain.doubts if one.grave or one.code not in MISFIT), *doubts),
     )
-    si = fit_in_si(found)
-    unsure = warn_of_uncertain_gains(si.gains, si.errors, per=find_unit(found.units))
-    return replace(found, doubts=(*found.doubts, *unsure))

@@ -101,7 +101,7 @@ export function drawTimes(chart, to) {
   const { quiet, rule } = chart.colors;
   to.textAlign = "center";
   const apart = (70 / (chart.right - chart.left)) * (chart.view[1] - chart.view[0]);
-  let free = chart.left;
+  let free = chart.left - 16; // the first label may stand below the scale
   for (const [k, run] of chart.runs.entries()) {
     if (!run.time.length) continue;
     const begins = chart.showsSignals ? run.time[0] : 0;

@@ -49,7 +49,7 @@ export function listMarks(log) {
     .map((one) => ({ run: one.run, start: one.start_s, end: one.end_s, name: one.fault, color: "fault" }));
   const left = log.leftOut.flatMap(({ test, start, end }) => log.runs.flatMap(({ test: of, time }, run) =>
     (of === test && time.at(-1) >= start && time[0] <= end ? [{ run, start: Math.max(start, time[0]), end: Math.min(end, time.at(-1)), name: "", color: "quiet" }] : [])));
-  return [...left, ...faults];
+  return [...left, ...faults].sort((one, other) => one.run - other.run || one.start - other.start);
 }
 
 /** Show the signals of a log, or its fit. */

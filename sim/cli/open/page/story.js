@@ -20,7 +20,7 @@ export function showStory() {
   const others = [...logs.values()].filter((one) => one !== log && one.runs);
   const parts = !search
     ? [make("p", "quiet", "Tries every effect of the catalogue, drag to backlash, and names those that explain the simulation error. ", log.summary.compiled
-        ? "This takes some seconds." : "This takes minutes: Numba is not installed. With the extra fast it takes seconds.")]
+        ? "This takes seconds, and up to a minute on a slow laptop." : "This takes minutes: Numba is not installed. With the extra fast it takes seconds.")]
     : search.refused ? [make("li", "grave", search.refused)]
       : storyParts(search.story, log, (effects) => guarded(log.name, () => chooseEffects(log, effects)));
   place.replaceChildren(...parts, searchForm(search, others, (settings) => guarded(log.name, () => reconcile(log, settings))));

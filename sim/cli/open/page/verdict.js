@@ -82,7 +82,8 @@ export function showDoubts() {
   if (fit) at("verdict").replaceChildren(...prose(fit.verdict));
   at("verdict-card").classList.toggle("wrong", Boolean(fitRefused) || word === "Do not use");
   at("verdict-card").classList.toggle("well", word === "Usable");
-  const said = [...fit?.doubts ?? [], ...faults?.doubts ?? []].sort((a, b) => Number(b.grave) - Number(a.grave));
+  const isFault = ({ code }) => faults?.faults.some(({ fault }) => fault === code); // its card says it
+  const said = [...fit?.doubts ?? [], ...faults?.doubts ?? []].filter((one) => !isFault(one)).sort((a, b) => Number(b.grave) - Number(a.grave));
   const known = [...Map.groupBy(said, ({ code }) => code).values()].map((alike) =>
     ({ ...alike[0], message: [...new Set(alike.map(({ message }) => message))].join(" ") }));
   const notes = (fit?.notes ?? []).map((note) => foldedItem("well", "Note", note));

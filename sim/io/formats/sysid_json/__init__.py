@@ -137,8 +137,8 @@ def _read_units(
         default = "radians" if "arm" in (type_, options.type) else "meters"
         doubt = Doubt(
             "units-unknown",
-            f"{where} does not say in which units it is, as no file of 2019 and 2020 does: taken "
-            f"as {default}.",
+            f"{where}: the file does not name its units, as no file of 2019 and 2020 does, so "
+            f"{default} were assumed.",
             action=Action("units"),
         )
         return default, (doubt,)

@@ -131,9 +131,9 @@ def choose_side(
         found.append(
             Doubt(
                 "turning-drivetrain",
-                f"{where} is of a drivetrain turning on the spot: its velocity is the wheels' "
-                "while turning, counter-clockwise positive. For kV and kA per radian of the "
-                "robot, multiply by half the track width.",
+                f"{where}: the drivetrain turns on the spot here, so its velocity is that of the "
+                "wheels, counter-clockwise positive. For kV and kA per radian of the robot, "
+                "multiply by half the track width.",
             )
         )
     if motor != "combined":
