@@ -45,6 +45,7 @@ TRUTH = DRIVETRAIN.gains
 GUESS = {"kS": 0.1, "kV": 2.0, "kA": 0.1}
 TIME = np.arange(0.0, 2.5, 0.02)
 WANTED = np.interp(TIME, [0.2, 0.7, 1.7, 2.2], [0.0, 2.0, 2.0, 0.0])  # [m/s]
+FRAMES, PERIOD = 23, 100  # growing pictures, and milliseconds that each is shown
 STYLES = {"line": "-", "bar": "-", "dashed": "--", "dots": "o"}
 
 
@@ -151,8 +152,8 @@ def chart_lessons() -> Iterator[Chart]:
     yield Chart(where, "y [m]", curves, x=(-2.0, 4.0), y=(-0.7, 0.7))
 
 
-def draw(chart: Chart) -> bytes:
-    """A chart as PNG of few colors."""
+def draw(chart: Chart, *, share: float = 1.0) -> Image.Image:
+    """A chart with the first part of each curve."""
     figure, ((axes,),) = make_panels(1, 1, width=8.6, height=2.8)
     for curve in chart.curves:
         pen = {"color": INK if curve.color is None else COLORS[curve.color], "label": curve.name}
@@ -160,15 +161,32 @@ def draw(chart: Chart) -> bytes:
             axes.fill(curve.x, curve.y, alpha=0.3, **pen)
         else:
             wide = 6.0 if curve.style == "bar" else 1.5
-            axes.plot(curve.x, curve.y, STYLES[curve.style], linewidth=wide, **pen)
+            (line,) = axes.plot(curve.x, curve.y, STYLES[curve.style], linewidth=wide, **pen)
+            if share < 1.0:
+                axes.set(xlim=axes.get_xlim(), ylim=axes.get_ylim())
+                shown = 1 + int(share * (len(curve.x) - 1))
+                line.set_data(curve.x[:shown], curve.y[:shown])
+                axes.plot(curve.x[shown - 1], curve.y[shown - 1], "o", color=pen["color"])
     axes.set(xlabel=chart.xlabel, ylabel=chart.ylabel, xlim=chart.x, ylim=chart.y)
     add_legend(figure, [axes], columns=4)
-    drawn, small = io.BytesIO(), io.BytesIO()
+    drawn = io.BytesIO()
     figure.savefig(drawn, format="png", dpi=110)
-    Image.open(drawn).convert("RGB").quantize(128).save(small, format="png", optimize=True)
-    return small.getvalue()
+    return Image.open(drawn).convert("RGB")
+
+
+def draw_lessons() -> Iterator[bytes]:
+    """The picture of each lesson as PNG; in that of the first, the curves grow twice, for 4.8 s."""
+    for lesson, chart in enumerate(chart_lessons()):
+        whole, file = draw(chart).quantize(128), io.BytesIO()
+        shares = np.linspace(0.0, 1.0, FRAMES, endpoint=False) if lesson == 0 else ()
+        parts = [draw(chart, share=share) for share in shares]
+        grown = [part.quantize(palette=whole, dither=Image.Dither.NONE) for part in parts]
+        motion = {"save_all": True, "append_images": [*grown, whole], "default_image": True,
+                  "duration": PERIOD, "loop": 2} if grown else {}  # fmt: skip
+        whole.save(file, format="png", optimize=True, **motion)
+        yield file.getvalue()
 
 
 if __name__ == "__main__":
-    for lesson, chart in zip(sorted((ROOT / "lessons").glob("*.py")), chart_lessons(), strict=True):
-        (ROOT / ".ci" / "pictures" / f"{lesson.stem}.png").write_bytes(draw(chart))
+    for lesson, drawn in zip(sorted((ROOT / "lessons").glob("*.py")), draw_lessons(), strict=True):
+        (ROOT / ".ci" / "pictures" / f"{lesson.stem}.png").write_bytes(drawn)

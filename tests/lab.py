@@ -49,6 +49,11 @@ def serving(home):
 def open_notebook(page, address):
     """Open a notebook, and wait until its kernel is there."""
     page.goto(address)
+    wait_until_idle(page)
+
+
+def wait_until_idle(page):
+    """Wait until the kernel of the notebook is there, and runs nothing."""
     page.locator("#jp-main-statusbar").get_by_text("| Idle").wait_for()
 
 
@@ -71,7 +76,7 @@ def run_all(page, address):
         }""",
         polling=OFTEN,
     )
-    page.locator("#jp-main-statusbar").get_by_text("| Idle").wait_for()
+    wait_until_idle(page)
 
 
 def outputs(page, kind):

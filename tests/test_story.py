@@ -127,9 +127,7 @@ def test_a_stopped_search_says_so_first_and_denies_no_cause(name):
     stopped = replace(STORIES[name], complete=False)
     headline, page = write_headline(stopped), json.dumps(describe_story(stopped))
 
-    assert headline.startswith(
-        "The search ended before it had tried every effect. "
-    )
+    assert headline.startswith("The search ended before it had tried every effect. ")
     assert "known effect" not in headline
     assert "is missing." not in headline  # nothing is said to be complete
     assert "effect of the catalogue explains" not in page
