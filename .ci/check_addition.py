@@ -31,7 +31,7 @@ CONTRACTS = {
     "sim/bench/mechanisms": Contract("simulate physics wpilib_simulations"),
     "sim/physics/effects": Contract("effects"),
     "sim/inspect/faults": Contract(
-        "faults contaminate sentences", "struck sound catalogue each_fault"
+        "faults contaminate sentences", "struck sound catalogue sentences_of_inspect"
     ),
     "sim/io/formats": Contract("formats", "formats"),
     "sim/report/robot_code": Contract("robot_code_snippet fit_command", "paste"),

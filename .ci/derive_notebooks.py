@@ -72,27 +72,27 @@ def derive(text: Path) -> nbformat.NotebookNode:
     return notebook
 
 
-def stale(text: Path) -> bool:
+def is_stale(text: Path) -> bool:
     """Whether the notebook beside a lesson's text is missing or says something else."""
     path = text.with_suffix(".ipynb")
-    return not path.exists() or path.read_text(encoding="utf-8") != _as_text(derive(text))
+    return not path.exists() or path.read_text(encoding="utf-8") != _write_text(derive(text))
 
 
 def main(arguments: list[str]) -> int:
     """Derive, or check."""
-    late = [text for text in sorted(LESSONS.glob("*.py")) if stale(text)]
+    late = [text for text in sorted(LESSONS.glob("*.py")) if is_stale(text)]
     for text in late:
         if "--check" in arguments:
             print(f"{text.name} was edited: run  python .ci/derive_notebooks.py")
         else:
             text.with_suffix(".ipynb").write_text(
-                _as_text(derive(text)), encoding="utf-8", newline="\n"
+                _write_text(derive(text)), encoding="utf-8", newline="\n"
             )
             print(f"derived {text.with_suffix('.ipynb').name}")
     return 1 if late and "--check" in arguments else 0
 
 
-def _as_text(notebook: nbformat.NotebookNode) -> str:
+def _write_text(notebook: nbformat.NotebookNode) -> str:
     return str(nbformat.writes(notebook)) + "\n"
 
 

@@ -64,7 +64,7 @@ def on_config(config: MkDocsConfig) -> MkDocsConfig:
         "lessons/*": [f"lessons/{path.stem}.md" for path in list_lessons()],
         "exercises/*": [
             path.relative_to(ROOT).as_posix()
-            for path in sorted((ROOT / "exercises").glob("*/README.md"), key=_number)
+            for path in sorted((ROOT / "exercises").glob("*/README.md"), key=_find_number)
         ],
     }
     for section in config.nav or ():
@@ -284,7 +284,7 @@ def _is_ours(page: Page) -> bool:
     return page.file.src_uri not in MKDOCS_OWN
 
 
-def _number(path: Path) -> tuple[int, str]:
+def _find_number(path: Path) -> tuple[int, str]:
     """The order of exercises: by number, and those without one behind."""
     found = re.search(r"\d+", path.parent.name)
     return (int(found[0]) if found else 1000, path.parent.name)

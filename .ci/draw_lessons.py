@@ -72,7 +72,7 @@ def chart_drives(programs: Mapping[str, Mapping[str, float]]) -> Chart:
     return chart_curves(TIME, lines, xlabel=SECONDS, ylabel=SPEED)
 
 
-def lift_with(volts: float) -> float:
+def simulate_lift(volts: float) -> float:
     """The speed of the elevator after 0.4 s of a voltage."""
     held, start = np.full(20, volts), State.cold_at(0.6)
     return simulate_run(ELEVATOR.model, time=TIME[:20], voltage=held, state=start).velocity[-1]
@@ -101,7 +101,7 @@ def chart_lessons() -> Iterator[Chart]:
 
     # 2: the window that holds an elevator
     kg, ks, volts = ELEVATOR.gains["kG"], ELEVATOR.gains["kS"], np.arange(1.2, 3.01, 0.02)
-    window, speeds = (kg - ks, kg + ks), [*map(lift_with, volts)]
+    window, speeds = (kg - ks, kg + ks), [*map(simulate_lift, volts)]
     yield chart_hold_window(volts, speeds, window=window, marks={"kG": kg})
 
     # 3 and 4: two kinds of tests, each in two directions

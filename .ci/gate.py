@@ -40,8 +40,8 @@ def main() -> None:
     if isinstance(sys.stdout, io.TextIOWrapper):
         sys.stdout.reconfigure(errors="replace")  # a Windows console may lack a sign
     with tempfile.TemporaryDirectory(prefix="gate-") as folder:
-        environment = fresh_environment(Path(folder) / "env")
-        start, test = commands()
+        environment = make_environment(Path(folder) / "env")
+        start, test = list_commands()
         say(f"README, first command: {start}")
         watch(start, environment)
         say(f"README, second command: {test}")
@@ -66,7 +66,7 @@ def say(line: str) -> None:
     print(f"\n=== {line}", flush=True)
 
 
-def commands() -> tuple[str, str]:
+def list_commands() -> tuple[str, str]:
     """The README's two set-up commands, word for word."""
     text = (ROOT / "README.md").read_text(encoding="utf-8")
     section = text.partition("\n## Set up\n")[2].partition("\n## ")[0]
@@ -76,7 +76,7 @@ def commands() -> tuple[str, str]:
     return found[0], found[1]
 
 
-def fresh_environment(folder: Path) -> dict[str, str]:
+def make_environment(folder: Path) -> dict[str, str]:
     """Make a virtual environment and the process environment that enters it."""
     venv.create(folder, with_pip=True)
     scripts = folder / ("Scripts" if os.name == "nt" else "bin")
@@ -113,8 +113,8 @@ def watch(command: str, environment: dict[str, str]) -> None:
         errors="replace",
     )
     try:
-        waited = first_screen(running)
-        server = lab(runtime)
+        waited = wait_for_first_screen(running)
+        server = find_lab(runtime)
         shut_down(server)
         running.wait(30)
     finally:
@@ -127,7 +127,7 @@ def watch(command: str, environment: dict[str, str]) -> None:
         fail(f"the first useful screen took {waited:.1f} s, more than {SCREEN:g}")
 
 
-def first_screen(running: "subprocess.Popen[str]") -> float:
+def wait_for_first_screen(running: "subprocess.Popen[str]") -> float:
     """Seconds from the end of the install to the line that says what to do next."""
     installed = time.monotonic()
     for line in running.stdout or ():
@@ -141,13 +141,13 @@ def first_screen(running: "subprocess.Popen[str]") -> float:
     return time.monotonic() - installed
 
 
-def lab(runtime: Path) -> dict[str, str]:
+def find_lab(runtime: Path) -> dict[str, str]:
     """Wait until the server that leaves its address in ``runtime`` serves a page."""
     last = time.monotonic() + 60.0
     while time.monotonic() < last:
         for file in runtime.glob("jpserver-*.json"):
             server = json.loads(file.read_text(encoding="utf-8"))
-            if serves(f"{server['url']}lab?token={server['token']}"):
+            if is_serving(f"{server['url']}lab?token={server['token']}"):
                 return dict(server)
         time.sleep(0.5)
     return fail("JupyterLab never answered")
@@ -161,7 +161,7 @@ def shut_down(server: dict[str, str]) -> None:
         pass
 
 
-def serves(address: str) -> bool:
+def is_serving(address: str) -> bool:
     """Whether a page is served there."""
     try:
         with urlopen(address, timeout=5) as page:  # noqa: S310 - our own server's address

@@ -28,10 +28,12 @@ def list_starters(old: dict[str, dict[str, str]]) -> str:
     Args:
         old: exercise -> file -> digest, as listed so far.
     """
-    return HEAD + "".join(_section(one, old.get(one.name, {})) for one in list_exercises(ROOT))
+    return HEAD + "".join(
+        _write_section(one, old.get(one.name, {})) for one in list_exercises(ROOT)
+    )
 
 
-def _section(one: Exercise, old: dict[str, str]) -> str:
+def _write_section(one: Exercise, old: dict[str, str]) -> str:
     names = {name for name in old if (one.folder / name).is_file()} | {
         *one.files,
         *one.companion_files,

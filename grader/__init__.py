@@ -22,7 +22,7 @@ _WHERE = {
 
 
 def __getattr__(name: str) -> object:
-    """What a notebook asks for, imported only then: the command starts without it."""
+    """Import a name for notebooks on first use: the command starts without it."""
     if name not in _WHERE:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     return getattr(import_module(f"{__name__}.{_WHERE[name]}"), name)

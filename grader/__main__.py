@@ -1,4 +1,4 @@
-"""``python -m grader``: works in a fresh clone. It installs what is missing, and then is ``grade``.
+"""``python -m grader``: installs what is missing in a fresh clone, then runs ``grade``.
 
     python -m grader start             once, to begin
     python -m grader test              the course's own tests, but for the slow ones
@@ -37,7 +37,7 @@ EVERYTHING = (  # all tests, a file at a time on each core, in the order of test
 
 
 def main(arguments: list[str]) -> int:
-    """Run a command of the course, after installing what it needs.
+    """Run a command of the course, after installing the packages that it needs.
 
     Args:
         arguments: what came after ``python -m grader``.
@@ -184,7 +184,7 @@ def _install(*, testing: bool) -> tuple[str, str] | None:
 
 
 def _run_quietly(command: list[str], *, cwd: Path | None = None) -> str:
-    """Run a command; nothing if it went well, else the last lines of what it said went wrong."""
+    """Run a command; the last lines of its error output if it failed, else an empty text."""
     done = subprocess.run(  # noqa: S603 - our own arguments, no shell
         command, cwd=cwd, capture_output=True, text=True, errors="replace", check=False
     )

@@ -33,7 +33,7 @@ def shorten(raw: object) -> str:
 
 
 class Status(StrEnum):
-    """How a check ended."""
+    """The status of a check."""
 
     PASSED = "passed"
     FAILED = "failed"
@@ -63,7 +63,7 @@ class WrongAnswer(Exception):  # noqa: N818 - a wrong answer is no error of the 
 
 
 class NotReachedError(Exception):
-    """There is nothing to look at yet; the message says what is missing."""
+    """A check has nothing to read yet; the message says what is missing."""
 
 
 class NotRunError(Exception):
@@ -125,18 +125,18 @@ class Check(Generic[Subject]):
         except WrongAnswer as wrong:
             points = min(max(wrong.earned, 0.0), self.points)
             found = (wrong.seen, wrong.hint, wrong.misconception)
-            return self._result(Status.FAILED, points, *found)
+            return self._make_result(Status.FAILED, points, *found)
         except (NotReachedError, Refusal) as reason:  # of a further file, for instance
-            return self._result(Status.NOT_REACHED, 0.0, str(reason))
+            return self._make_result(Status.NOT_REACHED, 0.0, str(reason))
         except MemoryError:  # whoever grades says it: this check is not broken
             raise
         except NotRunError as reason:
-            return self._result(Status.NOT_RUN, 0.0, str(reason))
+            return self._make_result(Status.NOT_RUN, 0.0, str(reason))
         except Exception as error:  # noqa: BLE001 - whatever it is, the learner is not to blame
-            return self._result(Status.ERROR, 0.0, f"{type(error).__name__}: {error}")
-        return self._result(Status.PASSED, self.points, "", note)
+            return self._make_result(Status.ERROR, 0.0, f"{type(error).__name__}: {error}")
+        return self._make_result(Status.PASSED, self.points, "", note)
 
-    def _result(
+    def _make_result(
         self, status: Status, points: float, seen: str, hint: str = "", misconception: str = ""
     ) -> Result:
         head = (self.id, self.description, status, points, self.points)
@@ -188,7 +188,7 @@ def make_check(
 
 
 def run_checks(checks: Sequence[Check[Subject]], subject: Subject) -> tuple[Result, ...]:
-    """Run the checks in order; one whose predecessor did not pass is not reached."""
+    """Run the checks in order; a check is not reached if the one that it needs did not pass."""
     results: dict[str, Result] = {}
     for one in checks:
         blocked = [first for first in one.after if results[first.id].status is not Status.PASSED]

@@ -1,4 +1,4 @@
-"""What an answer would do on the robot, in words and as a picture.
+"""The consequence of an answer for the robot's motion, in words and as a picture.
 
 An exercise's ``checks.py`` may offer it, for answers that are not all right:
 

@@ -1,4 +1,4 @@
-"""The course on this machine: where it is, who is learning, and how far they are."""
+"""The course on this machine: its folder, the learner, and their progress."""
 
 import math
 import os
@@ -142,7 +142,7 @@ def load_progress(course: Path) -> tuple[Progress, str]:
 
 
 def _rescue_student(text: str) -> str:
-    """The name in a damaged file, so that nobody is graded on the numbers of somebody else."""
+    """The student's name in a damaged file, so that no other student's numbers are used."""
     for line in text.splitlines():
         with suppress(ValueError, TypeError, LookupError, RecursionError, Refusal):
             return check_student_name(_parse_student(tomllib.loads(line)))
@@ -150,13 +150,13 @@ def _rescue_student(text: str) -> str:
 
 
 def _find_default_student(course: Path) -> str:
-    """Nobody's name; empty where the course made data for somebody, whose name is lost."""
+    """The name for a course without a student; empty if the name was lost."""
     owners = {path.name for path in course.glob("exercises/*/data/*")}
     return "" if owners - {make_folder_name(NOBODY)} else NOBODY
 
 
 def _parse_student(raw: Mapping[str, object]) -> str:
-    """The name in a file's content; whatever is none raises."""
+    """The student's name in a file's content; raises an error if there is none."""
     student = raw["student"]
     if not isinstance(student, str):
         raise TypeError
@@ -171,7 +171,7 @@ def _find_free_name(path: Path) -> Path:
 
 
 def _parse_progress(raw: dict[str, object]) -> Progress:
-    """Progress from its file's content; whatever does not fit raises."""
+    """Progress from its file's content; raises an error for anything else."""
     if not raw:  # a disk that was full, or a machine that lost its power
         raise ValueError
     standings: dict[str, dict[str, Standing]] = {}
@@ -185,7 +185,7 @@ def _parse_progress(raw: dict[str, object]) -> Progress:
 
 
 def update_progress(course: Path, change: Callable[[Progress], Progress]) -> str:
-    """Change the progress kept in a course folder, whoever else changes it at the same time.
+    """Change the progress stored in a course folder, safely against other processes.
 
     Args:
         course: the course folder.

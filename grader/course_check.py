@@ -45,7 +45,7 @@ class SolvedExercise:
     right: Mapping[str, str]
 
     def grade(self, file: str, changed: Mapping[str, str] | None = None) -> Grade:
-        """Grade the right answer, or what became of it.
+        """Grade the right answer, or a changed copy of it.
 
         Args:
             file: the one of its files to grade, where the exercise takes several.
@@ -139,7 +139,7 @@ def _find_graded_flaws(one: Exercise) -> Iterator[str]:
 
 
 def find_task_flaws(one: Exercise) -> list[str]:
-    """What is wrong with the files that an author writes, before anything is solved."""
+    """Faults in the files that an author writes, found before anything is solved."""
     return [*_find_readme_flaws(one), *_find_check_flaws(one), *_find_starter_flaws(one)]
 
 
@@ -158,7 +158,7 @@ def _find_readme_flaws(one: Exercise) -> Iterator[str]:
 
 
 def _find_check_flaws(one: Exercise) -> Iterator[str]:
-    """What is wrong with hints, checks, and the mistakes that name them."""
+    """Faults in hints, checks, and the mistakes that name them."""
     hints = zip(HINTS, one.hints, strict=True)
     if short := [name for name, hint in hints if len(hint) <= SHORTEST_HINT]:
         yield f"hints.toml: {', '.join(short)} needs a whole sentence"
@@ -187,7 +187,7 @@ def _find_starter_flaws(one: Exercise) -> Iterator[str]:
         if solved.is_file():
             left = remove_answers(solved.read_text(encoding="utf-8"))
             if starter.read_text(encoding="utf-8") != left or "TODO" not in left:
-                yield f"{name} must be its solution without what stands between --- answer and end"
+                yield f"{name} must be its solution without the lines between --- answer and end"
     for name in one.files:
         grade = one.grade(one.folder / name, student=STUDENTS[0])
         if grade.status != "failed" or grade.score >= grade.max_score / 2:
@@ -198,7 +198,7 @@ def _find_starter_flaws(one: Exercise) -> Iterator[str]:
 
 
 def find_solution_flaws(solved: SolvedExercise) -> Iterator[str]:
-    """What a right answer does not earn, and where the task tells it."""
+    """Points that the right answer does not earn, and places where the task reveals it."""
     who = f"with the files of {solved.student}"
     for name in solved.exercise.files:
         grade = solved.grade(name)
@@ -218,7 +218,7 @@ def find_solution_flaws(solved: SolvedExercise) -> Iterator[str]:
 
 
 def find_mistake_flaws(solved: SolvedExercise, mistake: Mistake) -> Iterator[str]:
-    """What is wrong with a planted mistake, which must fail its check and be named."""
+    """Faults of a planted mistake, which must fail its check and be named."""
     says = f"the mistake {mistake.name!r}, with the files of {solved.student}"
     try:
         text = mistake.edit_text(solved.right[mistake.file])
@@ -241,7 +241,7 @@ def find_mistake_flaws(solved: SolvedExercise, mistake: Mistake) -> Iterator[str
 
 
 def find_draw_flaws(one: Exercise) -> Iterator[str]:
-    """What is wrong with a student's own files: each class gets others, and always the same."""
+    """Faults of a student's own files, which must be reproducible and differ between classes."""
     if not one.is_personal:
         return
     made = []

@@ -32,7 +32,7 @@ def unpack_course(target: Path) -> bool:
         return False
     if target.exists() and (not target.is_dir() or any(target.iterdir())):
         raise BadRequest(
-            "something else is there already",
+            "this place already holds something else",
             where=str(target),
             advice="Name a folder that is empty or new: grade start my-course",
         )

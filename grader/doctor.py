@@ -1,4 +1,4 @@
-"""``grade doctor``: what this machine has, and what is missing for which part of the course."""
+"""``grade doctor``: the equipment of this machine, and what each part of the course lacks."""
 
 import os
 import sys

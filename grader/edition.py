@@ -25,7 +25,7 @@ BLOCKS = Path(__file__).with_name("edition.html.jinja")
 
 
 def execute_notebook(path: Path) -> Any:  # noqa: ANN401 - nbformat has no types
-    """Execute a notebook in a copy of its course that nobody worked in.
+    """Execute a notebook in a fresh copy of its course.
 
     Args:
         path: of the notebook, in the folder ``lessons`` of a course.

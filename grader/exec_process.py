@@ -1,4 +1,4 @@
-"""Run a program in place of this one: it gets keyboard and signals, and its exit code is ours.
+"""Run a program in place of this one: it gets keyboard and signals, and returns its exit code.
 
 Uses nothing but Python's own library: it serves before anything is installed.
 """
@@ -39,7 +39,7 @@ def run_process(
 
 @contextmanager
 def _forward_signals(running: subprocess.Popen[bytes]) -> Iterator[None]:
-    """While it runs, whoever ends us ends it: nothing is left behind."""
+    """A context that forwards signals to the running program, so that it ends with us."""
     try:
         before = signal.signal(signal.SIGTERM, lambda *_: running.terminate())
     except ValueError:  # not the main thread: somebody else's program looks after signals

@@ -133,7 +133,7 @@ class Exercise:
 
     @property
     def companion_files(self) -> tuple[str, ...]:
-        """The files to fill in that belong to the one graded, and stand beside it."""
+        """The files to fill in that stand beside the graded file."""
         return tuple(getattr(self.module, "BESIDE", ()))
 
     @property
@@ -143,7 +143,7 @@ class Exercise:
 
     @property
     def answer_endings(self) -> frozenset[str]:
-        """What the names of the files that are graded end in."""
+        """The endings of the names of the graded files."""
         return frozenset(Path(name).suffix for name in self.files)
 
     @property
@@ -200,7 +200,7 @@ class Exercise:
                 write_student_files(files, exercise=self.folder, student=student, say=say)
 
     def read(self, file: Path, *, student: str, run: bool) -> Any:  # noqa: ANN401 - each has its own
-        """What the checks look at.
+        """Read a submission into the object that the checks read.
 
         Args:
             file: of the answer.
@@ -252,7 +252,7 @@ class Exercise:
             )
 
     def find_consequence(self, grade: Grade) -> Consequence | None:
-        """What an answer would do on the robot; None where it is right, or has no visible effect.
+        """The consequence of an answer on the robot; None if it is right or has no visible effect.
 
         Args:
             grade: what became of the answer; its file is read once more, and nothing of it is run.
@@ -342,7 +342,7 @@ def sum_points(results: Iterable[Result]) -> tuple[float, float]:
 
 
 def choose_best_grade(grades: Sequence[Grade]) -> Grade:
-    """The grade with the highest score; if none scored, one whose answer could not be read.
+    """The grade with the highest score; if no answer scored, first an unreadable one.
 
     A file with a syntax error is more likely the one being worked on than an untouched starter.
     """

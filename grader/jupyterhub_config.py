@@ -51,7 +51,7 @@ PACK = (  # a student's answers and data; what is larger than 20 MB is neither
 
 
 def refuse_open_class() -> None:
-    """Leave with one sentence where students could not work, or could read what they must not."""
+    """Stop with one sentence if students could not work, or could read forbidden files."""
     if sys.platform != "linux" or os.geteuid() != 0:
         sys.exit("Only root on Linux can give each student a system user: run jupyterhub as root.")
     if (Path(grader.__file__).parents[1] / "solutions").exists():
@@ -72,7 +72,7 @@ def refuse_open_class() -> None:
 
 
 def can_anybody(command: list[str]) -> bool:
-    """Whether a command succeeds for a user who owns nothing."""
+    """Whether a command succeeds for a user without any rights."""
     done = subprocess.run(  # noqa: S603 - our own arguments, no shell
         command, **run_as("nobody"), stderr=subprocess.DEVNULL, check=False
     )
@@ -128,7 +128,7 @@ if missing := [one for one in FOLDERS.values() if not find_package(one).is_file(
 
 
 class RosterAuthenticator(LocalAuthenticator):  # type: ignore[misc]  # JupyterHub has no type hints
-    """Lets in who knows a student's code, however many wrong ones others try."""
+    """Admits users with a student's code, and slows down repeated wrong codes."""
 
     async def authenticate(self, _handler: object, data: dict[str, str]) -> str | None:
         """The student's system user; None if name or code is wrong."""

@@ -1,4 +1,4 @@
-"""Who is learning in a course folder: whose numbers they have, and how far they are."""
+"""The learner in a course folder: the owner of their numbers, and their progress."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -40,7 +40,7 @@ class Learner:
         return None
 
     def keep_score(self, grade: Grade) -> str:
-        """Keep the score of an answer; what is to be said about it, as ``update_progress``."""
+        """Store the score of an answer; the messages about it, as from ``update_progress``."""
         points = {"score": grade.score, "max_score": grade.max_score}
         return update_progress(
             self.course, lambda now: now.add_score(self.name, grade.exercise, **points)

@@ -33,7 +33,7 @@ ENABLE = """<script>
 
 
 def enable_checkboxes() -> object:
-    """What makes the boxes of a lesson's system check tickable, for a cell that shows it."""
+    """HTML that makes the checkboxes of a lesson's system check work."""
     from IPython.display import HTML  # noqa: PLC0415 - for notebooks
 
     return HTML(ENABLE)  # type: ignore[no-untyped-call]  # no types

@@ -1,4 +1,4 @@
-"""Misconceptions the examiner can name: a code for statistics, and what puts it right."""
+"""Misconceptions that the examiner can name: a code for statistics, and a correction."""
 
 from dataclasses import dataclass
 from pathlib import Path

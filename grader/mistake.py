@@ -1,4 +1,4 @@
-"""A mistake: a wrong answer made from the right one, and what the examiner must say about it.
+"""A planted mistake: a wrong answer made from the right one, and the feedback it must get.
 
 They stand in ``solutions/exerciseN/mistakes.py`` as ``MISTAKES``. A check without a mistake that
 it catches has no teeth.

@@ -113,7 +113,7 @@ def submit(
 
 
 class ExerciseQuestions:
-    """Questions of an exercise as buttons, and one button more that submits what is chosen.
+    """Questions of an exercise as buttons, and one button that submits the choices.
 
     Without buttons, ``submit`` does the same.
 
@@ -248,7 +248,7 @@ def _fold_name(name: str) -> str:
 
 
 def _make_plain(value: object) -> Any:  # noqa: ANN401 - whatever a learner gives
-    """A value as a file holds it: what NumPy makes of a number is a number."""
+    """A value as a file holds it: NumPy's numbers become plain numbers."""
     if value is None:
         return ""
     single = getattr(value, "item", None)
@@ -265,7 +265,7 @@ def _render_grade(grade: Grade) -> str:
 
 
 def _render_consequence(consequence: Consequence | None) -> str:
-    """What the answer would do, below the checks."""
+    """The consequence of the answer, below the checks."""
     if consequence is None:
         return ""
     says = f"<p><strong>On the robot</strong>: {escape_html(consequence.words)}</p>"

@@ -174,7 +174,7 @@ def _refuse_unlisted(one: Exercise, listed: Mapping[str, str], course: Path) -> 
 
 
 def find_imported_modules(*modules: Path) -> set[Path]:
-    """Modules of an exercise, and what they import and read beside them, directly or not."""
+    """Modules of an exercise, with all modules and files that they import and read."""
     found: set[Path] = set()
     left = {path for path in modules if path.is_file()}
     while left:

@@ -24,7 +24,7 @@ from sim.support.student_names import make_folder_name
 
 @dataclass(frozen=True)
 class StudentPackage:
-    """What one student gets.
+    """The package of one student.
 
     Args:
         student: whose numbers these are.

@@ -80,7 +80,7 @@ def start(learner: Learner, *, lab: bool) -> int:
 
 
 def _find_last_lesson(course: Path, exercise: str) -> Path:
-    """What to open beside an exercise: the last lesson that names it, or the course folder."""
+    """The file to open next to an exercise: the last lesson that names it, or the course folder."""
     lessons = sorted((course / "lessons").glob("*.ipynb"))
     there = [one for one in lessons if exercise in read_exercises(one)]
     return there[-1] if there else lessons[0] if lessons else course

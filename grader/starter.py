@@ -21,7 +21,7 @@ ANSWER = re.compile(
 
 
 def remove_answers(solution: str) -> str:
-    """Take the answers out of a solution, and leave what is to be done in their place.
+    """Remove the answers from a solution, and leave the tasks in their place.
 
     A task may go on over several lines, each under ``# ---   ``.
     """

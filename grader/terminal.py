@@ -52,7 +52,7 @@ def wrap_text(text: str, *, lead: str, style: str = "", spare: int = 0) -> list[
 
 
 def find_width() -> int:
-    """How wide a line may be."""
+    """The largest width of a line."""
     return max(NARROWEST, min(WIDEST, shutil.get_terminal_size((WIDEST, 24)).columns))
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 
 def read_texts(path: Path) -> Any:  # noqa: ANN401 - tables, lists and texts, as the file has them
-    """What a TOML file holds; every line end and run of spaces in its texts is one space."""
+    """The content of a TOML file; every line end and run of spaces in its texts is one space."""
     return _join_lines(tomllib.loads(path.read_text(encoding="utf-8")))
 
 

@@ -29,7 +29,7 @@ CODE = (
 WIDE = "# Lesson\n\n| " + " | ".join(["a long heading"] * 8) + " |\n|" + "---|" * 8
 
 
-def test_pages_need_no_network_and_slides_without_one_are_a_long_page(browser, tmp_path):
+def test_pages_need_no_network_and_offline_slides_become_a_long_page(browser, tmp_path):
     cells = [nbformat.v4.new_markdown_cell(WIDE), nbformat.v4.new_code_cell(CODE)]
     notebook = tmp_path / "lessons" / "01_arm.ipynb"
     notebook.parent.mkdir()
@@ -54,7 +54,7 @@ def test_pages_need_no_network_and_slides_without_one_are_a_long_page(browser, t
 
 
 @pytest.mark.parametrize(("viewport", "theme"), [(DESKTOP, "light"), (PHONE, "dark")])
-def test_the_page_of_open_in_each_of_its_views(browser, tmp_path, viewport, theme):
+def test_page_of_sysid_open_is_accessible_in_each_view(browser, tmp_path, viewport, theme):
     (tmp_path / "session").mkdir()
     with served(tmp_path / "session") as server:
         server.session.warm_up()
@@ -124,7 +124,7 @@ def test_every_saved_page_is_accessible(browser, tmp_path, theme):
     assert complaints == []
 
 
-def test_a_picture_without_words_is_seen(browser):
+def test_check_finds_a_picture_without_alt_text(browser):
     page = browser.new_page()
     page.set_content("<html lang=en><title>a</title><main><h1>a</h1><img src=x></main>")
 

@@ -46,7 +46,7 @@ def animated(kind="drivetrain", scenes=None, **more):
     )
 
 
-def test_the_html_needs_nothing_from_elsewhere_and_says_what_is_seen():
+def test_animation_loads_nothing_and_has_a_description():
     html = animated().html
     assert not re.search(r"https?://(?!www\.w3\.org/2000/svg)|@import|\bimport ", html)
     assert 'aria-label="A robot drives."' in html
@@ -71,13 +71,13 @@ def test_html_in_a_name_is_escaped():
         ({"choices": (Choice("drive", ("fast",)),)}, "no scene for fast"),
     ],
 )
-def test_what_does_not_fit_is_refused(mistake, says):
+def test_animation_with_mismatched_arguments_is_refused(mistake, says):
     with pytest.raises(BadRequest, match=says):
         animated(**mistake)
 
 
 @pytest.mark.skipif(NODE is None, reason="needs Node.js, which runs the page's script")
-def test_the_script_is_one_module_without_a_fault(tmp_path):
+def test_animation_script_is_one_module_without_syntax_errors(tmp_path):
     script = tmp_path / "script.mjs"
     script.write_text(read_script(), encoding="utf-8")
     done = subprocess.run([NODE, "--check", script], capture_output=True, text=True, check=False)
@@ -138,13 +138,13 @@ def test_compared_values_are_rows_with_their_numbers():
     assert list(zip(chart.rows, dots.notes, strict=True)) == [("kS", "1.50"), ("kV", "1.00")]
 
 
-def test_a_gain_whose_error_is_its_size_is_unknown():
+def test_gain_with_an_error_as_large_as_itself_is_unknown():
     chart = chart_gain_errors({"kS": float("inf"), "kV": 0.004})
     assert [curve.notes[1] for curve in chart.curves] == ["unknown", "± 0.400 %"]
     assert [curve.x for curve in chart.curves] == [[0.0, 100.0], [0.0, pytest.approx(0.4)]]
 
 
-def test_each_number_lies_on_its_band_and_the_last_band_is_open():
+def test_number_is_drawn_on_its_band_and_the_last_band_is_open():
     bands = {"low": 0.0, "fine": 8.0, "stop": 20.0}
     chart = chart_bands({"a": -50.0, "b": 33.0}, bands, xlabel="kV above theory [%]")
     *curves, dots = chart.curves

@@ -161,7 +161,7 @@ def test_the_page_simulates_as_the_engine_does(name, shown):
         assert np.abs(np.array(found[signal]) - values).max() < 1e-3 * np.abs(values).max(), signal
 
 
-def test_axes_hold_all_scenes_and_what_is_given_stays(shown):
+def test_axes_show_all_scenes_and_keep_limits_that_were_given(shown):
     late = Motion("robot", velocity=TARGET, position=TIME - 0.25)
     asked = Motion("target", velocity=TARGET, position=TIME, asked=True)
     scenes = {

@@ -90,7 +90,7 @@ def test_torque_inertia_and_current_have_units(text, same, times):
         ("((min^9)^9)^9", "a power of 81"),
     ],
 )
-def test_what_is_no_unit_is_named(text, part):
+def test_text_that_is_no_unit_is_named(text, part):
     with pytest.raises(NotAUnitError) as caught:
         read_unit(text)
 
@@ -141,7 +141,7 @@ def test_a_number_is_read_as_people_write_it(raw, value):
     ],
     ids=str,
 )
-def test_what_is_no_number_is_named_and_answered(raw, seen):
+def test_text_that_is_no_number_is_named_with_advice(raw, seen):
     with pytest.raises(WrongAnswer) as caught:
         read_answer_number(raw, KEY.asked["kV"])
 
@@ -162,7 +162,7 @@ def test_any_text_is_a_number_or_is_refused(text):
     st.floats(allow_nan=False, allow_infinity=False, min_value=-1e6, max_value=1e6),
     st.sampled_from([".", ","]),
 )
-def test_what_is_printed_is_read_back(value, mark):
+def test_printed_number_is_read_back(value, mark):
     assert read_number(f"{value!r}".replace(".", mark)) == (value, "")
 
 
@@ -236,11 +236,11 @@ def test_a_slip_is_named(name, answers, reads, misconception):
         (2, "a diameter is 2 times a radius"),
     ],
 )
-def test_a_slip_of_what_goes_along_is_named(factor, said):
+def test_a_slip_in_the_unit_of_time_or_length_is_named(factor, said):
     assert said in wrong("kV", {"kV": 2.4 * factor}).hint
 
 
-def test_what_a_wrong_recipe_gives_is_recognized():
+def test_result_of_a_wrong_recipe_is_recognized():
     slip = WrongNumber("recipe", "it comes from the wrong recipe", "M-NOISE-AVERAGES")
     key = AnswerKey(KEY.asked, Scene(lookalikes={"kA": (Lookalike(0.22, slip),)}))
 
@@ -248,14 +248,14 @@ def test_what_a_wrong_recipe_gives_is_recognized():
     assert "the wrong recipe" not in wrong("kA", {"kA": 0.235}, key).hint
 
 
-def test_a_number_is_not_swapped_with_one_that_is_right_where_it_is():
+def test_right_number_is_not_blamed_on_a_swap():
     key = AnswerKey(ask_gains({"kS": 0.2488, "kV": 2.4, "kA": 0.2239}, position="m"), KEY.scene)
 
     assert "swap" not in wrong("kS", {"kS": 0.2, "kA": 0.2239}, key).hint
     assert "swap" in wrong("kS", {"kS": 0.2, "kA": 0.27}, key).hint
 
 
-def test_two_suspects_are_both_named():
+def test_two_possible_mistakes_are_both_named():
     caught = wrong("kV", {"kV": 0.26}, FLYWHEEL_KEY)
 
     assert "radius" in caught.hint
@@ -263,7 +263,7 @@ def test_two_suspects_are_both_named():
     assert not caught.misconception
 
 
-def test_a_slip_two_numbers_share_is_named_alone():
+def test_slip_that_two_numbers_share_is_the_only_one_named():
     alone = wrong("kA", {"kA": 0.035 / 60}, FLYWHEEL_KEY).hint
     shared = wrong("kA", {"kA": 0.035 / 60, "kV": 0.13 / 60}, FLYWHEEL_KEY).hint
 
@@ -289,14 +289,14 @@ def test_the_hint_shows_a_band_of_volts_in_volts():
     assert "±0.03 V" in wrong("kS", {"kS": 0.4}).hint
 
 
-def test_a_converted_answer_gets_a_note():
+def test_converted_answer_gets_a_note_with_both_units():
     note = judge_number("kV", {"kV": "0.73152 V·s/ft"}, KEY, points=2)
 
     assert note == "0.73152 V·s/ft is 2.4 V·s/m"
 
 
 @given(st.floats(min_value=-50, max_value=50, allow_nan=False))
-def test_no_message_holds_the_key(value):
+def test_no_message_contains_the_right_answer(value):
     key = AnswerKey(ask_gains({"kS": 0.1537, "kV": 2.4371, "kA": 0.3191}, position="m"), KEY.scene)
     try:
         judge_number("kV", {"kV": value}, key, points=1)

@@ -93,7 +93,7 @@ def test_the_one_file_that_was_filled_in_is_graded(course, tmp_path, files, grad
         {"a/exercise1/mine.toml": HALF, "b/exercise1/yours.toml": RIGHT},
     ],
 )
-def test_of_two_answers_none_is_graded_and_both_are_listed(course, tmp_path, files):
+def test_two_different_answer_files_are_both_listed_and_neither_is_graded(course, tmp_path, files):
     one = read(course, tmp_path / "ann", files)
 
     assert one.problems["exercise1"].startswith(
@@ -102,7 +102,7 @@ def test_of_two_answers_none_is_graded_and_both_are_listed(course, tmp_path, fil
     assert all(name in one.problems["exercise1"] for name in files)
 
 
-def test_an_answer_elsewhere_gives_way_to_the_exercises_folder_and_is_listed(course, tmp_path):
+def test_answer_in_the_exercise_folder_is_graded_and_another_is_listed(course, tmp_path):
     one = read(course, tmp_path / "ann", {"exercise1/answers.toml": RIGHT, "exercise1.toml": HALF})
 
     assert one.files["exercise1"] == {"answers.toml": RIGHT.encode()}
@@ -199,7 +199,7 @@ def test_a_folder_that_cannot_be_opened_is_not_taken_for_an_empty_one(course, tm
     ("mine/answers.toml", "mine/answers.toml"), ("mine", "mine/answers.toml"), ("mine", "mine"),
     ("mine/answers.toml", "mine"),
 ])  # fmt: skip
-def test_an_answer_of_ones_own_that_cannot_be_opened_is_not_graded(course, tmp_path, closed, given):
+def test_learner_file_that_cannot_be_opened_is_not_graded(course, tmp_path, closed, given):
     put(tmp_path, {"mine/answers.toml": RIGHT})
     (tmp_path / closed).chmod(0)
     try:
@@ -229,7 +229,7 @@ def test_a_class_that_cannot_be_opened_gets_one_line(course, tmp_path, monkeypat
 
 
 @pytest.mark.skipif(not hasattr(os, "symlink") or os.name == "nt", reason="links need a right")
-def test_a_file_exchanged_for_a_link_after_the_look_is_not_followed(tmp_path):
+def test_file_that_becomes_a_link_after_the_check_is_not_followed(tmp_path):
     from grader.classroom.submitted_files import list_submitted_files  # noqa: PLC0415 - only here
 
     place = tmp_path / "ann"
@@ -290,7 +290,7 @@ TEXTS = (RIGHT, HALF, STARTER, "size = [")
     st.sampled_from(["folder", "zip", "zip in folder"]),
 )
 @settings(max_examples=300, suppress_health_check=[HealthCheck.function_scoped_fixture])
-def test_whatever_is_handed_in_is_graded_or_listed(course, tmp_path, files, form):
+def test_every_file_handed_in_is_graded_or_listed(course, tmp_path, files, form):
     """Of 300 random hand-ins, each answer is graded or named, and only an answer earns a mark."""
     place = tmp_path / hashlib.sha256(repr((files, form)).encode()).hexdigest()[:12] / "ann"
     put(place, {f"{folder}/{name}" if folder else name: text
@@ -339,7 +339,7 @@ def grade(top, *options):
     return code, rows[1:]
 
 
-def test_partners_share_a_mark_lateness_is_shown_and_who_is_absent_has_no_mark(classroom):
+def test_partners_share_a_mark_and_absent_students_have_none(classroom):
     assert grade(classroom) == (0, [
         "ann,2.5,2.5,3,,", "ben,3,3,3,2 days,", "cat,2.5,2.5,3,,", "dan,,,3,,",
     ])  # fmt: skip
@@ -431,7 +431,7 @@ def test_every_export_lists_what_was_not_graded_and_gives_no_mark_for_it(classro
         assert {name for name in told if told[name][place]} == {"cat", "dan", "fay"}, place
 
 
-def test_a_folder_that_may_be_a_students_leaves_that_student_without_a_mark(classroom):
+def test_folder_with_an_uncertain_owner_leaves_the_likely_student_without_a_mark(classroom):
     (classroom / "in" / "ben").rename(classroom / "in" / "bben")
     code, rows = grade(classroom)
 

@@ -83,7 +83,7 @@ def grade(place, **environment):
 
 @needs_bash
 @pytest.mark.parametrize("name", ["exercise1", "exercise4"])
-def test_a_perfect_answer_beside_nothing_else_earns_every_point(root, export, tmp_path, name):
+def test_perfect_answer_without_other_files_earns_every_point(root, export, tmp_path, name):
     place = export("--exercise", name)
     for file, text in perfect(root, name, EMAIL, tmp_path / "copy").items():
         (place / "submission" / file).write_text(text, encoding="utf-8")
@@ -117,7 +117,7 @@ def test_a_roster_names_the_student_and_a_secret_draws_the_numbers(root, export,
     metadata = place / "submission_metadata.json"
     metadata.write_text('{"users": [{"email": "who@b.c"}]}', encoding="utf-8")
     said, results = grade(place)
-    assert "nobody on the roster is 'who@b.c'" in said
+    assert "the roster does not contain 'who@b.c'" in said
     assert failed(results) == (
         "It is not known who handed this in; the reason stands at the end of the autograder's "
         "output."
@@ -201,7 +201,7 @@ def test_grading_needs_none_of_the_packages_that_are_not_installed_there(root, t
         ('{"users": [{"name": "a/b"}]}', "name", "path separator"),
     ],
 )
-def test_metadata_that_name_nobody_are_refused(tmp_path, text, by, said):
+def test_metadata_without_a_student_are_refused(tmp_path, text, by, said):
     path = tmp_path / "submission_metadata.json"
     path.write_text(text, encoding="utf-8")
 
@@ -303,7 +303,7 @@ def test_the_workflow_takes_nothing_from_github_into_its_shell_lines(workflow):
 
 
 @needs_bash
-def test_nothing_handed_in_is_a_result_of_zero(export):
+def test_empty_submission_gets_zero_points(export):
     _, results = grade(export("--exercise", "4"))
 
     assert {one["score"] for one in results["tests"]} == {0.0}

@@ -62,7 +62,7 @@ def finished_run(benchmarks, tmp_path_factory):
 
 
 @pytest.mark.slow
-def test_every_effect_stands_in_every_group_and_meets_every_mechanism_that_can_have_it(modules):
+def test_benchmark_has_every_effect_in_every_group_and_mechanism(modules):
     plan = modules("plan")
     names = {*EFFECTS, "encoder-slip", "hard-stop"}
     able = {(n, m) for n in names for m in MECHANISMS if not plan.why_not(m, n)}
@@ -111,7 +111,7 @@ def test_a_case_says_what_a_team_knows_and_names_nothing_hidden(finished_run, mo
 
 
 @pytest.mark.slow
-def test_the_solver_gets_no_key_before_its_answers(finished_run):
+def test_solver_gets_the_key_only_after_its_answers(finished_run):
     where, _ = finished_run
     answers = json.loads((where / "kept" / "answers.json").read_text(encoding="utf-8"))
     key = json.loads((where / "kept" / "key.json").read_text(encoding="utf-8"))
@@ -125,7 +125,7 @@ def test_the_solver_gets_no_key_before_its_answers(finished_run):
 
 
 @pytest.mark.slow
-def test_a_solver_that_finds_nothing_is_right_of_complete_models_alone(finished_run):
+def test_solver_that_names_nothing_is_right_only_for_complete_models(finished_run):
     _, told = finished_run
 
     marks = {one["case"]: (one["group"].split()[1], one["mark"]) for one in told["cases"]}
@@ -152,7 +152,7 @@ def four_tests():
 
 
 @pytest.mark.slow
-def test_a_permuted_control_has_all_voltages_and_hardly_one_in_its_place(modules):
+def test_permuted_control_keeps_all_voltages_and_moves_nearly_all(modules):
     log = four_tests()
 
     shuffled = modules("recording").permuted(log, rng=np.random.default_rng(1))
@@ -235,7 +235,7 @@ JUDGED = {
 
 
 @pytest.mark.parametrize("name", JUDGED)
-def test_an_answer_is_judged_as_the_acceptance_has_it(modules2, name):
+def test_each_answer_of_a_solver_gets_the_expected_mark(modules2, name):
     effects, said, mark = JUDGED[name]
 
     (one,) = modules2("scores").score([said], {"000": truth(*effects)})

@@ -26,7 +26,7 @@ def blas_threads(first, **environment):
 
 
 @pytest.mark.parametrize("first", ["import sim, numpy", "import numpy, sim"])
-def test_one_thread_in_either_order(first):
+def test_blas_uses_one_thread_whichever_is_imported_first(first):
     found = blas_threads(first)
 
     if not found:
@@ -35,7 +35,7 @@ def test_one_thread_in_either_order(first):
 
 
 @pytest.mark.parametrize("first", ["import sim, numpy", "import numpy, sim"])
-def test_what_the_environment_says_stays(first):
+def test_thread_count_in_the_environment_is_kept(first):
     found = blas_threads(first, OPENBLAS_NUM_THREADS="2", MKL_NUM_THREADS="2")
 
     assert found == blas_threads("import numpy", OPENBLAS_NUM_THREADS="2", MKL_NUM_THREADS="2")

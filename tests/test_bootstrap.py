@@ -103,7 +103,7 @@ def test_all_tests_run_on_all_cores(world):
     assert world.foreground[-1][0][2:] == everywhere
 
 
-def test_a_fresh_clone_gets_an_environment_and_goes_on_in_it(world, capsys):
+def test_fresh_clone_gets_an_environment_and_continues_in_it(world, capsys):
     world.code = 1
 
     assert bootstrap.main(["start", "--no-lab"]) == 1
@@ -137,7 +137,7 @@ def test_inside_an_environment_the_module_installs_into_that(
     assert said.count("\n") == 2
 
 
-def test_when_pip_fails_its_last_words_are_shown_and_what_to_do(world, monkeypatch, capsys, reads):
+def test_failing_pip_gets_its_last_lines_and_a_next_step(world, monkeypatch, capsys, reads):
     inside(monkeypatch)
     chatter = "\n".join(f"  Downloading {number}" for number in range(50))
     world.says = f"{chatter}\nERROR: Could not find a version that satisfies click\n"
@@ -158,7 +158,7 @@ def test_without_venv_the_message_names_the_package_to_install(world, monkeypatc
     assert world.foreground == []
 
 
-def test_a_folder_that_is_something_else_is_left_alone(world, capsys):
+def test_folder_that_is_no_environment_is_left_alone(world, capsys):
     (world.root / ".venv").mkdir()
     (world.root / ".venv" / "diary.txt").write_text("mine", "utf-8")
 
@@ -168,7 +168,7 @@ def test_a_folder_that_is_something_else_is_left_alone(world, capsys):
 
 
 @pytest.mark.parametrize("command", [["start"], ["test"], ["exercise4"], []])
-def test_what_is_missing_is_what_the_project_asks_for(monkeypatch, command):
+def test_missing_packages_are_those_that_the_project_requires(monkeypatch, command):
     def nothing(name):
         raise bootstrap.PackageNotFoundError(name)
 
@@ -182,7 +182,7 @@ def test_what_is_missing_is_what_the_project_asks_for(monkeypatch, command):
     assert ("sysid-course" in names) == (command in (["start"], ["test"]))
 
 
-def test_an_isolated_python_gets_as_far_as_installing(tmp_path, reads):
+def test_python_without_packages_reaches_the_installation(tmp_path, reads):
     """A real process without any package: it starts, sees what is missing, and makes a place."""
     clone = tmp_path / "clone"
     (clone / "grader").mkdir(parents=True)

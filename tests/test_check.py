@@ -60,14 +60,14 @@ def test_a_check_is_named_and_described_by_its_function():
     ],
     ids=["all", "nothing-to-look-at", "in-part", "second-wrong", "first-wrong"],
 )
-def test_what_comes_after_a_wrong_answer_is_not_reached(number, statuses, points):
+def test_checks_after_a_wrong_answer_do_not_run(number, statuses, points):
     results = run_checks(CHECKS, number)
 
     assert [result.status for result in results] == statuses
     assert [result.points for result in results] == points
 
 
-def test_a_wrong_answer_says_what_was_seen_and_what_to_try():
+def test_wrong_answer_gets_the_value_found_and_a_next_step():
     result = positive.run(-3)
 
     assert (result.seen, result.hint, result.misconception) == (
@@ -77,13 +77,13 @@ def test_a_wrong_answer_says_what_was_seen_and_what_to_try():
     )
 
 
-def test_a_check_that_is_not_reached_says_what_has_to_come_first():
+def test_check_that_is_not_reached_names_the_one_that_must_pass_first():
     _, second, _ = run_checks(CHECKS, -1)
 
     assert "The number is positive" in second.seen
 
 
-def test_our_own_mistake_is_not_the_learners():
+def test_error_in_our_check_is_not_blamed_on_the_learner():
     result = broken.run(1)
 
     assert result.status is Status.ERROR

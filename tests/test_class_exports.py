@@ -112,7 +112,7 @@ def test_too_few_students_give_no_discrimination():
     assert {one.discrimination for one in analyze_items(people)} == {None}
 
 
-def test_who_handed_nothing_in_counts_as_absent_and_not_as_wrong():
+def test_student_without_a_submission_counts_as_absent_not_as_wrong():
     absent = skip_student("zoe", [EMPTY], status=MISSING, reason="nothing")
     broken = skip_student("bob", [EMPTY], status="ungradable", reason="odd")
     (column,) = summarize_exercises([student("ann", (2.0,)), absent, broken])
@@ -215,7 +215,7 @@ def test_github_can_read_the_results(results, tmp_path):
     assert found == [("pass", 8), ("fail", 7), ("fail", 4), ("fail", 1), ("fail", 0)]
 
 
-def test_pages_are_whole_ask_nobody_and_escape_names(results, tmp_path):
+def test_pages_load_nothing_and_escape_names(results, tmp_path):
     page, *_ = write_pages(results, tmp_path)
     text = page.read_text("utf-8")
     students = sorted((tmp_path / "students").glob("*.html"))
@@ -235,7 +235,7 @@ def ungradable(name, exercise, reason):
     return replace(EMPTY.skip(reason, student=name), exercise=exercise)
 
 
-def test_what_a_person_has_to_check_names_student_and_exercises(tmp_path):
+def test_list_of_manual_checks_names_student_and_exercises(tmp_path):
     asks = "is this a log, or the whole project?"
     ann = GradedStudent("ann", "", (
         ungradable("ann", "exercise1", "the file is empty"), ungradable("ann", "exercise2", asks),
@@ -255,7 +255,7 @@ def test_what_a_person_has_to_check_names_student_and_exercises(tmp_path):
     assert "<p>the file is empty.</p>" in page
 
 
-def test_without_a_grade_nobody_is_counted(tmp_path):
+def test_summary_without_grades_counts_nobody(tmp_path):
     people = some(GradedStudent("ann", "", (ungradable("ann", "exercise1", "empty"),)))
     text = write_pages(replace(people, exercises=("exercise1",)), tmp_path)[0].read_text("utf-8")
 
@@ -263,7 +263,7 @@ def test_without_a_grade_nobody_is_counted(tmp_path):
     assert "nan %" not in text
 
 
-def test_the_summary_counts_people():
+def test_summary_counts_students_by_their_result():
     nobody = some(skip_student("zoe", [EMPTY], status=MISSING, reason=""))
 
     assert summarize_class(nobody) == "0 of 1 students handed something in."
@@ -282,7 +282,7 @@ def test_a_class_of_five_hundred_gives_a_page_that_can_be_opened(tmp_path):
 
 
 @pytest.mark.parametrize("name", list_exports())
-def test_a_place_that_cannot_be_written_gets_one_line(name, results, tmp_path):
+def test_output_folder_that_cannot_be_written_gets_a_one_line_error(name, results, tmp_path):
     (tmp_path / "in the way").write_text("", encoding="utf-8")
 
     with pytest.raises(BadRequest):

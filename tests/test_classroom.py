@@ -62,9 +62,7 @@ def graded(folder, name):
     return json.loads((folder / "results" / f"{name}.json").read_text(encoding="utf-8"))
 
 
-def test_every_student_gets_their_points_and_one_that_breaks_stops_nobody(
-    course, tmp_path, capsys, reads
-):
+def test_broken_submission_does_not_stop_the_grading_of_others(course, tmp_path, capsys, reads):
     there = hand_in(tmp_path / "in", ann=RIGHT, ben=HALF, cat=BOOM, dan="size = [", eve=RIGHT)
 
     assert run_command(["class", str(there)]) == 1  # two could not be graded
@@ -104,7 +102,7 @@ def test_the_same_class_is_graded_the_same_by_one_and_by_four_workers(tmp_path):
     assert found[0] == found[1] == found[2]
 
 
-def test_what_is_graded_is_not_graded_again_until_something_changes(course, tmp_path):
+def test_unchanged_submission_is_not_graded_again(course, tmp_path):
     there = hand_in(tmp_path / "in", ann=RIGHT, ben=HALF)
     store = ResultStore(tmp_path / "out")
 
@@ -141,7 +139,7 @@ def test_a_roster_may_have_empty_cells_at_the_ends_of_its_lines(tmp_path):
 
 
 @pytest.mark.usefixtures("course")
-def test_what_a_run_before_wrote_is_gone_and_nothing_else(tmp_path):
+def test_only_results_of_the_previous_run_are_removed(tmp_path):
     there = hand_in(tmp_path / "in", ann=RIGHT, bne=HALF)
     command = ["class", str(there), "--export", "gradescope", "--export", "github"]
     assert run_command([*command, "--export", "junit"]) == 0
@@ -165,7 +163,7 @@ def test_what_a_run_before_wrote_is_gone_and_nothing_else(tmp_path):
 
 
 @pytest.mark.skipif(os.name == "nt", reason="a process cannot be sent SIGKILL on Windows")
-def test_a_killed_run_goes_on_where_it_was(course, tmp_path):
+def test_killed_run_continues_where_it_stopped(course, tmp_path):
     (course / "exercises" / "exercise1" / "checks.py").write_text(WAITS, encoding="utf-8")
     many = {f"student{number}": "wait = 0.3\n" for number in range(6)}
     there = hand_in(tmp_path / "in", **many)
@@ -212,7 +210,7 @@ def test_an_answer_is_found_however_it_was_packed(course, tmp_path):
 
 
 @pytest.mark.usefixtures("course")
-def test_a_folder_whose_name_is_no_students_is_reported_and_stops_nobody(tmp_path):
+def test_folder_of_an_unknown_student_is_reported_and_does_not_stop_the_grading(tmp_path):
     there = hand_in(tmp_path / "in", ann=RIGHT, **{"x" * 100: RIGHT})
 
     assert run_command(["class", str(there)]) == 1
@@ -241,7 +239,7 @@ def test_a_link_is_not_graded_as_an_answer(course, tmp_path):
     ids=["no-folder", "empty", "twins"],
 )
 @pytest.mark.usefixtures("course")
-def test_a_class_that_cannot_be_graded_gets_one_line(tmp_path, capsys, make, reads):
+def test_class_that_cannot_be_graded_gets_a_one_line_error(tmp_path, capsys, make, reads):
     make(tmp_path / "in")
 
     assert run_command(["class", str(tmp_path / "in")]) == 2
@@ -258,7 +256,7 @@ def test_unknown_format_and_unknown_exercise_are_refused(tmp_path, capsys):
 
 
 @pytest.mark.usefixtures("course")
-def test_a_roster_lists_who_is_absent_and_who_is_a_stranger(tmp_path, capsys, reads):
+def test_roster_shows_absent_and_unknown_students(tmp_path, capsys, reads):
     there = hand_in(tmp_path / "in", ann=RIGHT, stranger=RIGHT)
     roster = tmp_path / "roster.csv"
     roster.write_text("team;Student\n1;Ann\n1;Zoë\n", encoding="utf-8-sig")
@@ -275,7 +273,7 @@ def test_a_roster_lists_who_is_absent_and_who_is_a_stranger(tmp_path, capsys, re
     reads(said.err)
 
 
-def test_no_feedback_names_a_folder_that_is_gone(course, tmp_path, capsys):
+def test_feedback_never_names_a_deleted_folder(course, tmp_path, capsys):
     checks = course / "exercises" / "exercise1" / "checks.py"
     text = checks.read_text(encoding="utf-8")
     checks.write_text(f'{text}\nBESIDE = ("fit.py",)\n', encoding="utf-8")
@@ -326,7 +324,7 @@ def test_an_untouched_starter_is_not_handed_in(course, tmp_path, capsys):
     assert "\n3 of 4 students handed something in" in capsys.readouterr().out
 
 
-def test_canvas_own_export_is_a_roster(tmp_path):
+def test_export_of_canvas_works_as_a_roster(tmp_path):
     path = tmp_path / "canvas.csv"
     path.write_text(
         "Student,ID,SIS User ID,SIS Login ID,Section,Quiz\n,,,,,Manual Posting\n"
@@ -355,7 +353,9 @@ def test_a_roster_that_does_not_say_who_is_who_is_refused(tmp_path, text, reads)
 
 
 @pytest.mark.usefixtures("course")
-def test_a_secret_around_that_is_not_the_one_in_the_file_is_refused(tmp_path, monkeypatch, capsys):
+def test_secret_in_the_environment_that_differs_from_the_file_is_refused(
+    tmp_path, monkeypatch, capsys
+):
     there = hand_in(tmp_path / "in", ann=RIGHT)
     (tmp_path / "class.secret").write_text("the secret of this class", encoding="utf-8")
     monkeypatch.setenv("SYSID_SECRET", "the secret of another class")

@@ -70,7 +70,9 @@ def mounts(asked):
     return [word for before, word in pairwise(asked) if before == "--mount"]
 
 
-def test_a_class_is_graded_inside_and_the_results_lie_outside(tmp_path, engine, handed_in):
+def test_class_is_graded_inside_the_container_and_results_are_written_outside(
+    tmp_path, engine, handed_in
+):
     asked = engine()
     options = ["--roster", str(tmp_path / "roster.csv"), "--name", "Our class", "--processes", "1"]
 
@@ -96,7 +98,7 @@ def test_a_class_is_graded_inside_and_the_results_lie_outside(tmp_path, engine, 
     ]
 
 
-def test_a_secret_stands_on_no_command_line(engine, handed_in, monkeypatch):
+def test_secret_never_appears_on_a_command_line(engine, handed_in, monkeypatch):
     asked = engine("podman")
     monkeypatch.setenv("SYSID_SECRET", "a secret of the whole class, thirty two bytes")
     run_command(["class", str(handed_in), "--in", "podman", "--no-run", "--processes", "1"])
@@ -108,7 +110,7 @@ def test_a_secret_stands_on_no_command_line(engine, handed_in, monkeypatch):
 
 
 @pytest.mark.parametrize("code", [125, 127])
-def test_an_engine_that_cannot_start_says_how_to_make_the_image(engine, handed_in, capsys, code):
+def test_container_engine_without_an_image_says_how_to_make_it(engine, handed_in, capsys, code):
     engine(code=code)
 
     assert run_command(["class", str(handed_in), "--in", "docker"]) == 2
@@ -147,7 +149,7 @@ def test_the_doctor_says_whether_an_engine_answers(engine, handed_in, capsys, co
     assert says in " ".join(capsys.readouterr().out.split())
 
 
-def test_the_image_holds_what_the_course_needs_and_not_the_course():
+def test_container_image_holds_the_packages_but_not_the_course():
     assert "COPY" not in DOCKERFILE
     assert 'pip install --no-cache-dir "/build[course,robot]"' in DOCKERFILE
     assert "pip uninstall -y sysid-course" in DOCKERFILE

@@ -115,7 +115,7 @@ def test_an_exercise_that_runs_code_can_be_graded_without_running_it(name):
     assert Exercise(name, ROOT / "exercises" / name).runs_code
 
 
-def test_python_robot_code_that_may_not_be_run_waits_for_a_person(tmp_path):
+def test_python_robot_code_that_may_not_be_run_is_left_to_the_instructor(tmp_path):
     path = tmp_path / "example_subsystem.py"
     path.write_text(RIGHT, "utf-8")
     fourth = Exercise("exercise4", ROOT / "exercises" / "exercise4")
@@ -131,7 +131,7 @@ def test_java_robot_code_is_graded_where_no_code_of_others_may_run(tmp_path):
     assert grade.score == grade.max_score
 
 
-def test_a_function_that_may_not_be_run_waits_for_a_person_and_is_not_run(tmp_path, monkeypatch):
+def test_function_that_may_not_be_run_is_left_to_the_instructor(tmp_path, monkeypatch):
     monkeypatch.setattr(
         grader.isolation, "run_functions", lambda *_, **__: pytest.fail("it was run")
     )
@@ -145,7 +145,7 @@ def test_a_function_that_may_not_be_run_waits_for_a_person_and_is_not_run(tmp_pa
     assert [one.status for one in grade.checks if one.id == "function"] == ["not-run"]
 
 
-def test_a_function_is_run_for_whoever_grades_their_own_work(tmp_path):
+def test_learner_who_grades_alone_has_their_function_run(tmp_path):
     shutil.copy(ROOT / "exercises" / "exercise9" / "answers.toml", tmp_path)
     shutil.copy(ROOT / "solutions" / "exercise9" / "fit.py", tmp_path)
     ninth = Exercise("exercise9", ROOT / "exercises" / "exercise9")

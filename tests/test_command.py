@@ -34,7 +34,7 @@ def raiser(error):
     [(lambda: None, 0), (lambda: 0, 0), (lambda: 1, 1), (raiser(KeyboardInterrupt()), 130)],
     ids=["nothing said", "done", "not right", "Ctrl+C"],
 )
-def test_a_command_leaves_with_the_code_its_work_earned(outcome, code, capsys):
+def test_exit_code_of_a_command_reports_its_result(outcome, code, capsys):
     assert run_command(command(outcome), name="try", arguments=[]) == code
     assert capsys.readouterr().err.strip() == ""  # click ends the line of a typed ^C
 
@@ -98,7 +98,7 @@ def test_no_command_overwrites_what_it_reads(arguments, tmp_path, monkeypatch, c
 
 @pytest.mark.skipif(os.sep != "/", reason="what a POSIX shell reads")
 @pytest.mark.parametrize("name", ["a b", "$HOME", 'a"b', "a`b", "a\\b", "a\\$b", "it's"])
-def test_a_posix_shell_reads_a_quoted_path_as_it_was(name):
+def test_quoted_path_survives_a_posix_shell(name):
     shown = subprocess.run(
         ["/bin/sh", "-c", f"printf %s {quote_path(name)}"],
         capture_output=True, encoding="utf-8", check=True, timeout=20,

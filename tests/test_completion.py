@@ -47,7 +47,7 @@ def complete(line, cwd=ROOT):
         ("grade rel", {"release"}),
     ],
 )
-def test_tab_offers(line, offered):
+def test_tab_completion_offers_the_expected_words(line, offered):
     assert complete(line) == offered
 
 

@@ -51,12 +51,12 @@ def elevator():
         ),
     ],
 )
-def test_what_is_asked_for_is_read(text, asked):
+def test_request_for_faults_is_parsed(text, asked):
     assert parse_fault_request(text) == asked
 
 
 @given(st.text(max_size=40))
-def test_whatever_is_typed_is_read_or_refused(text):
+def test_any_text_is_parsed_as_faults_or_refused(text):
     try:
         assert isinstance(parse_fault_request(text), FaultRequest)
     except BadRequest as refused:
@@ -106,7 +106,7 @@ def short(count, test="dynamic-forward"):
     ],
     ids=["no run", "1", "9", "30 samples", "another test"],
 )
-def test_a_log_too_small_to_damage_is_damaged_or_refused_in_words(name, log):
+def test_tiny_log_is_damaged_or_refused_with_a_message(name, log):
     try:
         assert contaminate(log, name, rng=rng()).where
     except BadRequest as refused:
@@ -120,7 +120,7 @@ def test_a_log_too_small_to_damage_is_damaged_or_refused_in_words(name, log):
     share=st.one_of(st.none(), st.floats(0.0, 0.999)),
     seed=st.integers(0, 10),
 )
-def test_whatever_is_asked_for_is_done_or_refused(drive, *, name, severity, test, share, seed):
+def test_any_requested_damage_is_done_or_refused(drive, *, name, severity, test, share, seed):
     at = None
     if share is not None and test is not None:
         run = drive.list_runs_of_test(test)[0]
@@ -144,7 +144,7 @@ def test_fault_damages_the_given_place(drive):
 
 
 @pytest.mark.parametrize("suffix", [".csv", ".wpilog"])
-def test_the_command_writes_what_can_be_read_and_says_where_the_damage_is(tmp_path, drive, suffix):
+def test_contaminate_writes_a_readable_log_and_reports_where_the_damage_is(tmp_path, drive, suffix):
     write(drive, tmp_path / "drive.csv")
 
     made = run_sysid(

@@ -54,7 +54,7 @@ def test_a_lost_name_is_asked_for_before_anything_is_graded(course, capsys, read
     assert load_progress(course)[0].student == "zoe"
 
 
-def test_progress_that_cannot_be_kept_does_not_stop_grading(course, capsys):
+def test_grading_goes_on_when_progress_cannot_be_saved(course, capsys):
     (course / ".course").write_text("a file where a folder should be", "utf-8")
     answer(course, RIGHT)
 
@@ -95,7 +95,7 @@ for _ in range(5):
 """
 
 
-def test_eight_that_grade_at_once_all_keep_their_scores(course):
+def test_eight_processes_that_grade_at_once_lose_no_score(course):
     running = [
         subprocess.Popen(
             [sys.executable, "-c", NOTES, str(number)],
@@ -134,7 +134,7 @@ def test_damaged_progress_is_reported_and_each_file_set_aside(course, content, c
         assert load_progress(course)[0].find_standing("me", "exercise1").is_done
 
 
-def test_a_disk_that_is_full_leaves_the_old_file_and_no_part(tmp_path, monkeypatch):
+def test_full_disk_leaves_the_old_file_and_no_partial_file(tmp_path, monkeypatch):
     path = tmp_path / "gradebook.csv"
     write_atomically(path, "old")
     monkeypatch.setattr("sim.support.atomic_file.os.fsync", no_room)
@@ -149,7 +149,7 @@ def no_room(_):
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows knows no such rights")
-def test_a_private_file_and_folder_are_its_owners_from_the_beginning(tmp_path):
+def test_private_files_are_created_readable_by_their_owner_only(tmp_path):
     make_private_folder(tmp_path / "class" / "results")
     write_atomically(tmp_path / "class" / "results" / "ann.json", "{}", private=True)
     write_atomically(tmp_path / "class" / "page.html", "")
@@ -172,7 +172,7 @@ def test_where_only_a_students_numbers_are_unpacked_no_other_course_is_taken(tmp
         find_course(tmp_path / "exercises" / "exercise1")
 
 
-def test_a_student_who_is_someone_else_is_somewhere_else():
+def test_different_students_get_different_folders():
     names = ["ann", "a.nn", "ann ", "con", "a:b", "a*b", "ä", "😀", "x" * 64, "..", "a.", "Straße"]
     folders = {make_folder_name(name) for name in names}
 
@@ -191,7 +191,7 @@ def test_any_name_has_a_folder_or_is_refused(name):
     assert make_folder_name(name).strip(". ") == make_folder_name(name) != ""
 
 
-def test_numbers_are_drawn_from_who_one_is():
+def test_numbers_depend_on_student_exercise_draw_and_secret():
     assert derive_student_seed("ann", "exercise9") == derive_student_seed("Ann ", "exercise9")
     drawn = {
         make_student_rng(*who, draw=draw).integers(2**62)

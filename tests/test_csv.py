@@ -78,7 +78,7 @@ WORKED = [
         pytest.param(PLAIN.rstrip("\n"), id="without a last line end"),
     ],
 )
-def test_one_log_reads_the_same_in_every_dress(tmp_path: Path, text: str) -> None:
+def test_log_reads_the_same_in_every_spelling_of_its_csv(tmp_path: Path, text: str) -> None:
     log = read_text(tmp_path, text)
 
     assert columns(log) == WORKED
@@ -94,7 +94,7 @@ def test_one_log_reads_the_same_in_every_dress(tmp_path: Path, text: str) -> Non
         pytest.param(["a 0", "a 1", "a 2"], [3], id="none"),
     ],
 )
-def test_without_a_run_column_a_run_begins_at(
+def test_runs_are_split_at_time_jumps_and_test_changes_without_a_run_column(
     tmp_path: Path, rows: list[str], lengths: list[int]
 ) -> None:
     names = {"a": "coast-forward", "b": "triangle-reverse"}
@@ -134,7 +134,7 @@ def test_an_unknown_column_is_named_and_left_out(tmp_path: Path) -> None:
     assert "bus_voltage" in doubt.message
 
 
-def test_columns_of_other_names_are_read_when_one_says_which(tmp_path: Path) -> None:
+def test_columns_of_other_names_are_read_when_options_name_them(tmp_path: Path) -> None:
     text = PLAIN.replace(HEADER, "State,time_s,Volts,Angle,velocity")
     names = {"state": "state", "voltage": "volts", "position": "ANGLE"}
 
@@ -150,7 +150,7 @@ def sampled(test: str, n: int, *, rng: np.random.Generator, **more: bool) -> Run
     return Run(test, np.cumsum(rng.uniform(1e-4, 0.1, n)), **signals)
 
 
-def test_what_is_written_reads_back_as_the_same_bits(tmp_path: Path) -> None:
+def test_written_csv_is_read_back_bit_by_bit(tmp_path: Path) -> None:
     rng = np.random.default_rng(3)
     runs = (
         sampled("quasistatic-forward", 40, rng=rng, current=True),
@@ -245,7 +245,7 @@ UNSOUND = {
 
 
 @pytest.mark.parametrize(("text", "refusal"), UNSOUND.values(), ids=UNSOUND)
-def test_file_that_is_not_sound_is_refused(
+def test_malformed_csv_is_refused(
     tmp_path: Path, text: str | bytes, refusal: type[Refusal]
 ) -> None:
     with pytest.raises(refusal, match=r"log\.csv"):

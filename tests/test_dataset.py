@@ -21,7 +21,7 @@ def jobs_of(path):
     return plan_jobs(asked, asked.find_secret(make=False))
 
 
-def test_a_dataset_is_logs_in_a_folder_and_a_key_beside_it(tmp_path, capsys):
+def test_dataset_has_a_folder_of_logs_and_a_key_next_to_it(tmp_path, capsys):
     folder = make_dataset(spec(tmp_path))
 
     assert list(read_all(folder)) == [f"log-0{number}.wpilog" for number in (1, 2, 3, 4)]
@@ -58,7 +58,7 @@ def test_the_same_spec_and_secret_give_the_same_bytes(tmp_path):
         pytest.param({"text": DAMAGED.replace("week3", "week4")}, id="another name"),
     ],
 )
-def test_anything_else_gives_other_bytes_in_every_file(tmp_path, other):
+def test_another_seed_or_secret_changes_the_bytes_of_every_file(tmp_path, other):
     (tmp_path / "other").mkdir()
     ours = read_all(make_dataset(spec(tmp_path, DAMAGED)))
 
@@ -90,7 +90,7 @@ def test_a_fault_is_all_that_differs_from_the_clean_log(tmp_path):
         assert here.contents != there.contents
 
 
-def test_a_moment_that_cannot_be_is_drawn_again(tmp_path):
+def test_fault_time_after_the_end_of_a_test_is_drawn_again(tmp_path):
     late = '[[logs.faults]]\nname = "loop-overrun"\ntest = "dynamic-forward"\nat = [0.1, 1.0]\n'
     text = PLAIN.replace("count = 2", "count = 20") + late  # a test of 1 s drives for 0.94 s
 
@@ -100,7 +100,7 @@ def test_a_moment_that_cannot_be_is_drawn_again(tmp_path):
     assert all(isinstance(one, making.MadeLog) for one in made)
 
 
-def test_every_purpose_has_a_source_of_chance_of_its_own(tmp_path):
+def test_each_purpose_has_a_random_generator_of_its_own(tmp_path):
     jobs = jobs_of(spec(tmp_path, DAMAGED))
     purposes = [(MECHANISM,), (RECORD,), (DAMAGE, 0, 0), (DAMAGE, 1, 0), (DAMAGE, 0, 1), (FAULT, 0)]
 
@@ -140,7 +140,7 @@ def test_a_log_holds_the_tests_that_are_asked_for(tmp_path):
     assert all(run.current is not None and run.bus_voltage is not None for run in log.runs)
 
 
-def test_a_number_says_nothing_about_what_was_done_to_a_log(tmp_path):
+def test_number_of_a_log_does_not_reveal_its_faults(tmp_path):
     text = PLAIN.replace("seed = 1", 'secret = "class.secret"\nstudents = {names}')
     names = json.dumps([f"student {number}" for number in range(40)])
     fault = '[[logs]]\nmechanisms = "shooter"\n[[logs.faults]]\nname = "sign-flip"\n'
@@ -179,7 +179,7 @@ def test_the_example_can_be_made_as_it_is(tmp_path, capsys):
     assert sysid("dataset", path, "--example") == 2  # what is there is not overwritten
 
 
-def test_what_the_example_commands_does_not_tell_damaged_logs_from_clean_ones(tmp_path):
+def test_commanded_voltages_of_the_example_do_not_reveal_damaged_logs(tmp_path):
     path = tmp_path / "week3.toml"
     sysid("dataset", path, "--example")
     commanded = {}

@@ -25,7 +25,7 @@ def refused(capsys, *arguments):
     return shown.err
 
 
-def test_what_is_finished_is_kept(tmp_path, capsys, reads):
+def test_finished_logs_are_not_made_again(tmp_path, capsys, reads):
     path = spec(tmp_path, DAMAGED)
     folder = make_dataset(path)
     before = {one: one.stat().st_ino for one in folder.rglob("*")}
@@ -47,7 +47,7 @@ def test_a_file_that_went_missing_is_made_again(tmp_path):
     assert read_all(make_dataset(path)) == before
 
 
-def test_a_foreign_file_is_never_overwritten_unasked(tmp_path, capsys, reads):
+def test_foreign_file_is_never_overwritten_without_the_option(tmp_path, capsys, reads):
     path = spec(tmp_path)
     (tmp_path / "data").mkdir()
     (tmp_path / "data" / "log-02.wpilog").write_bytes(b"a robot's own log")
@@ -82,7 +82,7 @@ def test_files_of_another_spec_are_foreign(tmp_path, capsys, other, reads):
     assert read_all(tmp_path / "data") == before
 
 
-def test_a_file_that_comes_there_meanwhile_is_not_overwritten(tmp_path, reads):
+def test_file_that_appears_during_the_run_is_not_overwritten(tmp_path, reads):
     place = DatasetPlace(tmp_path / "data", tmp_path / "key", "week3", Secret(b"", hidden=False))
     place.write_file("log-01.csv", b"ours")
     place.write_file("log-01.csv", b"ours")  # the same again is no harm: a killed run leaves it
@@ -102,7 +102,7 @@ def test_a_changed_file_is_foreign_too(tmp_path, capsys, reads):
     reads(refused(capsys, path, "-o", tmp_path / "data"))
 
 
-def test_logs_that_the_spec_no_longer_has_are_not_forgotten_unasked(tmp_path, capsys, reads):
+def test_logs_removed_from_the_spec_stay_in_the_key_without_the_option(tmp_path, capsys, reads):
     folder = make_dataset(spec(tmp_path, DAMAGED))
     fewer = spec(tmp_path, DAMAGED.replace('"ann", ', ""))
 
@@ -123,7 +123,7 @@ def test_logs_that_the_spec_no_longer_has_are_not_forgotten_unasked(tmp_path, ca
         ("file/deep/data", "Not a directory"),
     ],
 )
-def test_a_place_that_cannot_be_is_refused(tmp_path, capsys, output, said):
+def test_impossible_output_folder_is_refused(tmp_path, capsys, output, said):
     (tmp_path / "file").write_bytes(b"a file")
 
     assert said in refused(capsys, spec(tmp_path), "-o", tmp_path / output)
@@ -146,7 +146,7 @@ def test_a_key_that_cannot_be_written_is_refused_before_a_log_is_made(tmp_path, 
         (("-o", "."), "spec.toml: the spec lies in the folder of the data"),
     ],
 )
-def test_the_truth_never_lies_among_the_data(tmp_path, monkeypatch, capsys, arguments, what):
+def test_key_inside_the_data_folder_is_refused(tmp_path, monkeypatch, capsys, arguments, what):
     spec(tmp_path, DAMAGED)
     monkeypatch.chdir(tmp_path)
 
@@ -154,13 +154,13 @@ def test_the_truth_never_lies_among_the_data(tmp_path, monkeypatch, capsys, argu
     assert not (tmp_path / "data").exists()
 
 
-def test_the_secret_never_lies_among_the_data(tmp_path, capsys, reads):
+def test_secret_inside_the_data_folder_is_refused(tmp_path, capsys, reads):
     path = spec(tmp_path, DAMAGED.replace("class.secret", "data/class.secret"), secret="")
 
     reads(refused(capsys, path, "-o", tmp_path / "data"))
 
 
-def test_a_folder_is_needed(tmp_path, capsys, reads):
+def test_dataset_command_without_a_folder_is_refused(tmp_path, capsys, reads):
     reads(refused(capsys, spec(tmp_path)))
 
 
@@ -228,7 +228,7 @@ def test_every_change_to_the_key_is_noticed(tmp_path, capsys, change, reads):
 
 
 @pytest.mark.parametrize("content", ["", "{", "[]", "{}", '{"logs": [], "seal": 7}'])
-def test_a_key_that_is_none_is_refused(tmp_path, capsys, content, reads):
+def test_file_that_is_no_key_is_refused(tmp_path, capsys, content, reads):
     path = spec(tmp_path)
     folder = make_dataset(path)
     (tmp_path / "data.key.json").write_text(content, encoding="utf-8")
@@ -236,7 +236,7 @@ def test_a_key_that_is_none_is_refused(tmp_path, capsys, content, reads):
     reads(refused(capsys, path, "-o", folder, "--check"))
 
 
-def test_a_key_that_is_only_printed_another_way_is_whole(tmp_path, capsys):
+def test_reformatted_key_passes_the_check(tmp_path, capsys):
     path = spec(tmp_path, DAMAGED)
     folder = make_dataset(path)
     content = json.dumps(key(folder), indent=4, sort_keys=True)
@@ -257,13 +257,13 @@ def test_another_secret_does_not_open_the_seal(tmp_path, capsys, reads):
     reads(refused(capsys, path, "-o", folder, "--check"))
 
 
-def test_there_is_nothing_to_check_before_there_is_a_key(tmp_path, capsys, reads):
+def test_check_without_a_key_is_refused(tmp_path, capsys, reads):
     said = refused(capsys, spec(tmp_path), "-o", tmp_path / "data", "--check")
 
     reads(said)
 
 
-def test_the_key_and_the_secret_are_for_their_owner_only(tmp_path):
+def test_key_and_secret_are_readable_by_their_owner_only(tmp_path):
     make_dataset(spec(tmp_path, DAMAGED, secret=""))
 
     for name in ("data.key.json", "class.secret"):
@@ -272,7 +272,7 @@ def test_the_key_and_the_secret_are_for_their_owner_only(tmp_path):
 
 
 @pytest.mark.parametrize("calls", [0, 2])
-def test_a_full_disk_gets_one_line_and_the_next_run_goes_on(tmp_path, monkeypatch, capsys, calls):
+def test_full_disk_gets_one_line_and_the_next_run_continues(tmp_path, monkeypatch, capsys, calls):
     whole = read_all(make_dataset(spec(tmp_path, DAMAGED), "whole"))
     real, counted = os.utime, count()
 

@@ -95,7 +95,7 @@ def test_the_key_names_the_effects_that_are_hidden_and_they_act(tmp_path):
     assert not [name for name, data in read_all(folder).items() if clean[name] == data]
 
 
-def test_nothing_in_the_folder_gives_the_truth_away(tmp_path):
+def test_files_in_the_data_folder_do_not_reveal_the_truth(tmp_path):
     folder = make_dataset(spec(tmp_path, DAMAGED))
 
     truth = key(folder)["logs"]

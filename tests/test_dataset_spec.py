@@ -67,7 +67,9 @@ def refusal(tmp_path, capsys):
         ),
     ],
 )
-def test_what_cannot_be_meant_is_refused_by_its_name_and_place(tmp_path, old, new, refusal, reads):
+def test_invalid_entry_of_a_spec_is_refused_with_its_name_and_place(
+    tmp_path, old, new, refusal, reads
+):
     assert old in PLAIN
 
     reads(refusal(spec(tmp_path, PLAIN.replace(old, new))))
@@ -147,7 +149,7 @@ def test_a_spec_that_is_not_there_says_how_to_get_one(tmp_path, refusal, reads):
     reads(refusal(path))
 
 
-def test_a_spec_in_the_encoding_of_an_old_shell_is_refused(tmp_path, refusal, reads):
+def test_spec_in_utf_16_is_refused(tmp_path, refusal, reads):
     (tmp_path / "spec.toml").write_bytes(PLAIN.encode("utf-16"))
 
     reads(refusal(tmp_path / "spec.toml"))
@@ -170,7 +172,7 @@ def test_a_secret_in_clear_is_refused_and_not_repeated(tmp_path, refusal, reads)
     ],
     ids=["none", "too short", "two that differ", "empty"],
 )
-def test_a_secret_that_is_none_is_refused(  # noqa: PLR0917 - pytest passes them by name
+def test_empty_or_malformed_secret_is_refused(  # noqa: PLR0917 - pytest passes them by name
     tmp_path, monkeypatch, capsys, text, kept, around, reads
 ):
     monkeypatch.setenv("SYSID_SECRET", around)
@@ -238,7 +240,7 @@ def test_a_roster_that_is_wrong_is_refused_with_its_line(tmp_path, students, con
     assert said in str(caught.value)
 
 
-def test_logs_take_the_routine_of_the_top_but_for_what_they_change(tmp_path):
+def test_log_table_inherits_the_routine_and_overrides_parts_of_it(tmp_path):
     path = spec(tmp_path, PLAIN + "routine = { step = 2.0, period = 0.01 }\n")
 
     (logs,) = read_spec(path).logs

@@ -48,7 +48,7 @@ def left(tmp_path):
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no kill -9")
-def test_a_killed_run_leaves_whole_files_and_the_next_one_goes_on(tmp_path, undisturbed, capsys):
+def test_killed_run_leaves_whole_files_and_the_next_run_continues(tmp_path, undisturbed, capsys):
     path = spec(tmp_path, LONG)
     with started(tmp_path) as running:
         workers = psutil.Process(running.pid).children(recursive=True)
@@ -75,7 +75,7 @@ def test_a_killed_run_leaves_whole_files_and_the_next_one_goes_on(tmp_path, undi
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="a test cannot press Ctrl+C on Windows")
-def test_ctrl_c_leaves_whole_files_and_says_how_to_go_on(tmp_path, undisturbed):
+def test_ctrl_c_leaves_whole_files_and_says_how_to_continue(tmp_path, undisturbed):
     spec(tmp_path, LONG)
     with started(tmp_path) as running:
         os.killpg(running.pid, signal.SIGINT)  # a terminal sends it to all of them
@@ -112,7 +112,7 @@ def test_a_terminal_shows_a_bar(tmp_path):
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="a test cannot press Ctrl+C on Windows")
-def test_the_first_ctrl_c_waits_for_a_safe_place_and_the_second_does_not():
+def test_first_ctrl_c_finishes_the_current_file_and_second_stops_at_once():
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     with deferred_interrupt() as stop_if_noted:
         stop_if_noted()

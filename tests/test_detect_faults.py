@@ -77,7 +77,7 @@ def fake(name, *, whole=False, about="motion", says=()):
         "the whole log comes first",
     ],
 )
-def test_of_two_explanations_of_a_moment_the_better_is_believed(monkeypatch, drive, faults, left):
+def test_likelier_of_two_faults_at_the_same_time_is_reported(monkeypatch, drive, faults, left):
     monkeypatch.setattr(
         sim.inspect.detect_faults, "FAULTS", {fault.name: fault for fault in faults}
     )
@@ -126,7 +126,7 @@ SIGNALS = ("time", "voltage", "position", "velocity")
     gone=st.integers(0, 4),
 )
 @example(name="elevator", hurts=["nothing", "steps", "nothing", "nothing"], gone=0)
-def test_no_run_is_too_badly_hurt_to_be_inspected(name, hurts, gone):
+def test_every_damaged_run_can_be_inspected(name, hurts, gone):
     log = bench(name)
     runs = [HURTS[hurt](run) for hurt, run in zip(hurts, log.runs, strict=True)]
 

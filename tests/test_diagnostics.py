@@ -103,7 +103,7 @@ PLANTED = {
 
 
 @pytest.mark.parametrize("code", PLANTED)
-def test_an_oddity_is_spoken_of(code):
+def test_each_planted_oddity_is_reported(code):
     make, words = PLANTED[code]
 
     assert words in doubts_by_code(make()).get(code, "")
@@ -112,7 +112,7 @@ def test_an_oddity_is_spoken_of(code):
 @pytest.mark.parametrize("period", [0.02, 0.005])
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("name", MECHANISMS)
-def test_a_clean_log_gives_no_reason_to_speak(name, seed, period):
+def test_clean_log_gets_no_diagnostic(name, seed, period):
     log = drawn(name, seed, period=period)
     # kA of an intake is beyond a 20 ms log
     too_quick = LogFeatures(log).baseline.timescale < 1.2 * period

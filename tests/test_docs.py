@@ -51,7 +51,7 @@ def test_the_main_verbs_have_an_example(name):
 
 
 @pytest.mark.parametrize("name", LISTED)
-def test_what_is_listed_says_what_it_is_and_what_it_takes(name):
+def test_listed_names_have_docstrings_that_explain_their_arguments(name):
     listed = resolve_name(name)
 
     assert listed.__doc__
@@ -68,7 +68,7 @@ def test_what_is_listed_says_what_it_is_and_what_it_takes(name):
 @pytest.mark.parametrize(
     "lesson", sorted((ROOT / "lessons").glob("*.py")), ids=lambda path: path.stem
 )
-def test_what_a_lesson_imports_is_listed(lesson):
+def test_names_that_lessons_import_are_in_the_reference(lesson):
     listed = {id(resolve_name(name)) for name in LISTED}
     imported = {
         (node.module, alias.name)

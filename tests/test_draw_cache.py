@@ -42,7 +42,7 @@ def loaded(folder, number=5):
     return SimpleNamespace(**runpy.run_path(str(path)))
 
 
-def test_what_was_drawn_is_not_drawn_again(shelf, tmp_path):
+def test_cached_numbers_are_not_drawn_again(shelf, tmp_path):
     first, second = loaded(tmp_path / "exercise7"), loaded(tmp_path / "exercise7")
     with enable_draw_cache():
         drawn = first.draw("ann")
@@ -66,13 +66,13 @@ def test_numbers_of_a_class_are_neither_cached_nor_read_from_the_cache(shelf, tm
     assert module.COUNT == ["ann"] * 4
 
 
-def test_nothing_is_kept_unless_asked(shelf, tmp_path):
+def test_nothing_is_cached_by_default(shelf, tmp_path):
     loaded(tmp_path / "exercise7").draw("ann")
 
     assert not shelf.exists()
 
 
-def test_changed_code_draws_anew(shelf, tmp_path):
+def test_changed_code_draws_new_numbers(shelf, tmp_path):
     with enable_draw_cache():
         assert loaded(tmp_path / "exercise7", 5).draw("ann")["number"] == 5
         assert loaded(tmp_path / "exercise7", 6).draw("ann")["number"] == 6
@@ -97,7 +97,7 @@ def test_a_damaged_file_is_drawn_again(shelf, tmp_path, content):
     assert pickle.loads(file.read_bytes())["number"] == 5  # noqa: S301 - written above
 
 
-def test_the_oldest_are_forgotten(shelf, tmp_path, monkeypatch):
+def test_oldest_cache_entries_are_deleted(shelf, tmp_path, monkeypatch):
     monkeypatch.setattr(room, "MOST", 3)
     module = loaded(tmp_path / "exercise7")
     with enable_draw_cache():
@@ -115,7 +115,7 @@ def test_the_oldest_are_forgotten(shelf, tmp_path, monkeypatch):
 
 
 @pytest.mark.usefixtures("shelf")
-def test_files_that_are_as_made_are_not_made_again(tmp_path):
+def test_unchanged_files_are_not_written_again(tmp_path):
     made, exercise = [], tmp_path / "exercises" / "exercise7"
     files = {"log.csv": lambda path: (made.append(path), path.write_bytes(b"rows"))}
     told = {"exercise": exercise, "student": "ann", "say": lambda _: None}
@@ -132,7 +132,7 @@ def test_files_that_are_as_made_are_not_made_again(tmp_path):
     assert len(made) == 3
 
 
-def test_another_student_and_another_exercise_draw_their_own(shelf, tmp_path):
+def test_each_student_and_exercise_has_a_cache_entry_of_its_own(shelf, tmp_path):
     one, other = loaded(tmp_path / "exercise7"), loaded(tmp_path / "exercise8")
     with enable_draw_cache():
         assert one.draw("ann")["student"] == "ann"

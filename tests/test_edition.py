@@ -92,7 +92,7 @@ def test_a_lesson_becomes_a_page_slides_and_a_part_of_the_handout(lesson, tmp_pa
         assert bool(found) == name.endswith("-slides.html")
 
 
-def test_what_a_page_loads_from_elsewhere_would_be_seen():
+def test_check_finds_each_way_to_load_from_elsewhere():
     for html in (
         '<script src="https://a.b/c.js"></script>',
         '<link rel="stylesheet" href="https://a.b/c.css">',
@@ -121,7 +121,7 @@ def test_the_answer_is_not_on_the_slide_of_its_question():
     assert any("that one" in slide for slide in slides)
 
 
-def test_a_page_shows_nobodys_own_data(lesson, tmp_path):
+def test_page_shows_no_personal_data(lesson, tmp_path):
     own = tmp_path / "exercises" / "exercise12" / "data" / "ann"
     own.mkdir(parents=True)
     (own / "log.wpilog").write_bytes(b"mine")

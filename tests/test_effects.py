@@ -61,7 +61,7 @@ def test_an_effect_is_written_as_the_contract_asks(name):
     assert found.inspect.endswith(".")
     assert list_look_alikes(name), "name a look-alike, and the test that tells them apart"
     for other, test in found.apart.items():
-        assert other in EFFECTS, f"{name} is told apart from {other!r}, which is no effect"
+        assert other in EFFECTS, f"{name} is told apart from {other!r}, which is not an effect"
         assert name not in EFFECTS[other].apart, f"{other}'s file says it: once is enough"
         assert test.endswith("."), test
     for parameter in found.parameters:
@@ -70,7 +70,7 @@ def test_an_effect_is_written_as_the_contract_asks(name):
 
 
 @pytest.mark.parametrize(("name", "kind"), PAIRS)
-def test_an_ordinary_case_is_physics_and_shows(name, kind):
+def test_everyday_size_of_an_effect_is_within_bounds_and_visible(name, kind):
     model = hidden(name, kind)
     plain = replace(model, parts=())
     part = model.parts[0]
@@ -91,7 +91,7 @@ def test_an_ordinary_case_is_physics_and_shows(name, kind):
 
 
 @pytest.mark.parametrize("name", [n for n in EFFECTS if EFFECTS[n].kind != "two-body"])
-def test_an_effect_at_its_neutral_values_is_not_there(name):
+def test_effect_at_its_neutral_values_changes_nothing(name):
     kind = next(kind for one, kind in PAIRS if one == name)
     base = replace(MECHANISMS[kind].model, travel=None)
     values = dict(EFFECTS[name].neutral)
@@ -189,7 +189,7 @@ def energy(model, track):
 @pytest.mark.parametrize(("name", "kind"), [p for p in PAIRS if EFFECTS[p[0]].kind != "two-body"])
 @given(seed=st.integers(0, 10_000))
 @settings(max_examples=5)
-def test_energy_never_appears_from_nowhere(name, kind, seed):
+def test_energy_is_never_created(name, kind, seed):
     # Without voltage, the back-EMF of a shorted motor and friction only take; with it, no more is
     # stored than the battery gave: the volts times the way, sample by sample.
     model = hidden(name, kind, float(some(seed).uniform(0.3, 2.0)))
@@ -219,7 +219,7 @@ def test_energy_never_appears_from_nowhere(name, kind, seed):
 @pytest.mark.parametrize("name", ["backlash", "compliance"])
 @given(seed=st.integers(0, 10_000))
 @settings(max_examples=5)
-def test_two_bodies_left_alone_only_slow_down(name, seed):
+def test_two_bodies_without_voltage_only_slow_down(name, seed):
     model = hidden(name, "drivetrain", float(some(seed).uniform(0.3, 2.0)))
     part = model.parts[0].parameters
     ka = model.gains["kA"]
@@ -315,7 +315,7 @@ def test_an_effect_written_wrongly_is_named_with_what_is_wrong(change, said):
     ],
     ids=["unknown", "missing", "sign", "twice", "cannot", "size", "nan", "hidden twice"],
 )  # fmt: skip
-def test_what_is_no_physics_is_refused(make):
+def test_unphysical_parameter_is_refused(make):
     with pytest.raises(BadRequest) as refused:
         make()
 

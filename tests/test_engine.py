@@ -100,7 +100,7 @@ def test_a_current_limit_makes_the_rise_a_straight_line():
     assert track.velocity[rising] == pytest.approx(0.8 / 0.3 * TIME[rising], rel=1e-4, abs=1e-12)
 
 
-def test_a_voltage_that_slides_moves_as_many_small_steps_of_it_do():
+def test_linearly_changing_voltage_moves_as_many_small_steps_do():
     fine = np.linspace(0.0, 0.2, 2001)
     coarse = fine[::200]
     volts = 3.0 + 10.0 * coarse
@@ -140,7 +140,7 @@ def test_inertia_that_joins_shares_its_momentum():
 
 
 @pytest.mark.parametrize("until", [0.537, 1e6])
-def test_what_happens_between_two_samples_happens_at_its_moment(until):
+def test_event_between_two_samples_happens_at_its_own_time(until):
     values = {"extra": 0.3, "onset": 0.413, "until": until, "shared": 1.0}
     model, finer = PLAIN + Part("inertia-change", values), np.union1d(TIME, [0.413, 0.537])
 
@@ -251,13 +251,15 @@ def started(environment, program=SIMULATION_SCRIPT):
 def cache(tmp_path_factory):
     """A cache in which one process left what it compiled, in place of a damaged engine."""
     kept = tmp_path_factory.mktemp("cache")
-    text = "\n".join(compose._engine_lines(FEW, compiled=True))
-    find_kernel_file(kept, compose._engine_hash(FEW, text)).write_bytes(b"not an engine")
+    text = "\n".join(compose._write_engine(FEW, compiled=True))
+    find_kernel_file(kept, compose._hash_engine(FEW, text)).write_bytes(b"not an engine")
     assert started({**os.environ, CACHE: str(kept)}) == (0, ENDS, "")
     return kept
 
 
-def test_what_was_compiled_is_kept_where_the_environment_says(cache, tmp_path, monkeypatch):
+def test_compiled_code_is_cached_in_the_folder_of_the_environment_variable(
+    cache, tmp_path, monkeypatch
+):
     monkeypatch.setenv(CACHE, str(tmp_path))
     assert not is_compiled(FEW)
 
@@ -271,7 +273,7 @@ def test_what_was_compiled_is_kept_where_the_environment_says(cache, tmp_path, m
     assert kept.stat().st_mtime_ns == written
 
 
-def test_what_was_compiled_is_loaded_without_the_compiler(cache):
+def test_cached_machine_code_is_loaded_without_numba(cache):
     asked = f"{SIMULATION_SCRIPT}\nimport sys\nprint('numba' in sys.modules)"
 
     done = started({**os.environ, CACHE: str(cache)}, asked)
@@ -352,7 +354,7 @@ def test_an_array_that_the_engine_would_read_wrongly_is_refused(change):
         engine.move(**{**given, **change})
 
 
-def test_a_home_that_cannot_be_written_to_is_no_obstacle(cache, tmp_path, monkeypatch):
+def test_engine_runs_when_the_home_folder_is_read_only(cache, tmp_path, monkeypatch):
     (kept,) = cache.glob("*.kernel")
     code = ObjectCode.from_bytes(kept.read_bytes())
     address, owner = link_code(code)

@@ -10,7 +10,7 @@ from sim.core.errors import BadRequest, BadSample, MissingSignal, NotIdentifiabl
 @pytest.mark.parametrize(
     "kind", [BadRequest, BadSample, MissingSignal, NotIdentifiable, UnreadableFile]
 )
-def test_a_refusal_arrives_in_another_process_as_it_left(kind):
+def test_refusal_is_unchanged_by_pickling(kind):
     sent = kind("velocity is nan", where="log.csv, line 17", advice="Remove that sample.")
 
     got = pickle.loads(pickle.dumps(sent))  # noqa: S301 - our own, a line ago

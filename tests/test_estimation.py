@@ -42,13 +42,13 @@ def uneven(count=400, period=0.02, *, seed=1):
     return even(count, period) + rng.uniform(-0.2, 0.2, count) * period
 
 
-def test_with_even_times_they_are_the_ordinary_third_differences():
+def test_third_differences_on_even_times_are_the_ordinary_formula():
     values = np.random.default_rng(0).standard_normal(50)
 
     assert compute_third_differences(even(50), values) == pytest.approx(np.diff(values, 3))
 
 
-def test_nothing_is_left_of_a_parabola_however_uneven_its_times():
+def test_third_differences_of_a_parabola_are_zero_at_uneven_times():
     time = uneven()
 
     left = compute_third_differences(time, 3.0 - 2.0 * time + 5.0 * time**2)
@@ -107,7 +107,7 @@ def test_bent_voltage_has_the_mean_of_the_smooth_voltage_between_its_samples():
     assert bent[1:-2] == pytest.approx(true[1:-1], abs=1e-4)  # their mean is over 2001 points
 
 
-def test_voltage_beside_one_that_is_held_is_not_bent():
+def test_voltage_next_to_a_held_sample_is_not_bent():
     assert not bend_voltage(np.array([0.0, 1.2, 0.6, 0.0, 0.0])).any()
 
 
@@ -227,7 +227,7 @@ def test_an_elevator_that_only_goes_up_never_separates_friction_from_weight():
     ],
     ids=["no rows", "no such type", "no noise"],
 )
-def test_what_cannot_be_identified_is_refused_with_advice(ask, advice):
+def test_unidentifiable_gain_is_refused_with_advice(ask, advice):
     with pytest.raises(BadRequest, match=advice):
         ask()
 

@@ -12,7 +12,7 @@ from grader.exec_process import run_process
 
 
 @pytest.mark.parametrize("code", [0, 1, 2, 77])
-def test_the_exit_code_is_handed_on(code):
+def test_exit_code_of_the_program_is_returned(code):
     assert run_process([sys.executable, "-c", f"raise SystemExit({code})"]) == code
 
 

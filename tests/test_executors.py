@@ -63,7 +63,7 @@ def children():
     return [one for one in multiprocessing.active_children() if one.name == NAME]
 
 
-def test_all_jobs_come_back_and_two_bad_ones_cost_only_themselves(executor):
+def test_failing_jobs_do_not_affect_the_other_jobs(executor):
     jobs = range(500 if executor else 2_000)  # Dask takes some milliseconds for each
     results = collect_results(square_in_child, jobs, processes=2, cluster=executor)
 
@@ -77,7 +77,7 @@ def test_a_child_that_dies_ends_a_run_whose_work_must_be_whole(executor):
         list(run_jobs(square, range(DIES + 1), processes=2, worth=1, cluster=executor))
 
 
-def test_what_a_job_raises_comes_back_with_its_story(executor):
+def test_exception_of_a_job_returns_with_its_traceback(executor):
     with pytest.raises(TypeError) as raised:
         list(run_jobs(square, [3, "x"], processes=2, worth=1, cluster=executor))
 
@@ -115,7 +115,7 @@ def test_jobs_of_one_thread_share_one_child():
     assert len(seen) == 1
 
 
-def test_a_dataset_and_its_key_are_the_same_from_both(tmp_path, executor):
+def test_dataset_and_key_are_the_same_from_processes_and_from_a_cluster(tmp_path, executor):
     path = spec(tmp_path, TINY)  # 100 logs: worth two processes
     one = make_dataset(path, "one", "--processes", 1)
 
@@ -130,7 +130,7 @@ def test_a_dataset_and_its_key_are_the_same_from_both(tmp_path, executor):
 
 
 @needs_dask
-def test_a_worker_of_many_threads_makes_the_same(tmp_path):
+def test_cluster_worker_with_many_threads_makes_the_same_dataset(tmp_path):
     distributed = pytest.importorskip("distributed")
     path = spec(tmp_path, TINY.replace("100", "10"))
     with distributed.LocalCluster(
@@ -141,7 +141,7 @@ def test_a_worker_of_many_threads_makes_the_same(tmp_path):
     assert read_all(there) == read_all(make_dataset(path, "here"))
 
 
-def test_a_class_is_graded_the_same_by_both(tmp_path, monkeypatch, executor):
+def test_class_is_graded_the_same_by_processes_and_by_a_cluster(tmp_path, monkeypatch, executor):
     lay_out(tmp_path / "course")
     monkeypatch.chdir(tmp_path / "course")
     for number in range(12):
@@ -157,7 +157,7 @@ def test_a_class_is_graded_the_same_by_both(tmp_path, monkeypatch, executor):
     assert read_all(tmp_path / "two") == read_all(tmp_path / "one")
 
 
-def test_a_refusal_of_a_job_comes_back_as_one(tmp_path, executor):
+def test_refusal_of_a_job_is_raised_as_a_refusal(tmp_path, executor):
     late = '[[logs.faults]]\nname = "loop-overrun"\nat = 0.99\ntest = "dynamic-forward"\n'
     asked = read_spec(spec(tmp_path, PLAIN + late))  # a test of 1 s drives for 0.96 s
     jobs = plan_jobs(asked, asked.find_secret(make=False))
@@ -199,7 +199,7 @@ def test_a_missing_scheduler_gets_one_line(monkeypatch, given, said):
     assert said in str(refused.value)
 
 
-def test_without_dask_the_extra_is_named(monkeypatch):
+def test_message_without_dask_names_the_extra_to_install(monkeypatch):
     monkeypatch.setitem(sys.modules, "distributed", None)  # as if it were not installed
 
     with pytest.raises(BadRequest, match='Install it: python -m pip install "distributed'):
@@ -238,6 +238,6 @@ class Workers:
         ((ModuleNotFoundError("sim"),), "the worker at tcp://worker:0 has no sysid-course."),
     ],
 )
-def test_workers_that_would_make_something_else_are_refused(has, said):
+def test_workers_with_another_version_are_refused(has, said):
     with pytest.raises(BadRequest, match=said):
         cluster._count_threads(Workers(*has), "tcp://host:1")

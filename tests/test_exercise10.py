@@ -207,7 +207,7 @@ def test_the_ratio_itself_may_stand_in_the_code(checked, kind):
 
 @pytest.mark.parametrize("place", BOTH)
 @pytest.mark.parametrize("kind", KINDS)
-def test_what_the_motor_controller_would_do_is_simulated(tmp_path, kind, place):
+def test_motion_under_the_motor_controller_is_simulated(tmp_path, kind, place):
     student = of(kind=kind)
     path = tmp_path / JAVA
 
@@ -233,8 +233,8 @@ def test_the_loop_in_the_motor_controller_has_an_output_of_its_own(checked, kind
 @pytest.mark.parametrize("kind", ["drivetrain", "elevator"])
 def test_a_kp_per_meter_in_the_motor_controller_is_named(checked, kind):
     student = of(kind=kind)
-    inside = OWN.module.draw(student).held_by("Slot0Configs")
-    wrong = inside.times_to("Meters") / inside.times
+    inside = OWN.module.draw(student).convert_for_class("Slot0Configs")
+    wrong = inside.get_factor_to("Meters") / inside.times
     found = checked(in_place(student, "Slot0Configs", kp=wrong), student=student)["kp"]
 
     assert "this value is per m, but Slot0Configs counts rotations" in found.hint
@@ -268,7 +268,7 @@ CONTROLLER = "config.closedLoop.feedForward"
         ("var f = new SimpleMotorFeedforward(1, 5); f.setKv(2);", {"kS": 1.0, "kV": 2.0}),
     ],
 )
-def test_a_feedforward_is_what_the_program_made_of_it(tmp_path, body, wanted):
+def test_feedforward_is_judged_by_the_object_that_the_program_made(tmp_path, body, wanted):
     (tmp_path / JAVA).write_text(f"{IMPORTS}class A {{ A() {{ {body} }} }}\n", "utf-8")
     (facts,) = run_gains(tmp_path / JAVA)
     found = [{k: v for k, v in one.gains.items() if v} for one in facts.feedforwards]

@@ -171,7 +171,7 @@ def test_random_letters_earn_at_most_a_quarter_of_each_knowledge_check(copy):
         ("conveyor", "usually not needed", "on-off", (1, 1)),
     ],
 )
-def test_a_decision_of_ones_own_needs_a_reason_that_carries_it(copy, row, decision, reason, earned):
+def test_unusual_decision_needs_a_reason_that_supports_it(copy, row, decision, reason, earned):
     (own,) = (one for one, key in KEY.draw("ann").reasons.items() if key == reason)
     results = grade_answer(copy, **{row: decision, f"{row}_reason": own})
 
@@ -186,7 +186,7 @@ def test_a_letter_may_be_written_in_many_ways(copy, written):
 
 
 @pytest.mark.parametrize("student", ["ann", "ben", "zoë"])
-def test_the_questions_tell_the_numbers_and_not_the_answers(copy, student, capsys):
+def test_questions_contain_the_numbers_but_not_the_answers(copy, student, capsys):
     run_command(["11", "--student", student])
     capsys.readouterr()
     (file,) = (copy.folder / "data").glob("*/questions.md")

@@ -79,11 +79,11 @@ def test_students_with_one_two_and_three_effects_have_an_answer_that_earns_every
 
 
 @pytest.mark.parametrize(("kind", "effects"), DRAWN.HIDDEN)
-def test_what_can_be_hidden_is_physics_and_its_first_effect_alone_matters_most(kind, effects):
+def test_hidden_effects_are_physical_and_the_first_matters_most(kind, effects):
     for name, _ in effects:
         assert find_effect(name).reason_against(MECHANISMS[kind].scale) == ""
 
-    variant = DRAWN.draw_any(np.random.default_rng(1), [(kind, effects)])
+    variant = DRAWN.draw_recipe(np.random.default_rng(1), [(kind, effects)])
     search, truth = variant.make_search(), variant.mechanism.model
     alone = [
         search.measure_gap(search.fit_near(replace(truth, parts=(part,)))) for part in truth.parts
@@ -102,7 +102,7 @@ def test_the_second_effect_named_first_costs_three_points(tmp_path):
     assert {results[one].status for one in ("all-effects", "held-out", "justified")} == {"passed"}
 
 
-def test_one_named_effect_of_three_earns_a_part(tmp_path):
+def test_naming_one_effect_of_three_earns_a_part(tmp_path):
     student = hiding(3)
     some = ROOM.draw(student).hidden[:1]
     results = grade_answer(truth(student, names=some), student, tmp_path)
@@ -141,7 +141,7 @@ def test_a_parameter_that_an_effect_does_not_have_is_named(tmp_path):
     text = 'effects = ["delay"]\ndelay.late = 0.03\n'
     check = grade_answer(text, "ada", tmp_path)["held-out"]
 
-    assert check.seen == "delay.late, which is no parameter of delay"
+    assert check.seen == "delay.late, which is not a parameter of delay"
     assert "It has delay.lag." in check.hint
 
 
@@ -179,7 +179,7 @@ def test_a_name_that_is_no_effect_gets_one_line_with_a_proposal(copy, monkeypatc
     assert "Did you mean velocity-filter?" in str(left.value)
 
 
-def test_nothing_a_learner_reads_without_trying_names_what_is_hidden():
+def test_texts_for_the_learner_do_not_name_the_hidden_effects():
     """The example in the README and the hints is an effect that nobody gets."""
     everybody = {name for _, effects in DRAWN.HIDDEN for name, _ in effects}
     shown = (OWN.folder / "README.md").read_text("utf-8")
@@ -191,12 +191,12 @@ def test_nothing_a_learner_reads_without_trying_names_what_is_hidden():
     assert everybody & set(re.findall(r"[a-z-]+", said)) == set()
 
 
-def test_what_a_log_does_not_determine_is_drawn_again():
+def test_effects_that_a_log_does_not_determine_are_drawn_again():
     """A slightly late sensor hides behind a strong wave in the position."""
     drawn = sys.modules[OWN.module.draw.__module__]
     weak = ("drivetrain", (("cogging", 2.0), ("velocity-filter", 0.02)))
 
-    assert not drawn.is_determined(drawn.draw_any(np.random.default_rng(0), [weak]))
+    assert not drawn.is_determined(drawn.draw_recipe(np.random.default_rng(0), [weak]))
     assert drawn.is_determined(OWN.module.draw("ada"))
 
 
@@ -230,5 +230,5 @@ def test_reconcile_has_the_same_gap_and_the_same_first_effect():
     ("written", "ours", "same"),
     [(0.94, 0.77, True), (1.05, 1.0, True), (1.3, 1.0, False), (0.0, 0.8, False), (0.9, 5, False)],
 )
-def test_gaps_below_the_noise_are_the_same(written, ours, same):
+def test_gaps_that_differ_by_less_than_the_noise_count_as_equal(written, ours, same):
     assert ROOM._is_same(written, ours) is same

@@ -30,7 +30,7 @@ def data_of(exercise, student):
     return exercise.folder / "data" / make_folder_name(student)
 
 
-def test_between_them_they_get_every_motor_and_every_worn_module():
+def test_class_as_a_whole_draws_every_motor_and_every_worn_module():
     variants = [OWN.module.draw(student) for student in CLASS]
 
     assert {one.motor for one in variants} == {"krakenX60", "falcon500", "neoVortex"}

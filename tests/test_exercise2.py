@@ -47,7 +47,7 @@ def student_who(wanted):
     return next(name for name in CLASS if wanted(OWN.module.draw(name)))
 
 
-def test_who_divides_the_voltage_of_the_battery_is_told(copy):
+def test_division_by_the_battery_voltage_is_named(copy):
     student = student_who(lambda variant: variant.planted == ("logged-voltage",))
     variant = OWN.module.draw(student)
     battery = float(variant.told["noticed"]["battery"].strip('"').split()[0])
@@ -58,7 +58,7 @@ def test_who_divides_the_voltage_of_the_battery_is_told(copy):
     assert "the voltage of the battery" in hint
 
 
-def test_either_formula_will_do_for_everybody(copy):
+def test_either_formula_earns_full_marks_for_every_student(copy):
     for student in CLASS:
         variant = OWN.module.draw(student)
         for theory in variant.theories:
@@ -68,7 +68,7 @@ def test_either_formula_will_do_for_everybody(copy):
             assert sum(check.points for check in results.values()) == 11
 
 
-def test_some_student_gets_each_trouble_verdict_and_flag():
+def test_class_as_a_whole_gets_every_fault_verdict_and_flag():
     variants = [OWN.module.draw(student) for student in CLASS]
 
     assert {one.kind for one in variants} == {"drivetrain", "elevator", "turret"}
@@ -80,7 +80,7 @@ def test_some_student_gets_each_trouble_verdict_and_flag():
     assert not all(one.planted for one in variants)
 
 
-def test_theory_is_what_the_bench_says_of_the_same_parts():
+def test_theory_agrees_with_the_bench_for_the_same_parts():
     """Kraken X60, 6.75:1, 4 inches: 2.538 V·s/m on paper, 2.524 with the free current's drop."""
     parts = type(OWN.module.draw("ann").parts)
     made = parts("Kraken X60", 6000, find_motor("krakenX60").back_emf, 4, 6.75, 0.1016)
@@ -94,7 +94,7 @@ def test_theory_is_what_the_bench_says_of_the_same_parts():
     )
 
 
-def test_the_file_shows_every_planted_trouble_and_no_other(copy):
+def test_log_shows_every_planted_fault_and_no_other(copy):
     """Ratio, radius, what was logged and what is hot: two lines disagree where something is off."""
     for student in CLASS:
         copy.prepare(student, say=lambda _: None)
@@ -174,7 +174,7 @@ def allowed(variant, given):
     return left - (braking if below else set()), [word for word, there in shown.items() if there]
 
 
-def test_every_list_of_causes_in_every_order_is_graded_by_what_the_file_says(copy):
+def test_lists_of_causes_are_graded_by_the_evidence_in_the_file(copy):
     """A point each for possible causes, their order and the evidence; less for other causes."""
     judge_list = KEY.judge_list
     cost = dict.fromkeys(["gear-ratio", "wheel-size", "motor-type", "velocity-unit"], 1)

@@ -20,7 +20,7 @@ def truth(student):
     return {one.name: one.expected for one in (*variant.asked.values(), variant.offset)}
 
 
-def test_twenty_students_can_solve_theirs_and_no_row_passes_for_horizontal(copy):
+def test_twenty_students_get_solvable_numbers_without_a_nearly_horizontal_row(copy):
     ways = set()
     for number in range(20):
         student = f"student {number}"
@@ -50,7 +50,7 @@ def test_the_mean_of_all_middles_is_named_and_not_taken_for_an_edge(copy, studen
     assert "an edge" not in hint
 
 
-def test_the_sum_of_both_shares_and_an_edge_for_ks_are_told_as_such(copy):
+def test_sum_of_both_shares_and_edge_in_place_of_ks_are_named(copy):
     rows = {row.reading: row for row in OWN.module.draw("kim").arm}
     shares = rows[0.0].middle + abs(rows[-90.0].middle)
 

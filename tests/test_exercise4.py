@@ -88,7 +88,9 @@ LESSON = (ROOT / "tests" / "robotcode" / "DriveSubsystem.java").read_text("utf-8
 @pytest.mark.parametrize(
     ("step", "code", "score"), [("3.0", 1, 14), ("3.5", 0, 15)], ids=["example", "practice"]
 )
-def test_the_source_lesson_to_the_letter(all_exercises, capsys, step, code, score):
+def test_code_copied_from_the_source_lesson_gets_the_expected_score(
+    all_exercises, capsys, step, code, score
+):
     (all_exercises / "DriveSubsystem.java").write_text(
         LESSON.replace("Volts.of(3.0)", f"Volts.of({step})"), "utf-8"
     )
@@ -115,7 +117,7 @@ def test_the_source_lesson_to_the_letter(all_exercises, capsys, step, code, scor
         ("Seconds.of(10)", "null", "a default may change"),
     ],
 )
-def test_what_is_right_in_another_way_passes_with_a_note(all_exercises, capsys, old, new, note):
+def test_unusual_but_right_code_passes_with_a_note(all_exercises, capsys, old, new, note):
     text = (ROOT / "solutions" / "exercise4" / JAVA).read_text("utf-8")
     assert old in text
     imported = "import com.ctre.phoenix6.controls.VoltageOut;\nimport com.ctre"
@@ -305,13 +307,13 @@ LIMITS = (
         ),
     ],
 )
-def test_what_may_be_right_in_a_class_of_ones_own_is_not_accused(changes, tmp_path):
+def test_call_into_an_unseen_class_is_not_called_wrong(changes, tmp_path):
     found = {one.id: one for one in graded(tmp_path, *changes).checks}["drive"]
 
     assert (found.status, found.seen) == ("passed", "")
 
 
-def test_class_in_a_file_that_is_not_there_is_asked_about(tmp_path):
+def test_feedback_asks_for_the_missing_file_of_a_class(tmp_path):
     grade = graded(
         tmp_path,
         ("import com.ctre", "import frc.robot.Team;\nimport com.ctre"),
@@ -391,7 +393,7 @@ def test_code_without_a_routine_gets_few_points_and_no_traceback(
     put=st.sampled_from(["", "null", "(", "})", "m_left", "0", ".times(2)", "λ"]),
 )
 @settings(max_examples=20, suppress_health_check=[HealthCheck.function_scoped_fixture])
-def test_whatever_is_cut_out_of_java_code_our_checks_do_not_break(tmp_path, begin, length, put):
+def test_checks_survive_any_cut_in_java_code(tmp_path, begin, length, put):
     text = (ROOT / "solutions" / "exercise4" / JAVA).read_text("utf-8")
     (tmp_path / JAVA).write_text(text[:begin] + put + text[begin + length :], "utf-8")
     result = EXERCISE.grade(tmp_path / JAVA, student="ann")

@@ -111,7 +111,7 @@ STARTED = {  # what else starts a test
 
 
 @pytest.mark.parametrize("case", STARTED)
-def test_test_that_nobody_holds_loses_points(case, tmp_path):
+def test_test_without_a_held_button_loses_points(case, tmp_path):
     line = STARTED[case].replace("FORWARD", "SysIdRoutine.Direction.kForward")
     found = graded(
         tmp_path, ("    // --- end\n  }\n}\n", f"    // --- end\n    {line}\n  }}\n}}\n")
@@ -178,7 +178,7 @@ def test_method_that_takes_its_direction_by_name_makes_tests(tmp_path):
     assert {one.status for one in found.values()} == {"passed"}
 
 
-def test_class_in_a_file_that_is_not_there_is_asked_about_and_never_accused(tmp_path):
+def test_feedback_asks_for_a_missing_file_and_does_not_call_it_wrong(tmp_path):
     text = solution(JAVA)
     container = text.partition("/** One motor, and a routine")[0]
     container = container.replace(
@@ -202,7 +202,7 @@ def test_class_in_a_file_that_is_not_there_is_asked_about_and_never_accused(tmp_
     ],
     ids=["circle", "itself", "endless", "recursion", "deep"],
 )
-def test_code_that_leads_nowhere_ends_and_earns_nothing(text, tmp_path):
+def test_meaningless_code_ends_and_earns_nothing(text, tmp_path):
     (tmp_path / JAVA).write_text(text, "utf-8")
     grade = EXERCISE.grade(tmp_path / JAVA, student="ann")
 

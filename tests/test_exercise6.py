@@ -97,7 +97,7 @@ def test_at_half_a_volt_a_second_for_ten_seconds_the_facts_drivetrain_goes_nine_
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_the_closed_form_is_where_the_bench_goes_under_the_routine(kind):
+def test_closed_form_predicts_the_travel_of_the_bench(kind):
     """The bench's own routine begins to drive two loops late; its sensor rounds."""
     variant = OWN.module.draw("ann")
     machine, built = variant.machines[kind], variant.built[kind]
@@ -122,7 +122,7 @@ def test_the_closed_form_is_where_the_bench_goes_under_the_routine(kind):
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_the_bench_stands_where_the_plan_says(kind):
+def test_mechanism_stops_where_the_plan_says(kind):
     """The mark, a late thumb, and 0 V in brake mode: how far it got."""
     for student in CLASS[:5]:
         machine = OWN.module.draw(student).machines[kind]
@@ -170,7 +170,7 @@ def test_acceleration_scatters_on_the_bench_as_the_rule_says():
 
 
 @pytest.mark.parametrize("student", ["ann", "ben", "zoë"])
-def test_nothing_a_learner_reads_is_a_plan_or_favors_the_word_that_is_right(copy, student, capsys):
+def test_texts_for_the_learner_contain_no_plan_and_no_right_word(copy, student, capsys):
     """The smallest and the largest step, the ramp of a sound plan; a word outside of its list."""
     variant = OWN.module.draw(student)
     said = []
@@ -196,7 +196,7 @@ def test_nothing_a_learner_reads_is_a_plan_or_favors_the_word_that_is_right(copy
 
 
 @pytest.mark.parametrize(("off", "kept"), [(0.002, True), (-0.002, True), (0.02, False)])
-def test_who_rounds_up_to_a_bound_is_not_wrong(off, kept):
+def test_plan_rounded_up_to_a_bound_is_accepted(off, kept):
     """The current, the grip, the end of the travel: a fifth of a percent beyond is rounding."""
     machine = replace(OWN.module.draw("ann").machines["drivetrain"], limit=1e4)
     plan = replace(DRAWN.make_sound_plan(machine), step=0.9 * machine.slip * (1.0 + off))

@@ -158,7 +158,7 @@ def test_the_files_hold_the_logs_and_not_the_answers(copy):
         ("encoder-slip 22 23 trim + brownout 1 2 + hard-stop 1 2 + wheel-slip 1 2", (SLIP,), 0.5),
     ],
 )
-def test_what_a_line_earns(line, damage, points):
+def test_line_of_claims_earns_the_expected_points(line, damage, points):
     claims = LINE.read_claims(line)
     result = SCORING.score_claims(claims, case(*damage), points=2.0)
 
@@ -210,7 +210,7 @@ def test_a_line_that_cannot_be_read_gets_the_reason(raw, says):
 
 
 @pytest.mark.parametrize("name", [*LINE.FAULTS, "clean"])
-def test_every_word_can_be_read_and_stands_in_the_task(name):
+def test_every_accepted_word_is_explained_in_the_task(name):
     (claim,) = LINE.read_claims(f"{name.replace('-', ' ')}, whole")
 
     assert claim == LINE.Claim(name, ("whole",), None, "")

@@ -40,7 +40,7 @@ ALL = dict(kept=2, reach=2, ks=2, kv=2, ka=2)
 
 
 @pytest.mark.parametrize("student", STUDENTS)
-def test_a_log_can_be_mended_and_needs_every_part_of_it(student):
+def test_log_can_be_repaired_and_needs_every_repair(student):
     reference = variant(student).reference
     nothing = points(DRAWN.NOTHING, student=student)
 
@@ -64,7 +64,7 @@ def test_twenty_students_get_all_kinds_of_logs():
     assert stops == {*FOUR_TESTS}
 
 
-def test_the_standstill_may_be_trimmed_instead_of_dropped_by_a_threshold():
+def test_standstill_may_be_cut_by_a_window_or_by_a_threshold():
     for student in STUDENTS[:8]:
         mine = variant(student)
         keep = dict(mine.reference.keep)
@@ -106,7 +106,7 @@ def test_a_gain_counts_only_where_the_fast_ends_are_kept():
     assert {results[name].points for name in ("ks", "kv", "ka")} == {0}
 
 
-def test_what_is_lost_costs_half_a_point_for_each_test():
+def test_samples_lost_cost_half_a_point_for_each_test():
     reference = variant("ann").reference
 
     def kept(span, *tests):
@@ -185,7 +185,7 @@ def test_a_line_that_cannot_be_read_is_named_and_nothing_else_is_judged(name, ra
     assert {one.status for one in results.values()} == {"not-reached"}
 
 
-def test_a_threshold_of_nothing_and_no_window_is_the_fit_of_the_bench():
+def test_empty_preparation_gives_the_fit_of_the_raw_log():
     mine = variant("ann")
     theirs = fit(mine.log, method="sysid").in_log_units()
 

@@ -37,7 +37,7 @@ def test_ten_students_get_five_logs_each_that_the_authored_function_fits():
                 assert asked.is_right(found[name]), f"{number}, {log.recipe.kind}: {name}"
 
 
-def test_the_tests_of_a_log_stand_one_after_another_with_pauses_between():
+def test_tests_of_a_log_follow_one_another_with_pauses():
     for log in logs_of("ann"):
         test, time = log.data["test"], log.data["time"]
         between = np.flatnonzero(test[1:] != test[:-1])
@@ -63,7 +63,7 @@ def test_the_five_logs_differ_as_the_task_says():
     assert {len(column) for column in logs[0].data.values()} == {len(logs[0].data["time"])}
 
 
-def test_a_function_named_by_itself_is_graded_with_the_answers_beside_it(copy):
+def test_function_file_is_graded_with_the_answers_next_to_it(copy):
     shutil.copy(ROOT / "solutions" / "exercise9" / "fit.py", copy.folder)
     result = copy.grade(copy.folder / "fit.py", student="ann")
 
@@ -71,7 +71,7 @@ def test_a_function_named_by_itself_is_graded_with_the_answers_beside_it(copy):
     assert (result.score, result.max_score) == (5.0, 10.0)
 
 
-def test_a_function_that_stands_alone_is_not_graded_and_says_why(copy, tmp_path):
+def test_function_without_its_answers_file_is_not_graded(copy, tmp_path):
     alone = tmp_path / "alone" / "fit.py"
     alone.parent.mkdir()
     alone.write_text("def fit(): pass\n", "utf-8")
@@ -101,7 +101,7 @@ def test_every_log_that_is_right_earns_a_point(copy, most, points):
     assert check.points == expected == points
 
 
-def test_a_log_that_is_fitted_wrong_is_named_by_its_speciality(copy):
+def test_feedback_on_a_wrong_fit_names_what_is_special_about_the_log(copy):
     text = (ROOT / "solutions" / "exercise9" / "fit.py").read_text("utf-8")
     wrong = "    if len(set(test)) == 3:\n        ka *= 1.4\n    return {"
     check = grade_answer(copy.folder, text.replace("    return {", wrong))

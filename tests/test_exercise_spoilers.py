@@ -27,7 +27,7 @@ MISTAKES = 12  # of an exercise's planted ones; an answer that is run takes a se
 
 
 @pytest.mark.parametrize("name", ANSWERS)
-def test_no_right_number_stands_in_what_a_learner_reads(name, tmp_path):
+def test_texts_for_the_learner_contain_no_right_number(name, tmp_path):
     own = find_exercise(name, ROOT)
     solved = prepare_solved(own, "ann", tmp_path)
     files = [own.folder / "README.md", *solved.exercise.folder.glob("data/*/*.toml")]

@@ -111,7 +111,7 @@ def test_severity_zero_changes_nothing(name, sound_logs):
 
 
 @pytest.mark.parametrize("name", FAULTS)
-def test_the_same_state_of_chance_gives_the_same_damage(name, sound_logs):
+def test_same_random_state_gives_the_same_damage(name, sound_logs):
     log = sound_logs(2, FAULTS[name].types)
 
     one, two = (damaged(log, name, seed=2) for _ in range(2))
@@ -199,7 +199,7 @@ EVERY = ("quasistatic", "dynamic", "coast", "triangle", "multistep", "chirp")
 
 @pytest.mark.parametrize("pace", [{}, {"ramp": 0.5, "step": 3.5}], ids=["ordinary", "gentle"])
 @pytest.mark.parametrize("name", MECHANISMS)
-def test_what_coasts_to_rest_or_is_stepped_down_onto_its_stop_is_sound(name, pace):
+def test_coasting_to_rest_or_onto_a_stop_is_sound(name, pace):
     rng = np.random.default_rng([4, list(MECHANISMS).index(name)])
     log = simulate(MECHANISMS[name].draw(rng), Routine(kinds=EVERY, **pace), rng=rng)
 

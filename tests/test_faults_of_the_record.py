@@ -87,7 +87,7 @@ def test_a_coarse_velocity_is_not_a_stale_one():
     assert names(log) == set()
 
 
-def test_a_weight_that_beats_the_voltage_has_no_sign_wrong():
+def test_motion_against_the_voltage_by_weight_is_no_sign_error():
     # an elevator that 0.5 V cannot lift: it sinks, in the forward test as in the reverse one
     log = recorded("elevator")
     forward, reverse = (

@@ -51,7 +51,7 @@ ALLOWED = {"velocity_error": 1.5, "volts": 7.0}  # SysId's test settings
         ("venom", 1.97, 0.179, 15.0709394559),
     ],
 )
-def test_a_velocity_loop_is_sysids_own(preset, kv, ka, kp):
+def test_velocity_loop_has_the_gains_of_sysid(preset, kv, ka, kp):
     gains = design_velocity_loop(kv=kv, ka=ka, preset=PRESETS[preset], **ALLOWED)
 
     assert gains.kp == pytest.approx(kp, rel=1e-10)
@@ -67,7 +67,7 @@ def test_a_velocity_loop_is_sysids_own(preset, kv, ka, kp):
         ("rev-brushless", 0.327, None, 0.302021438601, 48.5176534816),
     ],
 )
-def test_a_position_loop_is_sysids_own(preset, ka, delay, kp, kd):
+def test_position_loop_has_the_gains_of_sysid(preset, ka, delay, kp, kd):
     gains = design_position_loop(
         kv=3.060, ka=ka, preset=PRESETS[preset], position_error=1.0, delay=delay, **ALLOWED
     )
@@ -177,7 +177,7 @@ def doubts(fit, preset="default"):
     return warn_of_bad_suggestions(fit, try_feedback_gains(fit, PRESETS[preset]))
 
 
-def test_a_suggestion_that_turns_the_wrong_way_comes_with_one_that_settles():
+def test_negative_suggestion_comes_with_gains_that_settle():
     # 112 ms after the voltage the REV's loop has turned round: K (A - BK)^112 is negative
     (doubt,) = doubts(found(LIGHT), "rev-brushless")
 
@@ -266,7 +266,7 @@ def test_the_mechanism_moves_as_in_the_engine(kind, loop):
     assert np.array(took.value) == pytest.approx(told, abs=2e-3 * took.target)
 
 
-def test_without_friction_and_delay_a_velocity_follows_the_exponential_of_paper():
+def test_velocity_without_friction_and_delay_follows_the_closed_form():
     # kV·v + kA·v' = kV·r + kP·(r - v), so the error dies with kA/(kV + kP)
     plant = Plant("simple", {"kS": 0.0, "kV": 1.0, "kA": 0.5})
     took = simulate_step_response(
@@ -279,7 +279,7 @@ def test_without_friction_and_delay_a_velocity_follows_the_exponential_of_paper(
 
 
 @pytest.mark.parametrize(("share", "kind"), [(0.4, "settles"), (0.7, "rings"), (1.3, "oscillates")])
-def test_a_delay_makes_a_loop_swing_from_the_gain_of_paper_on(share, kind):
+def test_delayed_loop_oscillates_above_the_gain_of_the_closed_form(share, kind):
     # an integrator 1/kA behind a delay T swings at kP = π/2·kA/T; T has half a period on top
     ka, wait = 0.1, 0.1
     plant = Plant("simple", {"kS": 0.0, "kV": 1e-6, "kA": ka})
@@ -334,7 +334,7 @@ def test_a_position_loop_too_weak_for_friction_stops_short_by_what_friction_hold
     kv=st.floats(0.0, 50.0),
     ka=st.floats(1e-4, 5.0),
 )
-def test_whatever_the_gains_the_answer_is_numbers_and_a_sentence(kp, kd, delay, kv, ka):
+def test_any_gains_give_finite_numbers_and_a_sentence(kp, kd, delay, kv, ka):
     plant = Plant("simple", {"kS": 0.1, "kV": kv, "kA": ka})
     took = simulate_step_response(
         plant, loop="position", feedback=Feedback(kp, kd), target=0.3, delay=delay, seconds=1.0

@@ -43,7 +43,7 @@ def change(log, test, **signals):
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_every_gain_and_metric_is_sysids_own(name):
+def test_every_gain_and_metric_equals_that_of_sysid(name):
     known = known_answer(name)
     answer = known.answer
 
@@ -163,7 +163,7 @@ def test_a_log_that_says_its_type_needs_no_option():
     ],
     ids=lambda value: str(value)[:20],
 )
-def test_a_request_that_makes_no_sense_lists_what_does(drive, asked, said):
+def test_unknown_option_value_lists_the_known_ones(drive, asked, said):
     with pytest.raises(BadRequest) as refused:
         fit(drive, **asked)
 

@@ -46,7 +46,7 @@ def here(tmp_path, monkeypatch):
     return tmp_path
 
 
-def test_ones_own_gains_are_in_the_json_too(fit, drive):
+def test_json_contains_the_gains_of_own_kp_and_own_kd(fit, drive):
     _, plain, _ = fit(drive, "--json")
     _, said, _ = fit(drive, "--json", "--own-kp", 2, "--own-kd", 0.01)
 
@@ -151,7 +151,7 @@ def test_units_that_contradict_the_file_are_reported_first(tmp_path, fit):
     assert "the file says" not in right
 
 
-def test_paste_offers_every_target_and_season():
+def test_option_paste_offers_every_target_and_season():
     assert sorted(TARGETS) == options.TARGETS, "a row in TARGETS, and a template of its name"
     page = (options.SIM / "cli/open/page/index.html").read_text(encoding="utf-8")
     missing = [name for name in TARGETS if f'<option value="{name}">' not in page]

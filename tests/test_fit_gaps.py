@@ -14,7 +14,7 @@ def filled(
     return fill_gaps(left=left, columns=columns, gains=gains)
 
 
-def test_right_lines_are_reported_as_right_and_used():
+def test_right_lines_are_reported_and_used():
     mine = filled()
 
     assert mine.report.splitlines() == ["Gap 1: right.", "Gap 2: right.", "Gap 3: right."]
@@ -41,7 +41,7 @@ def test_right_lines_are_reported_as_right_and_used():
         ({"gains": lambda *_: None}, "Gap 3: not yet."),
     ],
 )
-def test_wrong_lines_get_advice_and_ours_are_used_for_them(wrong, says):
+def test_wrong_lines_get_advice_and_are_replaced_by_right_ones(wrong, says):
     mine = filled(**wrong)
     (name,) = wrong
 

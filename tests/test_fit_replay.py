@@ -27,7 +27,7 @@ def rms(one):
     return float(np.sqrt(np.mean(one.velocity_error[one.moving] ** 2)))
 
 
-def test_what_is_left_is_the_sensors_noise(bench):
+def test_residual_of_the_replay_is_the_sensor_noise(bench):
     log, found = bench
 
     runs = replay_fit(found, log)
@@ -54,7 +54,7 @@ def test_the_lag_that_was_found_is_simulated_along():
     assert rms(without) > 3.0 * rms(with_it)
 
 
-def test_a_log_whose_plus_is_minus_is_simulated_as_it_was():
+def test_log_with_reversed_sign_is_simulated_with_its_own_sign():
     log = simulate(MECHANISMS["drivetrain"], GENTLE, rng=np.random.default_rng(3))
     runs = tuple(replace(run, voltage=-run.voltage) for run in log.runs)
     turned = replace(log, runs=runs)

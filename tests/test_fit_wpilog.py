@@ -32,7 +32,7 @@ def signal_of(path, kind, *, units="meters", top="/sysid"):
 
 
 @pytest.mark.parametrize("name", ["drive.csv", "drive.wpilog"])
-def test_measured_and_simulated_stand_beside_each_other(tmp_path, name):
+def test_log_of_the_fit_has_measured_and_simulated_signals(tmp_path, name):
     file, out = write_log(drive_log(), tmp_path / name), tmp_path / "out.wpilog"
     assert run("fit", file, "--wpilog", out) == 0
     log = read(file)

@@ -39,7 +39,7 @@ FOREIGN = [
 @pytest.mark.parametrize(
     ("name", "data", "what", "advice"), FOREIGN, ids=[f"{row[0]} {row[2]}" for row in FOREIGN]
 )
-def test_a_foreign_file_is_called_by_its_name(
+def test_unsupported_format_is_named_in_the_refusal(
     tmp_path: Path, name: str, data: bytes, what: str, advice: str
 ) -> None:
     path = tmp_path / name

@@ -58,7 +58,7 @@ def test_an_unknown_word_is_refused_with_the_known_ones(
         pytest.param("a\0b.csv", "zero byte", id="a zero byte"),
     ],
 )
-def test_what_cannot_be_written_is_refused_with_advice(
+def test_log_that_cannot_be_written_is_refused_with_advice(
     tmp_path: Path, name: str, said: str
 ) -> None:
     (tmp_path / "folder.csv").mkdir()
@@ -71,7 +71,7 @@ def test_what_cannot_be_written_is_refused_with_advice(
 
 
 @pytest.mark.parametrize("trouble", [OSError(28, "No space left on device"), KeyboardInterrupt()])
-def test_a_file_is_written_whole_or_stays_as_it_was(
+def test_failed_write_leaves_the_old_file_unchanged(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, trouble: BaseException
 ) -> None:
     def halfway(_: Log, path: Path) -> None:

@@ -93,14 +93,14 @@ def test_a_disagreement_is_found_where_it_is(plant, what, where, sign):
     assert {place.signal for place in mine} == {"velocity"}
 
 
-def test_noise_alone_is_nowhere_beyond_doubt():
+def test_pure_noise_has_no_significant_residual():
     # 300 cells beyond 4 standard errors: about one log of fifty
     alarms = [bool(map_gap(runs_of(seed=seed), noise=NOISE).find_places(1)) for seed in range(60)]
 
     assert sum(alarms) <= 4
 
 
-def test_sorted_by_noisy_measurements_rest_would_show_what_is_not_there():
+def test_binning_by_noisy_measurements_would_show_a_false_gap():
     rng = np.random.default_rng(3)
     still = Residuals(
         "coast-forward", PERIOD * np.arange(400), np.zeros(400), np.zeros((400, 2)),
@@ -156,7 +156,7 @@ def twice(plant, other):
         (bump, lambda at: 5.0 * np.exp(-((at.t - 6.0) ** 2)), "changes from run to run"),
         (bump, lambda at: -bump(at), "changes from run to run"),
         (bump, lambda at: 0.4 * bump(at), "comes again in part"),
-        (None, None, "is no more than noise"),
+        (None, None, "is only noise"),
     ],
     ids=["the same twice", "elsewhere", "the other way", "weaker", "only noise"],
 )
@@ -206,7 +206,7 @@ REQUESTS = {
 
 
 @pytest.mark.parametrize("request_", REQUESTS.values(), ids=REQUESTS)
-def test_request_that_makes_no_sense_is_refused_in_one_line(request_):
+def test_invalid_request_is_refused_in_one_line(request_):
     with pytest.raises(Refusal) as refused:
         request_()
 

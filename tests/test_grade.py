@@ -56,7 +56,7 @@ def test_feedback_on_a_wrong_answer_shows_the_value_the_reason_and_what_to_try(
     ],
     ids=["right", "one wrong", "none"],
 )
-def test_what_is_not_answered_yet_is_no_mistake(root, tmp_path, right, wrong, verdict):
+def test_unanswered_question_is_no_mistake(root, tmp_path, right, wrong, verdict):
     file = tmp_path / "answers.toml"
     answers = ['Q0_sysid = ""', *['Q0_guess = "With which gain does"'] * right]
     answers += ['KC2_volts = "x"'] * wrong
@@ -100,7 +100,7 @@ def test_json_has_these_keys_and_no_others(course, capsys):
     }
 
 
-def test_our_own_error_blames_nobody(course, capsys, reads):
+def test_error_in_the_grader_is_not_blamed_on_the_learner(course, capsys, reads):
     answer(course, 'size = "boom"')
 
     assert run_command(["exercise1", "--json"]) == 2
@@ -231,7 +231,7 @@ def test_a_file_that_is_no_answer_is_refused(course, capsys, given, said, issued
 
 
 @pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16"])
-def test_what_windows_editors_save_can_be_read(course, encoding):
+def test_files_saved_by_windows_editors_are_read(course, encoding):
     path = course / "exercises" / "exercise1" / "answers.toml"
     path.write_bytes(RIGHT.encode(encoding))
 
@@ -313,7 +313,7 @@ def grade(*arguments, cwd, **environment):
 
 
 @pytest.mark.parametrize("encoding", ["ascii", "cp1252", "utf-8"])
-def test_a_sign_the_terminal_lacks_becomes_a_plain_one(course, encoding):
+def test_symbol_that_the_terminal_lacks_becomes_ascii(course, encoding):
     answer(course, "size = 1")
     done = grade("1", cwd=course, PYTHONIOENCODING=encoding)
     out = done.stdout.decode(encoding)

@@ -77,7 +77,7 @@ def test_the_words_of_a_check_earn_on_average_what_chance_does(guessed):
         assert mean(earned or [0.0]) <= CHANCE, check.id
 
 
-def test_all_words_at_once_earn_nothing(guessed, tmp_path):
+def test_answering_with_all_words_earns_nothing(guessed, tmp_path):
     """In a list, or with a + between them; only words that some check took for an answer."""
     one, results = guessed
     for place in range(len(one.checks)):
@@ -90,6 +90,6 @@ def test_all_words_at_once_earn_nothing(guessed, tmp_path):
 
 
 @pytest.mark.parametrize("name", sorted(EXERCISES.keys() - {*FILLED_IN}))
-def test_code_that_was_not_written_earns_nothing(name):
+def test_starter_code_earns_nothing(name):
     for file in EXERCISES[name].files:
         assert EXERCISES[name].grade(EXERCISES[name].folder / file, student="ann").score == 0

@@ -64,7 +64,7 @@ def copies(path):
     return f"shutil.copyfile({str(path)!r}, target)"
 
 
-def test_a_hoot_is_read_as_what_owlet_makes_of_it(hoot, owlet, tmp_path):
+def test_hoot_file_is_read_after_conversion_by_owlet(hoot, owlet, tmp_path):
     expected = read(write_log(drive_log(), tmp_path / "drive.wpilog"))
     owlet(copies(tmp_path / "drive.wpilog"))
     log = read(hoot)
@@ -95,7 +95,7 @@ def test_without_owlet_the_message_says_how_to_convert_the_log(hoot, monkeypatch
         ("pass", "cannot convert it"),
     ],
 )
-def test_what_owlet_cannot_convert_is_refused_in_its_words(hoot, owlet, body, said):
+def test_refusal_quotes_owlet_when_it_cannot_convert(hoot, owlet, body, said):
     owlet(body)
     with pytest.raises(UnreadableFile, match="CTRE's owlet cannot convert it") as refused:
         read(hoot)
@@ -104,7 +104,7 @@ def test_what_owlet_cannot_convert_is_refused_in_its_words(hoot, owlet, body, sa
     assert ADVICE in refused.value.advice
 
 
-def test_nothing_of_the_conversion_is_left_behind(hoot, owlet, tmp_path, monkeypatch):
+def test_conversion_leaves_no_files_behind(hoot, owlet, tmp_path, monkeypatch):
     write_log(drive_log(), tmp_path / "drive.wpilog")
     owlet(copies(tmp_path / "drive.wpilog"))
     scratch = tmp_path / "scratch"

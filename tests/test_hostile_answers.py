@@ -113,7 +113,7 @@ def test_the_same_value_everywhere_earns_nothing(one, answered):
 
 
 @pytest.mark.parametrize("text", TOO_LONG.values(), ids=TOO_LONG)
-def test_what_nobody_writes_as_an_answer_is_refused_at_once(text, tmp_path):
+def test_absurd_value_is_refused_at_once(text, tmp_path):
     (tmp_path / "answers.toml").write_text(text, encoding="utf-8")
 
     with pytest.raises(UnreadableFile) as refused:
@@ -126,7 +126,7 @@ def test_what_nobody_writes_as_an_answer_is_refused_at_once(text, tmp_path):
     [b"", b"\xe4\xf6\xfc = 1\n", b"#" * 1_100_000],
     ids=["empty", "Latin-1", "too large"],
 )
-def test_an_unreadable_function_is_reported_and_blamed_on_nobody(content, answered):
+def test_unreadable_function_is_reported_and_not_blamed_on_the_learner(content, answered):
     (one,) = (one for one in ANSWERED_IN_TOML if one.name == "exercise9")
     place, _ = answered(one)
     (place / "fit.py").write_bytes(content)

@@ -78,7 +78,7 @@ def test_practice_under_another_name_does_not_change_whose_package_it_is(course,
 
 
 @pytest.mark.parametrize("spelled", ["ann", "ANN"])
-def test_a_package_of_ones_own_is_graded_under_the_name_on_the_roster(course, tmp_path, spelled):
+def test_package_is_graded_under_its_student_on_the_roster(course, tmp_path, spelled):
     issue(course, spelled)
     (one,) = check_identities(
         hand_in(course, tmp_path / "in", "ann"), list_exercises(course), secret=SECRET
@@ -113,7 +113,7 @@ def test_a_class_without_its_secret_is_refused(course, tmp_path, reads):
     reads(refused.value)
 
 
-def test_who_never_gave_a_name_is_graded_on_the_numbers_they_had(course, tmp_path, capsys, reads):
+def test_student_without_a_name_is_graded_on_the_numbers_they_had(course, tmp_path, capsys, reads):
     assert run_command(["start", "--no-lab"]) == 0
     (course / ".course").mkdir(exist_ok=True)
     (course / ".course" / "progress.toml").write_text('student = "me"\n', encoding="utf-8")
@@ -149,7 +149,7 @@ def test_a_course_started_under_another_name_is_reported(course, tmp_path, reads
     reads(one.problem)
 
 
-def test_single_answers_without_a_secret_are_refused_until_somebody_says_whose_numbers(
+def test_single_answers_without_a_secret_need_an_option_for_the_owner_of_the_numbers(
     course, tmp_path, capsys, reads
 ):
     place = tmp_path / "in"
@@ -164,7 +164,7 @@ def test_single_answers_without_a_secret_are_refused_until_somebody_says_whose_n
     assert capsys.readouterr().out.startswith("Graded without a secret, on the numbers of self-")
 
 
-def test_the_secret_that_graded_stands_on_the_first_line(course, tmp_path, capsys):
+def test_first_line_of_the_overview_names_the_secret(course, tmp_path, capsys):
     issue(course, "ann")
     hand_in(course, tmp_path / "in", "ann")
     (tmp_path / "secret").write_bytes(SECRET)

@@ -70,7 +70,7 @@ def test_many_faults_fit_on_a_screen(tmp_path):
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_a_real_brownout_is_one_and_no_run_is_to_be_renamed(seed):
+def test_simulated_brownout_is_reported_as_brownout_only(seed):
     found = inspect(browned_out(seed=seed))
 
     assert {fault.fault for fault in found.faults} == {"brownout"}
@@ -99,7 +99,7 @@ def test_a_bus_that_stays_up_is_no_brownout():
 # Runs that stand first, and teams that count the other way
 
 
-def test_a_team_whose_forward_is_our_reverse_has_mislabelled_nothing():
+def test_team_with_reversed_directions_gets_no_mislabelled_test():
     turned = {"forward": "reverse", "reverse": "forward"}
     log = each(bench(), lambda run: replace(run, test=f"{run.kind}-{turned[run.direction]}"))
 
@@ -122,7 +122,7 @@ def inspected(folder, *options, **logs):
 
 
 @pytest.mark.parametrize("fault", ["unit-error", "encoder-slip", "sign-flip"])
-def test_each_of_several_files_has_the_faults_that_it_has_alone(fault, tmp_path):
+def test_several_files_get_the_same_faults_as_each_file_alone(fault, tmp_path):
     bad = contaminate(bench(), fault, rng=np.random.default_rng(1)).log
     _, alone = inspected(tmp_path, "--json", bad=bad)
     _, others = inspected(tmp_path, "--json", first=bench(seed=1), bad=bad, last=bench(seed=2))

@@ -167,5 +167,5 @@ def test_a_folder_is_unpacked_once_and_nothing_else_is_written_over(whole, tmp_p
     refused = run(["grade", "start", "taken", "--no-lab"], whole, cwd=tmp_path)
 
     assert refused.returncode == 2
-    assert "something else is there already" in refused.stderr
+    assert "this place already holds something else" in refused.stderr
     assert [path.name for path in (tmp_path / "taken").iterdir()] == ["diary.txt"]

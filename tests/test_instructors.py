@@ -50,7 +50,7 @@ def test_every_command_parses(text):
     }
 
 
-def test_a_command_that_is_wrong_would_be_seen():
+def test_check_of_commands_finds_a_wrong_option():
     context = click.Context(grade, info_name="grade")
     with pytest.raises(click.NoSuchOption):
         grade.get_command(context, "class").make_context("class", ["x", "--exports", "y"])

@@ -284,7 +284,7 @@ def test_the_exports_of_the_guide_are_written(course, packages):
     assert (course.parent / "hub" / "jupyterhub_config.py").is_file()
 
 
-def test_the_day_is_the_same_from_a_wheel(wheel, tmp_path):
+def test_course_day_runs_the_same_from_an_installed_wheel(wheel, tmp_path):
     course = fetched(tmp_path / "Überblick für alle" / "the course")
     there = course.parent / "handed-in"
     there.mkdir()

@@ -220,7 +220,7 @@ def test_the_command_lists_entries_and_what_they_seem_to_be(tmp_path, capsys):
     assert capsys.readouterr().out.startswith("5 entries:\nstate ")
 
 
-def test_one_position_serves_two_motors_that_have_a_voltage_each(tmp_path):
+def test_two_motors_may_share_one_position(tmp_path):
     log = recorded("elevator")
     columns = [(f"/Lift/{name}", "") for name in
                ("LeftAppliedVolts", "PositionMeters", "VelocityMetersPerSec")]  # fmt: skip
@@ -293,7 +293,9 @@ def test_arrays_are_refused_by_name_and_say_which_export(tmp_path):
         (None, ["--ignore-velocity"], ""),
     ],
 )
-def test_a_velocity_that_is_wrong_or_missing(tmp_path, capsys, spoiled, asked, refused):
+def test_wrong_or_missing_velocity_is_replaced_or_refused(
+    tmp_path, capsys, spoiled, asked, refused
+):
     log = recorded()
     columns = AKIT[:2] if spoiled is None else AKIT
     logger = Logger()

@@ -120,7 +120,7 @@ NO_NUMBERS = [
     ("np.array([0.5])", "an array of shape (1,)"),
     ("np.nan", "nan"),
     ("np.bool_(True)", "True, which is yes or no"),
-    ("Sly(0.5)", "a Sly, which only poses as a number"),
+    ("Sly(0.5)", "a Sly, which only looks like a number"),
     ("fit", "a function"),
 ]
 SLY = """
@@ -135,7 +135,7 @@ class Sly(float):
 
 
 @pytest.mark.usefixtures("each_level")
-def test_numbers_come_back_as_plain_floats_and_the_rest_by_what_it_is(apart_run):
+def test_child_returns_plain_floats_and_the_type_of_anything_else(apart_run):
     items = [text for text, _ in NUMBERS + NO_NUMBERS]
     listed = ", ".join(f"'n{index}': {text}" for index, text in enumerate(items))
     (answer,) = apart_run(
@@ -148,7 +148,7 @@ def test_numbers_come_back_as_plain_floats_and_the_rest_by_what_it_is(apart_run)
     assert [answer.refused[f"n{good + i}"] for i in range(bad)] == [why for _, why in NO_NUMBERS]
 
 
-def test_scipy_is_there_where_it_is_asked_for_and_other_packages_never(tmp_path, reads):
+def test_only_requested_scipy_can_be_imported_in_the_sandbox(tmp_path, reads):
     file = tmp_path / "fit.py"
     file.write_text(
         "def fit():\n    from scipy.linalg import det\n    return {'d': det([[2.0]])}\n"
@@ -243,7 +243,7 @@ def test_the_pipe_takes_only_lines_with_the_nonce_and_only_so_many(apart_run):
 
 
 @pytest.mark.usefixtures("each_level")
-def test_a_checker_patched_from_inside_is_another_checker(apart_run):
+def test_patching_the_checker_in_the_child_does_not_change_the_parent(apart_run):
     text = (
         "import builtins, json, sys\n"
         "class Yes:\n    def __getattr__(self, name): return Yes()\n"
@@ -267,7 +267,7 @@ def test_a_checker_patched_from_inside_is_another_checker(apart_run):
 
 
 @pytest.mark.usefixtures("each_level")
-def test_nothing_the_child_made_is_unpickled_or_imported_outside(apart_run, tmp_path):
+def test_parent_never_unpickles_or_imports_output_of_the_child(apart_run, tmp_path):
     marker = tmp_path / "marker"
     text = (
         "import os, pickle, sys\n"
@@ -335,7 +335,7 @@ def unreadable():
 @isolated
 @pytest.mark.usefixtures("each_kernel")
 @pytest.mark.parametrize("name", unreadable())
-def test_a_key_cannot_be_read(apart_run, name):
+def test_sandbox_cannot_read_a_key_file(apart_run, name):
     (answer,) = apart_run(attempt(f"open({unreadable()[name]!r}).read()")).answers
 
     assert "PermissionError" in answer.reason
@@ -396,7 +396,7 @@ def test_another_learners_file_is_neither_read_nor_changed(apart_run, tmp_path, 
         "import resource; resource.setrlimit(resource.RLIMIT_CPU, (999, 999))",
     ],
 )
-def test_no_process_is_started_or_touched(apart_run, code):
+def test_sandbox_cannot_start_or_signal_processes(apart_run, code):
     (answer,) = apart_run(attempt(code)).answers
 
     assert "Error" in answer.reason
@@ -405,7 +405,7 @@ def test_no_process_is_started_or_touched(apart_run, code):
 @isolated
 @pytest.mark.usefixtures("each_kernel")
 @pytest.mark.parametrize("kind", ["SOCK_STREAM", "SOCK_DGRAM"])
-def test_there_is_no_network(apart_run, listening, kind):
+def test_sandbox_has_no_network(apart_run, listening, kind):
     port, came = listening
     code = f"import socket; s = socket.socket(type=socket.{kind}); s.connect(('127.0.0.1', {port}))"
     (answer,) = apart_run(attempt(code)).answers
@@ -444,7 +444,7 @@ def test_a_file_given_to_another_process_sends_it_no_signal(apart_run, victim, g
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="only Linux has F_SETSIG")
-def test_the_same_signal_ends_it_where_nothing_is_filtered(apart_run, victim, monkeypatch):
+def test_unfiltered_signal_ends_the_other_process(apart_run, victim, monkeypatch):
     monkeypatch.setattr(sandbox_parent, "CONFINED", False)
     code = OWNED.format(give=OWNERS["F_SETOWN"].format(pid=victim.pid))
     (answer,) = apart_run(attempt(code)).answers
@@ -492,7 +492,7 @@ def test_the_filter_refuses_owners_of_files_on_each_processor(machine):
 
 @isolated
 @pytest.mark.usefixtures("each_kernel")
-def test_memory_that_other_programs_share_is_neither_read_nor_removed(apart_run):
+def test_shared_memory_of_other_programs_is_protected(apart_run):
     system = ctypes.CDLL(None, use_errno=True)
     shared = system.shmget(0, 4096, 0o1600)
     assert shared >= 0
@@ -530,7 +530,7 @@ def test_processor_time_is_limited_and_the_end_says_so(reads):
 
 
 @posix
-def test_children_left_behind_are_ended_with_it(apart_run, monkeypatch, tmp_path):
+def test_processes_of_the_child_end_with_it(apart_run, monkeypatch, tmp_path):
     monkeypatch.setattr(sandbox_parent, "CONFINED", False)  # else there are none
     note = tmp_path / "pids"
     text = (
@@ -558,7 +558,7 @@ def test_kernel_isolates_the_child_where_it_can():
         assert LEVEL.endswith("system calls filtered)")
 
 
-def test_the_level_says_what_is_in_force(apart_run, monkeypatch):
+def test_isolation_level_names_the_active_protections(apart_run, monkeypatch):
     text = "def fit(number): return {}\n"
     assert apart_run(text).level == LEVEL
     monkeypatch.setattr(sandbox_parent, "LANDLOCK_ABI", 4)
@@ -582,7 +582,7 @@ def fit(number):
 
 
 @pytest.mark.usefixtures("each_level")
-def test_a_folder_1500_deep_is_removed_and_blamed_on_nobody(apart_run, monkeypatch, tmp_path):
+def test_folder_1500_levels_deep_is_removed(apart_run, monkeypatch, tmp_path):
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     (answer,) = apart_run(DEEP).answers
 
@@ -604,7 +604,7 @@ def test_a_link_in_what_is_removed_is_not_followed(tmp_path):
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="only Linux tells a child")
-def test_a_child_ends_with_the_process_that_keeps_its_time(tmp_path):
+def test_child_ends_when_its_parent_ends(tmp_path):
     source = tmp_path / "fit.py"
     source.write_text("import time\ndef fit():\n    time.sleep(3600)\n", encoding="utf-8")
     program = (
@@ -630,7 +630,7 @@ def _waits(process):
 
 
 @pytest.mark.parametrize("machine", seccomp.TABLES)
-def test_the_filter_lets_nobody_slow_another_process_down(machine):
+def test_filter_prevents_slowing_another_process_down(machine):
     table = seccomp.TABLES[machine]
 
     assert len(table.own) == 7
@@ -639,13 +639,13 @@ def test_the_filter_lets_nobody_slow_another_process_down(machine):
         assert verdict(table, number, 0) == seccomp.ALLOW
 
 
-def test_threads_still_work(apart_run):
+def test_learner_code_may_use_threads(apart_run):
     code = "import threading\nt = threading.Thread(target=print)\nt.start()\nt.join()"
 
     assert dict(apart_run(attempt(code)).answers[0].numbers) == {"worked": 1.0}
 
 
-def test_a_run_leaves_nothing_behind(apart_run, monkeypatch, tmp_path):
+def test_sandboxed_run_leaves_no_files_behind(apart_run, monkeypatch, tmp_path):
     monkeypatch.setenv("TMPDIR", str(tmp_path))
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     apart_run("import os\ndef fit(number):\n    os.mkdir('a', 0)\n    open('b', 'w').write('c')\n")

@@ -35,16 +35,16 @@ WRONG_FORMATS = {"%d": [1.5], "%f": [1], "%s": [], "%.1f": [True]}
 
 
 @pytest.mark.parametrize(("result", "expected"), RESULTS)
-def test_arithmetic_is_java_s(result, expected):
+def test_arithmetic_gives_the_results_of_java(result, expected):
     assert (result, type(result)) == (expected, type(expected))
 
 
 @pytest.mark.parametrize("value", UNKNOWN.values(), ids=UNKNOWN)
-def test_what_is_not_computed_is_unknown(value):
+def test_uncomputable_expression_is_unknown(value):
     assert isinstance(value, Unknown)
 
 
-def test_what_javac_or_java_refuses_is_refused():
+def test_code_that_javac_or_java_refuses_is_refused():
     with pytest.raises(WrongArgument, match="needs a cast"):
         values.convert("int", 2.5)
     with pytest.raises(values.NullPointerException):
@@ -61,7 +61,7 @@ def test_result_of_an_unknown_value_is_unknown():
     assert text.STRING_METHODS["contains"]("abc", unknown) is unknown
 
 
-def test_equality_of_values():
+def test_values_are_equal_as_in_java():
     assert not values.same(math.nan, math.nan)
     assert values.equals([1, "a"], [1, "a"])
     assert not values.equals(1, 1.0)
@@ -74,12 +74,12 @@ def test_string_format_is_that_of_java(pattern, case):
 
 
 @pytest.mark.parametrize(("pattern", "given"), WRONG_FORMATS.items())
-def test_formats_that_do_not_fit(pattern, given):
+def test_mismatched_format_strings_are_refused(pattern, given):
     with pytest.raises(text.IllegalFormatException):
         text.format(pattern, given)
 
 
-def test_collections_and_streams():
+def test_collections_and_streams_give_the_results_of_java():
     made = collections.ArrayList(["a", "b", "c"])
     with pytest.raises(
         values.IndexOutOfBoundsException, match="Index 9 out of bounds for length 3"
@@ -90,7 +90,7 @@ def test_collections_and_streams():
     assert made.spliterator().unknown_text == "ArrayList.spliterator()"
 
 
-def test_what_a_change_that_is_not_followed_leaves_is_unknown():
+def test_collection_changed_by_an_unknown_value_is_unknown():
     counts, numbers = collections.HashMap({"a": 1, "b": 2}), collections.ArrayList([2, 1])
     assert isinstance(counts.merge("a", 1, values.add), Unknown)
     assert isinstance(counts.get("a"), Unknown)

@@ -34,7 +34,7 @@ def test_each_answer_to_a_lessons_question_gets_feedback(check):
     assert check.answer("kA") == "Right. Mass."
 
 
-def test_buttons_tell_the_same(check):
+def test_buttons_give_the_same_feedback_as_typed_answers(check):
     question, buttons, told = check._box.children
     assert question.value == "Which gain &lt;moved&gt;?"
     assert told.value == ""
@@ -66,7 +66,7 @@ def test_an_answer_that_is_not_there_is_refused(check):
         (float("nan"), "nan"),
     ],
 )
-def test_a_number_is_diagnosed(given, said):
+def test_wrong_number_gets_its_diagnosis(given, said):
     asked = "kV is 0.12 V·s/rot. Per radian?"
     check = NumberQuestion(asked, 0.0191, "V·s/rad", gain="kV", angular=True)
 
@@ -235,7 +235,7 @@ pathlib.Path("did.json").write_text(json.dumps(did), encoding="utf-8")  # WPILib
 """
 
 
-def test_a_test_that_is_let_go_ends_with_0_volts_and_the_default_command_takes_over(tmp_path):
+def test_released_test_ends_with_0_volts_and_the_default_command_starts(tmp_path):
     pytest.importorskip("commands2", reason="RobotPy is not installed")
     program = tmp_path / "program.py"
     program.write_text(PROGRAM, encoding="utf-8")

@@ -105,7 +105,7 @@ def run():
         yield ran
 
 
-def test_there_are_lessons():
+def test_every_lesson_has_a_text_and_a_notebook():
     assert [text.stem for text in TEXTS] == [
         notebook.stem for notebook in sorted((ROOT / "lessons").glob("*.ipynb"))
     ]
@@ -113,7 +113,7 @@ def test_there_are_lessons():
 
 
 @each_lesson
-def test_a_notebook_is_its_text(text, derive):
+def test_notebook_equals_its_derivation_from_the_text(text, derive):
     path = text.with_suffix(".ipynb")
     assert path.exists(), f"{path.name} is missing: {DERIVE}"
     got, says = (
@@ -199,7 +199,7 @@ def test_every_picture_has_words_and_draws_only_on_white(text, run):
 
 
 @each_lesson
-def test_every_animation_says_what_is_seen(text, run):
+def test_every_animation_has_a_description(text, run):
     for html in _htmls(run(text)):
         for animation in Page(html).animations:
             assert len(animation["aria-label"]) > 40
@@ -238,7 +238,7 @@ def test_a_lesson_has_the_anatomy_of_the_source_lesson(text):
 
 @pytest.mark.shared
 @each_lesson
-def test_quotes_of_the_source_lesson_stand_in_it(text, shared):
+def test_quotes_are_in_the_source_lesson(text, shared):
     source = _plain((shared / "source-lesson.md").read_text(encoding="utf-8"))
     for quote in re.findall(r"(?:^# >.*\n)+", text.read_text(encoding="utf-8"), re.MULTILINE):
         words = _plain(re.sub(r"^# > ?", "", quote, flags=re.MULTILINE))
@@ -396,7 +396,7 @@ def test_no_code_of_a_lesson_holds_a_right_answer(text):
 
 
 @each_lesson
-def test_little_code_is_in_sight_and_a_cell_of_it_is_short(text):
+def test_visible_code_of_a_lesson_is_short(text):
     """In sight is what one reads or writes; folded is what imports, asks, and draws widgets."""
     cells = nbformat.read(text.with_suffix(".ipynb"), 4).cells
     in_sight = []

@@ -22,7 +22,7 @@ def run(**changes):
     return Run(**(signals | changes))
 
 
-def test_a_run_cannot_be_changed_through_its_arrays_or_theirs():
+def test_arrays_of_a_run_cannot_be_changed():
     mine = np.array([0.0, 7.0, 7.0])
     made = run(voltage=mine)
     mine[0] = 12.0
@@ -44,7 +44,7 @@ def test_a_run_cannot_be_changed_through_its_arrays_or_theirs():
     ],
     ids=lambda value: next(iter(value)) if isinstance(value, dict) else "",
 )
-def test_what_cannot_be_a_measurement_is_refused_with_its_place(changes):
+def test_invalid_measurement_is_refused_with_its_place(changes):
     with pytest.raises(BadSample) as refused:
         run(**changes)
 
@@ -95,7 +95,7 @@ def test_raw_columns_are_refused_with_file_run_and_time():
     ("name", "si"),
     [("feet", 0.3048), ("inches", 0.0254), ("rotations", 2 * math.pi), ("degrees", math.pi / 180)],
 )
-def test_units_are_worth_what_they_are(name, si):
+def test_units_have_their_si_values(name, si):
     assert UNITS[name].si == pytest.approx(si, rel=1e-15)
     assert find_unit(f" {name.upper()} ") is UNITS[name]
 

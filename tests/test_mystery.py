@@ -108,7 +108,7 @@ def test_giving_up_shows_the_answer_and_the_next_one_is_easier(all_exercises, ca
 
 
 @pytest.mark.parametrize("text", ["", "number = [", "number = 1\nlevel = 9\n", "level = 'x'\n"])
-def test_a_damaged_file_begins_anew(tmp_path, text):
+def test_damaged_file_starts_a_new_series(tmp_path, text):
     (tmp_path / "mystery.toml").write_text(text, "utf-8")
 
     assert load_state(tmp_path) == MysteryState()
@@ -120,7 +120,7 @@ def test_an_answer_without_a_mystery_gets_one_line(all_exercises, capsys):
     assert "Draw one: grade mystery" in capsys.readouterr().err
 
 
-def test_levels_get_harder():
+def test_mystery_levels_get_harder():
     several = [drawn(EFFECTS, seed, level=1 + seed).solution for seed in SEEDS[EFFECTS]]
     easy, hard = (
         {drawn(FAULTS, seed, level).solution.split(",")[0] for seed in SEEDS[FAULTS]}

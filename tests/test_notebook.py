@@ -72,7 +72,7 @@ def test_parameters_of_an_effect_go_below_its_name(exercise12):
         ({"delay": {"lag": object()}}, "cannot be written down"),
     ],
 )
-def test_a_parameter_that_cannot_be_one_is_refused(exercise12, answers, said):
+def test_invalid_parameter_of_an_effect_is_refused(exercise12, answers, said):
     before = (exercise12.folder / "answers.toml").read_text("utf-8")
 
     with pytest.raises(BadRequest) as refused:
@@ -119,7 +119,7 @@ def test_a_cell_counts_what_is_not_answered_yet():
 
 
 @pytest.mark.parametrize("text", [RIGHT, HALF, "size = 1\n"])
-def test_notebook_and_file_give_the_same(course, capsys, text):
+def test_notebook_and_file_get_the_same_grade(course, capsys, text):
     answer(course, text)
     shown = submit("exercise1")
     run_command(["1", "--json"])
@@ -147,7 +147,7 @@ def test_number_of_numpy_counts_as_an_answer(size):
         ({"size": np.array([3, 4])}, "cannot be written down"),
     ],
 )
-def test_what_cannot_be_an_answer_is_refused_and_changes_nothing(course, answers, said):
+def test_invalid_answer_is_refused_and_the_file_stays_unchanged(course, answers, said):
     shown = submit(1, **answers)
 
     assert said in str(shown)
@@ -159,7 +159,7 @@ def test_what_cannot_be_an_answer_is_refused_and_changes_nothing(course, answers
 @pytest.mark.parametrize(
     ("exercise", "said"), [("exercise7", "there is no exercise"), ("1", "cannot be read")]
 )
-def test_what_cannot_be_graded_gets_one_line(course, exercise, said):
+def test_answer_that_cannot_be_graded_gets_one_line(course, exercise, said):
     answer(course, "size = [\n")
 
     assert said in str(submit(exercise))

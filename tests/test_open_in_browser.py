@@ -143,7 +143,7 @@ def test_each_format_is_shown_and_fitted_alike(page, tmp_path):
     assert page.complaints == []
 
 
-def test_what_is_watched_is_shown_live(page, server, tmp_path):
+def test_watched_log_is_shown_live(page, server, tmp_path):
     log = drive_log()
     path = write_log(log, tmp_path / "robot.wpilog")
     assert not page.locator("#live").is_visible()
@@ -343,7 +343,7 @@ def test_logs_named_on_the_command_line_are_open(browser, tmp_path):
 @pytest.mark.parametrize(
     ("viewport", "theme"), [(DESKTOP, "light"), (PHONE, "dark")], ids=["desktop", "phone"]
 )
-def test_nothing_lies_beside_the_screen_in_either_theme(browser, server, tmp_path, viewport, theme):
+def test_page_fits_the_screen_in_either_theme(browser, server, tmp_path, viewport, theme):
     with opened(browser, server.address, viewport, theme) as page:
         wide = "document.documentElement.scrollWidth"
         assert page.evaluate(wide) <= viewport["width"]

@@ -125,7 +125,7 @@ def test_the_watched_log_is_shown_to_its_own_page_alone(tmp_path, headers):
     assert b"secret" not in refused[1] + elsewhere[1]
 
 
-def test_a_log_that_grows_is_fitted_anew_from_the_tests_that_have_ended(tmp_path, drive):
+def test_growing_log_is_fitted_again_from_its_finished_tests(tmp_path, drive):
     log = read(drive)
     with served(tmp_path) as server:
         none = ask_json(server, "live")[1]
@@ -158,7 +158,7 @@ def test_the_report_is_that_of_the_fit(tmp_path, drive):
     assert b'"name": "drive one.wpilog"' in content
 
 
-def test_a_question_is_an_answer_of_which_no_console_complains(tmp_path, drive):
+def test_request_for_a_missing_value_is_no_http_error(tmp_path, drive):
     with served(tmp_path, drive) as server:
         status, said = ask_json(server, "logs/1/code?language=phoenix6")
 
@@ -289,7 +289,7 @@ def test_a_search_excludes_the_part_that_was_left_out(server, drive):
     assert names == [["encoder-slip"], []]
 
 
-def test_page_doubts_what_the_command_doubts_and_its_code_lists_it(tmp_path, capsys):
+def test_page_and_robot_code_show_the_warnings_of_the_command(tmp_path, capsys):
     path = write_log(drive_log(3, "arm", step=2.0), tmp_path / "log.wpilog")
     run_command(sysid, name="sysid", arguments=["fit", str(path), "--json"])
     told = json.loads(capsys.readouterr().out)
@@ -333,7 +333,7 @@ def test_another_unit_converts_typed_gains_and_wrong_numbers_are_refused(server)
     assert refused == ["'x' is no kV", "'0' is no volts", "'-1' is no velocity error"]
 
 
-def test_a_model_with_effects_keeps_what_is_doubted_of_the_log():
+def test_model_with_effects_keeps_the_warnings_about_the_log():
     log = Doubt("unit-error", "The unit is wrong.", gains=("kV",))
     misfit = Doubt("model-strays", "The model strays.")
     moved = Doubt("gains-move", "They move.", gains=("kA",))

@@ -77,7 +77,7 @@ def test_stated_intervals_hold_the_truth_and_are_no_wider_than_a_robot_asks():
 
 
 @pytest.mark.parametrize("seed", [4, 6, 8])
-def test_a_model_that_holds_is_followed_though_the_way_there_is_less_likely(seed):
+def test_valid_model_is_found_through_less_likely_gains(seed):
     # turrets whose likelihood falls before it rises when less is pardoned; a search that stops
     # there is off by 6 of its errors, and those are six times what the log allows
     mechanism = drawn("turret", [seed, 1, 50])
@@ -100,7 +100,7 @@ def test_a_model_that_holds_is_followed_though_the_way_there_is_less_likely(seed
     ],
     ids=["quiet", "noisy", "very noisy", "light", "light and noisy"],
 )
-def test_where_the_recipe_is_biased_this_is_not(noise, ka, within):
+def test_output_error_fit_has_no_bias_where_the_recipe_of_sysid_has(noise, ka, within):
     # SysId reads 0.35 for 0.3 at 0.10 m/s of noise, and 0.317 for 0.02
     found = [fit(textbook(noise=noise, ka=ka, seed=seed)).gains for seed in range(3)]
 
@@ -135,7 +135,7 @@ def test_a_late_and_averaged_velocity_is_modelled_and_reported(kind):
 
 
 @pytest.mark.parametrize("late", [0.0005, 0.001, 0.002])
-def test_an_answer_a_millisecond_late_does_not_pass_for_inertia(late):
+def test_delay_of_a_millisecond_is_not_taken_for_inertia(late):
     # an intake with kA/kV = 35 ms logged every 20 ms: 1 ms too much inertia is 3 % of it
     mechanism = replace(MECHANISMS["intake"], hidden=(Part("delay", {"lag": late}),))
 
@@ -213,7 +213,7 @@ def test_a_late_start_from_a_soft_stop_does_not_change_friction():
         ("current-limit", "small-misfit"),
     ],
 )
-def test_a_model_that_lacks_something_is_doubted_and_reconcile_named(effect, code):
+def test_incomplete_model_gets_a_warning_that_names_reconcile(effect, code):
     mechanism = MECHANISMS["drivetrain"].hide(effect, 2.0)
 
     found = fit(simulate(mechanism, GENTLE, rng=rng(1)))
@@ -276,7 +276,7 @@ SUBSETS = [set(some) for n in range(5) for some in combinations(FOUR_TESTS, n)]
 
 @pytest.mark.parametrize("kind", ["drivetrain", "elevator", "arm"])
 @pytest.mark.parametrize("tests", SUBSETS, ids=lambda some: "+".join(sorted(some)) or "none")
-def test_right_or_refused_whatever_tests_there_are(kind, tests):
+def test_any_choice_of_tests_gives_right_gains_or_a_refusal(kind, tests):
     mechanism = MECHANISMS[kind]
     log = simulate(mechanism, GENTLE, rng=rng(7))
     part = replace(log, runs=tuple(run for run in log.runs if run.test in tests))
@@ -313,7 +313,7 @@ def test_an_elevator_that_only_rebounds_lacks_the_other_direction():
         fit(replace(log, runs=tuple(runs)), type="elevator")
 
 
-def test_how_a_position_was_rounded_at_rest_is_no_matter():
+def test_rounding_of_a_position_at_rest_does_not_change_the_gains():
     # the same error of rounding again and again is one measurement: counted as five, half a step
     # moved an arm's kG by 0.8 of its error
     mechanism = MECHANISMS["arm"]
@@ -397,7 +397,7 @@ def test_opposed_signs_are_reported_and_fitted_as_they_are():
 
 
 @pytest.mark.parametrize("kind", MECHANISMS)
-def test_a_model_that_holds_is_not_doubted(kind):
+def test_complete_model_gets_no_warning(kind):
     for seed in range(4):
         mechanism = drawn(kind, 40 + seed)
         found = fit(simulate(mechanism, GENTLE, rng=rng(seed)), type=mechanism.type)

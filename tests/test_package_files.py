@@ -76,7 +76,7 @@ def test_packages_of_the_course_folder_go_before_the_installed_ones(course):
     assert packed.left_out == ("grader/notes.txt",)
 
 
-def test_what_lies_about_stays_out_and_is_named(course, capsys):
+def test_stray_files_are_not_packed_and_are_reported(course, capsys):
     stray = (
         "exercises/exercise4/alt.java",
         "exercises/exercise9/anns_fit.py",
@@ -125,7 +125,7 @@ def test_a_solved_starter_is_refused_by_name(course, capsys, name, reads):
     assert not (course.parent / "out").exists()
 
 
-def test_line_ends_of_windows_do_not_make_another_starter(course):
+def test_windows_line_ends_do_not_change_a_starter(course):
     path = course / "exercises" / "exercise9" / "answers.toml"
     path.write_bytes(path.read_bytes().replace(b"\n", b"\r\n"))
 
@@ -224,7 +224,7 @@ def test_modules_imported_by_imported_modules_are_found(tmp_path):
     }  # fmt: skip
 
 
-def test_the_exercise_folder_one_stands_in_is_loaded_and_not_the_installed_one(course):
+def test_exercise_in_the_working_directory_is_loaded_before_the_installed_one(course):
     """Also where only exercises are laid out, as for drawing a class's numbers."""
     path = course / "exercises" / "exercise4" / "checks.py"
     path.write_text(path.read_text(encoding="utf-8") + "\nMARK = 1\n", encoding="utf-8")

@@ -131,7 +131,7 @@ def test_no_file_gives_a_right_answer_of_its_student(name, unpacked, right):
         assert given == set(), file
 
 
-def test_no_number_that_is_right_stands_anywhere_to_four_digits(unpacked, right):
+def test_right_numbers_appear_nowhere_to_four_digits(unpacked, right):
     numbers = {
         f"{abs(value):.4g}": f"{name}: {answer}"
         for name, answers in right.items()

@@ -78,7 +78,7 @@ def about(doubts, code):
 
 @pytest.mark.parametrize("kind", PARTED)
 @pytest.mark.parametrize("method", ["output-error", "sysid"])
-def test_quiet_about_a_clean_log_and_true_parts(kind, method):
+def test_clean_log_with_true_parts_gets_no_warning(kind, method):
     mechanism = MECHANISMS[kind]
     found = fit(recorded(mechanism), method=method)
 
@@ -226,7 +226,7 @@ def test_friction_has_a_band_to_watch_and_a_red_flag(kind, ks, code):
         lambda: compare_sides(found_in("turret"), found_in("drivetrain")),
     ],
 )
-def test_what_cannot_be_compared_is_refused(ask):
+def test_incomparable_fit_and_parts_are_refused(ask):
     with pytest.raises(BadRequest) as refused:
         ask()
     assert refused.value.advice

@@ -59,7 +59,7 @@ def drawn(name):
 
 
 @each_picture
-def test_a_picture_is_drawn_and_says_in_words_what_it_shows(name):
+def test_picture_is_drawn_and_has_alt_text(name):
     picture, svg, bundle = drawn(name)
     assert len(picture.alt) > 40
     assert picture.alt.endswith(".")
@@ -73,7 +73,7 @@ def test_a_picture_is_drawn_and_says_in_words_what_it_shows(name):
 
 
 @each_picture
-def test_a_picture_reaches_for_nothing_outside(name):
+def test_picture_loads_nothing_from_outside(name):
     _, svg, bundle = drawn(name)
     assert "http" not in bundle["text/html"]
     for element in ET.fromstring(svg).iter():  # noqa: S314 - our own drawing
@@ -94,7 +94,7 @@ def test_the_same_picture_is_the_same_text(name):
     ],
     ids=["an empty log", "no ramp"],
 )
-def test_what_cannot_be_drawn_is_refused_with_advice(draw):
+def test_impossible_picture_is_refused_with_advice(draw):
     with pytest.raises(BadRequest) as refused:
         draw()
     assert refused.value.advice
@@ -119,7 +119,7 @@ def test_a_picture_that_cannot_be_saved_leaves_nothing_behind(name, advice, tmp_
     assert list(tmp_path.iterdir()) == []
 
 
-def test_matplotlib_is_used_here_and_nowhere_else(root):
+def test_matplotlib_is_imported_in_sim_plot_only(root):
     for path in (root / "sim").rglob("*.py"):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             names = [node.module] if isinstance(node, ast.ImportFrom) else []

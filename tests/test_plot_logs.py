@@ -66,7 +66,7 @@ def test_damage_is_hatched_in_the_color_of_its_curve(run, panels):
     ],
     ids=["the log", "no run", "a test of another kind"],
 )
-def test_damage_that_no_panel_can_show_stands_in_the_alt_text(damage):
+def test_damage_that_no_panel_shows_is_in_the_alt_text(damage):
     log = replace(FOUR, runs=(*FOUR.runs, run_of("coast-forward")))
     picture = plot_time_series(log, damages=[damage])
     assert damage.fault in picture.alt
@@ -149,14 +149,14 @@ def hiding(effect, *, noise=True):
 
 
 @pytest.mark.parametrize("effect", HIDES)
-def test_each_effect_is_seen_best_from_its_own_side(effect):
+def test_each_effect_is_clearest_over_its_own_variable(effect):
     log = hiding(effect)
     found = make_residual_views(log, TRUTH)
     assert found.clearest == HIDES[effect]
     assert found.unexplained < 0.3
 
 
-def test_a_battery_that_gives_way_is_seen_best_over_its_voltage():
+def test_battery_sag_is_clearest_over_the_voltage():
     hard = replace(ROUTINE, step=5.0)
     log = simulate_duty_cycle(DRIVETRAIN, hard, battery=TIRED, rng=np.random.default_rng(1))
     asked = replace(
@@ -168,7 +168,7 @@ def test_a_battery_that_gives_way_is_seen_best_over_its_voltage():
     assert lowest[np.isfinite(lowest)][0] < -0.2  # [V] the robot got less than the log says
 
 
-def test_nothing_is_seen_where_nothing_is_missing():
+def test_complete_model_shows_no_structure_in_its_residual():
     log = hiding("")
     found = make_residual_views(log, TRUTH)
     assert found.is_noise
@@ -242,7 +242,7 @@ def test_a_step_falls_on_the_line_of_its_gains():
     [Log(()), replace(FOUR, runs=FOUR.runs[:3]), log_of(*FOUR_TESTS, seconds=0.02)],
     ids=["empty", "a test is missing", "one sample each"],
 )
-def test_what_sysid_cannot_use_is_refused(log):
+def test_log_that_sysid_cannot_use_is_refused(log):
     with pytest.raises(NotIdentifiable):
         plot_acceleration_velocity(log)
 

@@ -37,7 +37,7 @@ def error(gains, *, robot=LIFT, kp=0.0, profile=RISE):
     return 100.0 * move.worst_error
 
 
-def test_true_gains_and_nothing_hidden_leave_no_error():
+def test_true_gains_without_hidden_effects_track_without_error():
     # In between, the speed under a constant voltage is no straight line: it is ahead of one by
     # a·T²/12·(kV/kA) on average, and a·t is the top speed when the first leg ends.
     bend = LOOP**2 / 12.0 * SMOOTH.gains["kV"] / SMOOTH.gains["kA"] * ROUND.max_velocity
@@ -148,7 +148,7 @@ def make_loop(
         (lambda *_: 1.0, "Add two things"),
     ],
 )
-def test_a_learners_loop_is_checked_and_ours_used_until_it_is_right(mine, says):
+def test_wrong_loop_of_a_learner_is_replaced_by_the_right_one(mine, says):
     found = check_loop(mine)
 
     assert says in " ".join(found.report.split())

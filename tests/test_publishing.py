@@ -96,7 +96,7 @@ def test_a_workflow_uses_pinned_actions_and_commands_that_exist(path):
         ("make site", ["make"]),
     ],
 )
-def test_a_command_that_does_not_exist_is_seen(command, lost):
+def test_check_finds_a_command_that_does_not_exist(command, lost):
     assert lost_parts(command) == lost
 
 
@@ -182,7 +182,7 @@ def test_every_locked_version_is_exact():
     assert [str(one) for one in LOCKED if [part.operator for part in one.specifier] != ["=="]] == []
 
 
-def test_a_missing_and_an_old_locked_version_are_seen():
+def test_check_finds_a_missing_and_an_old_locked_version():
     requirements = [Requirement("click>=8.1.7"), Requirement("numpy>=1.26")]
 
     assert list(unlocked(requirements, [Requirement("click==8.0")])) == [

@@ -86,7 +86,7 @@ def test_there_is_a_case_for_every_row_of_the_table(cases_by_name):
 
 
 @each_case
-def test_our_bench_finds_what_the_table_says(name, cases_by_name):
+def test_simulated_cases_agree_with_the_table(name, cases_by_name):
     found, expected = measured(cases_by_name[name]), np.array(TABLE[name][0])
     most = np.array([6.0, 1.5, 6.0, 0.05, 0.01])
     most[:3] += 0.08 * np.abs(expected[:3])
@@ -138,7 +138,7 @@ def test_ka_is_fragile_kv_robust_and_ks_between(cases_by_name):
     assert ka > 30.0
 
 
-def test_logging_what_arrived_repairs_the_asked_volts():
+def test_logging_the_applied_voltage_gives_the_right_ka():
     for setup in (GOOD_BATTERY, WEAK_BATTERY, LIMITED):
         log = setup.log(rng=np.random.default_rng(1))
         ka = fit(log, method="sysid").gains["kA"]

@@ -91,7 +91,7 @@ def test_guide_lists_the_lessons_and_exercises_that_there_are(root, folder):
     assert listed == there, f"{GUIDE.name} lists other {folder} than there are"
 
 
-def test_the_readme_is_short_and_its_pictures_speak():
+def test_readme_is_short_and_its_pictures_have_alt_text():
     text = README.read_text(encoding="utf-8")
     pictures = re.findall(r'<img width="760" alt="([^"]+)" src="([^"]+)">', text)
     pictures += re.findall(r"^!\[(.+)\]\((.+)\)$", text, re.MULTILINE)
@@ -103,7 +103,7 @@ def test_the_readme_is_short_and_its_pictures_speak():
     assert len(text.split()) <= SCREENS
 
 
-def test_the_readmes_minute_is_made_of_commands_that_work(tmp_path):
+def test_commands_of_the_readme_work(tmp_path):
     minute = README.read_text(encoding="utf-8").partition("\n## One minute\n")[2]
     simulated, fitted, opened = minute.partition("```shell\n")[2].partition("\n```")[0].splitlines()
 

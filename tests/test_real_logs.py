@@ -31,7 +31,7 @@ def told(shared, name):
         ("frc501-2020-drivetrain", "wheel-slip", [2, 3]),  # waits at 84 % of its speed for 0.3 s
     ],
 )
-def test_what_is_visible_is_reported(shared, name, fault, runs):
+def test_visible_faults_of_real_logs_are_reported(shared, name, fault, runs):
     assert told(shared, name)[fault] == runs
 
 
@@ -43,7 +43,7 @@ def cases(shared):
         yield set(case["effects"]), inspect(read(folder / name / "train.csv")).damages
 
 
-def test_hidden_faults_are_seen_and_effects_are_not_taken_for_them(shared, capsys):
+def test_planted_faults_are_found_and_effects_are_not_called_faults(shared, capsys):
     counts = {"encoder-slip": [0, 0, 0], "hard-stop": [0, 0, 0]}
     motions = complete = 0
     for hidden, damages in cases(shared):
@@ -156,7 +156,7 @@ def test_inspect_finds_the_faults_seen_by_eye(inspected):
 
 
 @pytest.mark.parametrize("name", LOOKED_AT)
-def test_nothing_is_made_up(inspected, name):
+def test_real_logs_get_no_invented_faults(inspected, name):
     seen = LOOKED_AT[name]
 
     said = {fault.fault for fault in inspected[name].faults}

@@ -111,7 +111,7 @@ def test_nothing_is_missing_in_a_complete_model(name):
 
 
 @pytest.mark.parametrize("name", [*HIDDEN, *COMPLETE])
-def test_nothing_is_admitted_that_widens_the_gap(name):
+def test_effect_that_widens_the_gap_is_never_added(name):
     story = case(name) if name in HIDDEN else solved(name)
 
     assert all(one.gap_ratio * NARROWER <= 1.0 for one in tried(story) if one.admitted)
@@ -132,7 +132,7 @@ def test_a_slow_velocity_filter_is_found_by_the_lag_that_inspect_measures(window
     assert found.parameters[usual].value == pytest.approx(window, rel=0.02)
 
 
-def test_what_the_validation_does_not_confirm_is_not_named():
+def test_effect_that_the_validation_does_not_confirm_is_not_named():
     # a weight in the log alone: runs without it have to be predicted
     clean = session(bench("elevator", simple=True), "validation")
 
@@ -189,7 +189,7 @@ def test_joint_under_a_current_limit_lies_within_its_errors(mechanism, effect):
         assert found.error < 0.8 * found.value, name
 
 
-def test_whatever_the_held_out_log_says_the_findings_are_the_same():
+def test_findings_do_not_depend_on_the_held_out_log():
     mechanism, effect, simple = PLAIN
     story, sessions = solved(mechanism, effect, simple=simple), logs(*PLAIN[:2], simple=simple)
     rng = np.random.default_rng(5)
@@ -264,7 +264,7 @@ def _stop_early(log):
     return reconcile(log, type="simple", effort=EFFORT).to_json()
 
 
-def test_a_log_that_repeats_what_was_fitted_is_no_proof():
+def test_held_out_log_that_repeats_the_fitted_one_proves_nothing():
     sessions = logs(*PLAIN[:2], simple=True)
 
     story = told(sessions, validation=sessions["log"], held_out=sessions["log"])
@@ -312,7 +312,7 @@ def test_a_fault_that_may_be_physics_is_reported_after_missing_effects(confidenc
     assert [one.size for one in story.findings if one.kind == "fault"] == [size]
 
 
-def test_damage_is_reported_as_damage_and_physics_beside_it_is_still_named():
+def test_effect_is_named_in_a_log_that_is_also_damaged():
     sessions = logs(*PLAIN[:2], simple=True)
     spoilt = contaminate(
         sessions["log"], "encoder-slip", severity=1.0, rng=np.random.default_rng(4)
@@ -326,7 +326,7 @@ def test_damage_is_reported_as_damage_and_physics_beside_it_is_still_named():
     assert story.verdict == "explained"
 
 
-def test_frames_that_are_ordinary_are_no_damage():
+def test_ordinary_frames_are_not_called_damage():
     log = simulate(MECHANISMS["drivetrain"], Routine(), rng=np.random.default_rng(1), period=0.005)
     framed = contaminate(log, "stale-samples", severity=1.0, rng=np.random.default_rng(2)).log
 

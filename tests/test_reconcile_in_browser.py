@@ -29,7 +29,7 @@ def told(tmp_path_factory):
 
 
 @pytest.mark.parametrize(("screen", "theme"), [("desk", "light"), ("phone", "dark")])
-def test_a_story_is_alone_and_legible_on_every_screen(browser, told, screen, theme):
+def test_saved_story_loads_nothing_and_is_legible_on_every_screen(browser, told, screen, theme):
     page = browser.new_page(viewport=SCREENS[screen], color_scheme=theme)
     asked, complaints = [], []
     page.on("request", lambda request: asked.append(request.url[:5]))

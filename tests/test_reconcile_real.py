@@ -82,7 +82,7 @@ def test_a_voltage_that_drops_out_is_damage_and_no_physics(found, capsys, name):
     assert "the motor really lost it" in dropout["sentence"]
 
 
-def test_of_the_elevator_no_physics_is_named(found, capsys):
+def test_no_effect_is_named_for_the_real_elevator(found, capsys):
     _, story = found("elevator", capsys)
 
     assert effects(story) == []

@@ -89,11 +89,11 @@ def test_impossible_type_or_travel_is_refused(words):
 
 
 @pytest.mark.parametrize("other", [OTHER, DRIVE["held_out"], short(OTHER, count=10**6, runs=1)])
-def test_other_runs_of_the_same_mechanism_are_welcome(other):
+def test_other_runs_of_the_same_mechanism_are_accepted_as_held_out(other):
     check_logs(Recordings(LOG, other, other, type="simple"), travel=None)
 
 
-def test_voltages_of_other_moments_are_not_refused_for_they_are_no_mechanism_s():
+def test_shuffled_voltages_are_not_refused():
     # the verdict on them is "unexplained": a refusal would say that another file is wrong
     rng = np.random.default_rng(1)
     mixed = change_signals(LOG, voltage=lambda one: rng.permutation(one.voltage))
@@ -102,7 +102,7 @@ def test_voltages_of_other_moments_are_not_refused_for_they_are_no_mechanism_s()
 
 
 @pytest.mark.parametrize("name", ["validation", "held_out"])
-def test_log_of_which_nothing_is_left_is_refused(name):
+def test_log_without_usable_samples_is_refused(name):
     damages = [
         DamagedInterval(n, 0.0, 1e6, "voltage-dropout", 1.0, "It was lost.", "Check it.")
         for n in range(len(OTHER.runs))
@@ -141,7 +141,7 @@ def dropped(one, *, felt):
     ]
 
 
-def test_between_drop_outs_that_the_motor_felt_a_log_is_believed():
+def test_samples_between_true_voltage_dropouts_are_used():
     spoilt, low = dropped(LOG.runs[2], felt=True)
 
     found = find_dropout_intervals(spoilt, start=low[0], end=low[-1])

@@ -50,13 +50,13 @@ def found(log):
 
 @settings(max_examples=12, deadline=None)
 @given(seed=st.integers(0, 10**6))
-def test_a_friction_and_shakes_of_each_runs_own_are_no_habit(seed):
+def test_friction_and_noise_that_differ_by_run_are_not_repeatable(seed):
     _, alike = found(session(seed=seed))
 
     assert alike.size < REPEATED
 
 
-def test_a_wave_along_the_way_is_a_habit_of_places():
+def test_wave_along_the_position_is_repeatable_by_position():
     wave = Part("cogging", {"cosine": 0.25, "sine": 0.0, "turns": 3.0})
 
     _, alike = found(session(wave, seed=2))
@@ -65,7 +65,7 @@ def test_a_wave_along_the_way_is_a_habit_of_places():
     assert alike.what == "position"
 
 
-def test_a_bump_is_found_where_it_is():
+def test_local_force_is_found_at_its_position():
     log = session(seed=3)
     bumpy = [
         replace(run, velocity=run.velocity + 0.5 * np.exp(-(((run.position - 2.0) / 0.3) ** 2)))
@@ -81,7 +81,7 @@ def test_a_bump_is_found_where_it_is():
     assert alike.high - alike.low < 0.1 * np.ptp(problem.measured[:, 0])
 
 
-def test_friction_that_fades_with_speed_is_a_habit_of_speeds():
+def test_friction_that_fades_with_speed_is_repeatable_by_velocity():
     _, alike = found(session(Part("stribeck", {"extra": 0.6, "slow": 0.6}), seed=4))
 
     assert alike.size > REPEATED
@@ -89,7 +89,7 @@ def test_friction_that_fades_with_speed_is_a_habit_of_speeds():
 
 
 @pytest.mark.parametrize("count", [1, 2])
-def test_a_run_alone_has_no_habit(count):
+def test_single_run_has_no_repeatable_residual(count):
     log = session(seed=5)
     one = replace(log, runs=log.runs[:count])  # one of them forward, one in reverse
 
@@ -125,7 +125,7 @@ def find_peak(log):
 
 @settings(max_examples=12, deadline=None)
 @given(seed=st.integers(0, 10**6))
-def test_shakes_have_no_rhythm(seed):
+def test_random_forces_have_no_spectral_line(seed):
     _, _, rhythm = find_peak(rhythm_session(seed=seed))
 
     assert rhythm.size < 0.2 * PERIODIC
@@ -133,7 +133,7 @@ def test_shakes_have_no_rhythm(seed):
 
 @settings(max_examples=12, deadline=None)
 @given(seed=st.integers(0, 10**6), swings=st.floats(0.6, 4.5))
-def test_a_swing_is_found_at_its_rate_though_it_passes_for_pushes_at_random(seed, swings):
+def test_oscillation_is_found_at_its_frequency_though_process_noise_could_explain_it(seed, swings):
     problem, point, rhythm = find_peak(rhythm_session(seed=seed, swings=swings))
 
     assert rhythm.size > PERIODIC

@@ -40,7 +40,7 @@ def lifted(sunk):
 
 
 @pytest.mark.parametrize("way", [1.0, -1.0])
-def test_a_mechanism_that_stays_where_it_began_lies_on_its_stop(way):
+def test_mechanism_that_does_not_move_is_on_its_stop(way):
     found = record(way * lifted(0.0))
 
     assert (found.low if way > 0.0 else found.high) == 0.16
@@ -48,7 +48,7 @@ def test_a_mechanism_that_stays_where_it_began_lies_on_its_stop(way):
 
 
 @pytest.mark.parametrize("way", [1.0, -1.0])
-def test_what_first_sinks_a_little_finds_its_stop_there(way):
+def test_mechanism_that_sinks_a_little_has_its_stop_there(way):
     found = record(way * lifted(0.05))
 
     stop = found.low if way > 0.0 else found.high
@@ -56,7 +56,7 @@ def test_what_first_sinks_a_little_finds_its_stop_there(way):
 
 
 @pytest.mark.parametrize("way", [1.0, -1.0])
-def test_what_sinks_far_lies_on_nothing(way):
+def test_mechanism_that_sinks_far_has_no_stop(way):
     found = record(way * lifted(0.3))
 
     assert math.isinf(found.low)
@@ -65,7 +65,7 @@ def test_what_sinks_far_lies_on_nothing(way):
 
 @pytest.mark.parametrize("way", [1.0, -1.0])
 @pytest.mark.parametrize(("beyond", "stops"), [(0.02, False), (0.0, True)])
-def test_a_place_that_the_mechanism_later_passes_is_no_stop(way, beyond, stops):
+def test_position_that_the_mechanism_later_passes_is_no_stop(way, beyond, stops):
     there = 3.0 * np.sin(np.clip((TIME - 0.5) / 2.5, 0.0, 1.0) * np.pi)
     found = record(way * (there - beyond * np.clip(TIME - 3.0, 0.0, 1.0)))
 
@@ -88,7 +88,7 @@ def begun(problem, *effects, **values):
     return problem.evaluate(structure, {**GAINS, **values}, nuisance, problem.noise.velocity**2)
 
 
-def test_each_runs_friction_is_found_and_is_no_other_gain():
+def test_friction_of_each_run_is_found_and_does_not_bias_the_gains():
     problem = session(SHARES)
 
     found = minimize(problem, begun(problem))
@@ -101,7 +101,7 @@ def test_each_runs_friction_is_found_and_is_no_other_gain():
     )  # kS is their mean
 
 
-def test_a_standard_error_knows_of_frictions_that_differ():
+def test_standard_errors_include_friction_that_differs_by_run():
     """Of kS, which four runs with a twenty-fifth more or less each do not tell to a thousandth."""
     truths, errors = [], []
     for seed in range(12):
@@ -119,7 +119,7 @@ def test_a_standard_error_knows_of_frictions_that_differ():
 
 
 @pytest.mark.parametrize("share", [0.93, 0.97, 1.02, 1.055, 1.1])
-def test_a_gap_is_that_of_each_runs_own_friction_between_those_that_are_tried(share):
+def test_gap_uses_the_friction_of_each_run_between_tried_values(share):
     problem = session((share,) * 4)
     point = begun(problem)
 
@@ -132,7 +132,7 @@ def test_a_gap_is_that_of_each_runs_own_friction_between_those_that_are_tried(sh
     assert plain > 1.02 * eased
 
 
-def test_a_search_beside_an_effect_finds_both():
+def test_search_finds_run_friction_together_with_an_effect():
     wave = {"cosine": 0.12, "sine": 0.05, "turns": 3.0}
     problem = session(SHARES, Part("cogging", wave))
     values = {f"cogging.{name}": value for name, value in wave.items()}
@@ -191,7 +191,7 @@ def at(problem, structure=PLAYS, nuisance=None):
     return problem.evaluate(structure, values, begun, problem.noise.velocity**2)
 
 
-def test_each_run_is_begun_where_it_went_on_from(problem):
+def test_backlash_phase_of_each_run_is_estimated(problem):
     blind = at(problem)
 
     seen = estimate_backlash_phase(problem, blind)
@@ -202,7 +202,7 @@ def test_each_run_is_begun_where_it_went_on_from(problem):
     )
 
 
-def test_play_is_named_wherever_its_runs_began_and_the_gap_closes():
+def test_backlash_is_named_wherever_in_the_play_its_runs_began():
     story = reconcile(
         play_session(0, step=4.0, seed=1),
         validation=play_session(1, step=3.0, seed=2),

@@ -35,7 +35,7 @@ def sessions(mechanism, effect, **values):
 
 
 @pytest.mark.parametrize("band", [BAND, 1.6 * BAND])
-def test_a_threshold_far_below_where_the_ramps_begin_is_found(band):
+def test_deadband_far_below_the_first_motion_is_found(band):
     story = told(sessions("elevator", "deadband", band=band), type="elevator")
 
     first = story.findings[0]
@@ -69,7 +69,7 @@ def test_a_start_that_is_far_too_large_is_halved():
 
 
 @pytest.mark.parametrize("far", [1e200, math.inf, -math.inf, math.nan])
-def test_what_a_change_makes_fly_off_is_large_and_its_squares_are_numbers(far):
+def test_diverging_residuals_are_clipped_before_squaring(far):
     problem = PredictionErrorProblem.from_records(
         make_run_records(session(bench("drivetrain"), "log"))
     )
@@ -83,7 +83,7 @@ def test_what_a_change_makes_fly_off_is_large_and_its_squares_are_numbers(far):
 
 
 @pytest.mark.parametrize("part", [-0.2, -2.0, 8.0])
-def test_a_start_that_goes_the_wrong_way_or_too_far_is_turned(part):
+def test_start_value_of_wrong_sign_or_size_is_corrected(part):
     built = bench("drivetrain", "asymmetric-back-emf")
     truth = built.hidden[0].parameters["lean"]
     problem, point = based(session(built, "log"), built.gains)
@@ -98,7 +98,7 @@ def test_a_start_that_goes_the_wrong_way_or_too_far_is_turned(part):
 # -- what is no alarm -----------------------------------------------------------------------------
 
 
-def test_a_ripple_that_any_robot_has_is_no_finding_however_much_of_the_gap_it_takes():
+def test_everyday_ripple_is_no_finding_however_much_gap_it_closes():
     turns = 2.0 * math.pi * RIPPLES / bench("elevator").scale.reach
 
     story = told(
@@ -254,7 +254,7 @@ def joined(dynamic):
         (5.0, 2, 0.2, False),  # ordinary
     ],
 )
-def test_what_is_had_back_at_another_pace_was_no_inertia(joined, size, record, after, is_belied):
+def test_late_residual_contradicts_an_inertia_change(joined, size, record, after, is_belied):
     problem, point = joined
     start = float(problem.records[record].measurements.time[0]) + after
     left = ResidualSummary(worst_window=WorstWindow(size, record, start, start + 0.1))
@@ -272,7 +272,7 @@ def built(effect="", **values):
 
 
 @pytest.mark.parametrize("share", [0.2, 0.46])
-def test_free_play_is_found_whatever_its_motor_weighs(share):
+def test_backlash_is_found_whatever_the_motor_inertia(share):
     mechanism = built("backlash", slack=SLACK, share=share, damping=0.3, motor_friction=share)
 
     story = told({name: session(mechanism, name) for name in SESSIONS}, type="simple")

@@ -175,7 +175,7 @@ def make_rounds(found, gaps):
     ]
 
 
-def test_a_wave_along_a_long_way_is_weighed_beside_friction_that_is_simulated():
+def test_cogging_over_a_long_travel_is_rated_with_simulated_friction():
     wave = {"cosine": 0.19, "sine": 0.0, "turns": 3.0}  # ten of them to an error of 0.2 rad
     log = session(Part("cogging", wave), step=4.0, frictions=(1.05, 0.95, 0.96, 1.04))
     problem = PredictionErrorProblem.from_records(make_run_records(log))
@@ -345,7 +345,7 @@ def test_which_samples_are_compared_does_not_depend_on_the_model(fitted):
     assert len(moving) == len(still) == np.count_nonzero(problem.informative | problem.moving)
 
 
-def test_a_fold_without_samples_is_not_used_and_a_gap_of_nothing_is_no_gap(fitted):
+def test_empty_fold_is_not_used_and_has_no_gap(fitted):
     problem, _ = fitted
     damaged = excluded(problem, 2)
     folds = make_folds([0] * 4)

@@ -83,7 +83,9 @@ def rounds(problem, *gaps, values=GAINS, structure=None):
         ((60.0,), [], "unexplained", True),
     ],
 )
-def test_what_leaves_most_of_the_gap_is_no_explanation(problem, gaps, findings, verdict, remains):
+def test_effect_that_leaves_most_of_the_gap_is_no_explanation(
+    problem, gaps, findings, verdict, remains
+):
     said = reach_verdict(
         findings, rounds(problem, *gaps), problem, residuals=ResidualSummary(), unit=METERS
     )
@@ -139,9 +141,7 @@ def find_effects(problem, done, *, residuals):
         ([("drag", 1.95, 1.85), ("spring", 1.8, 1.85)], {"drag": "minor", "spring": "minor"}),
     ],
 )
-def test_of_effects_that_stand_in_for_one_another_the_one_that_closed_the_gap_is_major(
-    problem, steps, sizes
-):
+def test_interchangeable_effect_that_closed_the_gap_is_major(problem, steps, sizes):
     values = {**GAINS, "drag.drag": 0.03, "spring.rate": 0.1, "spring.preload": 0.1}
     done = added(problem, *steps, values=values)
 
@@ -229,7 +229,7 @@ def test_a_velocity_scale_within_a_step_of_the_sensor_is_no_finding(problem, ste
     ids=["a moment", "a place", "a rhythm"],
 )
 @pytest.mark.parametrize(("after", "size"), [(0.7, "minor"), (0.5, "major")])
-def test_while_something_remains_a_name_has_to_take_much_of_it_away(problem, rest, after, size):
+def test_effect_needs_a_large_share_of_the_gap_while_residuals_remain(problem, rest, after, size):
     values = {**GAINS, "drag.drag": 0.03, "spring.rate": 0.1, "spring.preload": 0.1}
     alone = added(problem, ("drag", 2.0 * after, 2.0), values=values)
     alike = added(problem, ("drag", 1.1, 1.05), ("spring", 1.0, 1.1), values=values)
@@ -286,7 +286,7 @@ def test_an_effect_is_a_finding_if_it_is_likelier_right_than_wrong(problem, scor
         (["spring"], False),
     ],
 )
-def test_effect_beside_its_simpler_sister_may_be_any_force_along_the_way(problem, names, doubted):
+def test_related_effects_found_together_are_reported_as_ambiguous(problem, names, doubted):
     findings = [replace(DRAG, effect=name) for name in names]
 
     verdict, remainder, remains = reach_verdict(

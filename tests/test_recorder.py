@@ -52,7 +52,7 @@ def test_the_gains_of_a_shooter_are_found_whatever_records_it(name):
 
 
 @pytest.mark.parametrize("name", RECORDERS)
-def test_the_delay_that_the_fit_reports_is_the_devices_and_the_wait_for_a_frame(name):
+def test_reported_delay_is_that_of_the_device_plus_the_wait_for_a_frame(name):
     recorder = RECORDERS[name]
     late = recorder.latency + 0.5 * recorder.filter
 
@@ -117,7 +117,7 @@ def assert_same_gains(found, expected, *, ka: float = KA) -> None:
         ("Time (ms),Test,Voltage (V),Position (m),Velocity (m/s)", 1e3, True),
     ],
 )
-def test_columns_are_found_by_what_they_are(tmp_path, drive, header, scale, restart):
+def test_columns_are_found_under_any_known_name_and_unit(tmp_path, drive, header, scale, restart):
     path = write_columns(drive, tmp_path / "log.csv", header, scale=scale, restart=restart)
 
     read = sim.read(path)
@@ -226,7 +226,7 @@ def test_frames_of_a_motor_controller_are_no_missing_effect(name, step):
 
 
 @pytest.mark.parametrize("seed", [2, 3])
-def test_lags_of_runs_hide_no_backlash(seed):
+def test_lag_that_differs_by_run_does_not_hide_backlash(seed):
     robot = MECHANISMS["turret"].hide("backlash", 1.0)
     log = simulate(robot, Routine(step=4.0), rng=np.random.default_rng(seed))
     assert fit(log, type=robot.type).lag_differs  # runs that begin in the play are late
@@ -248,7 +248,7 @@ def test_elevator_that_stays_on_its_stop_in_a_test_is_fitted_by_the_others():
 
 
 @given(st.integers(0, 12), st.integers(0, 9), st.sampled_from([-1.0, 0.2, 1.0]), st.integers(0, 9))
-def test_any_fall_and_rest_can_be_looked_at(fall, rest, push, length):
+def test_search_for_a_landing_accepts_any_fall_and_rest(fall, rest, push, length):
     velocity = np.array([0.0, *[-0.1] * fall, *[0.0] * rest, *[push] * length])
     time = 0.02 * np.arange(velocity.size)
     run = Run("dynamic-forward", time, np.ones(velocity.size), 0.02 * np.cumsum(velocity), velocity)

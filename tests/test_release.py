@@ -85,7 +85,7 @@ def test_a_class_has_numbers_of_its_own_and_the_same_again(packed, anns):
     assert ben[log.replace("/ann/", "/ben/")] != anns[log]
 
 
-def test_where_a_class_issued_numbers_only_its_instructor_can_grade_them(
+def test_class_numbers_can_only_be_graded_by_the_instructor(
     course, anns, tmp_path, monkeypatch, capsys
 ):
     place = lay_out(tmp_path, read(pack_course_folder(select_package_files(course).files)), anns)
@@ -164,14 +164,14 @@ def empty_course(tmp_path, monkeypatch):
         (["class", "in", "--secret", "nowhere"], "the file with the secret is missing"),
     ],
 )
-def test_what_cannot_be_released_is_one_line(capsys, command, said):
+def test_release_that_cannot_be_made_gets_a_one_line_error(capsys, command, said):
     assert run_command(command) == 2
     assert said in capsys.readouterr().err
 
 
 @pytest.mark.usefixtures("empty_course")
 @pytest.mark.parametrize("text", ["student,mail,team,id\n", "student\nann bauer\nben\n"])
-def test_a_table_is_no_secret(tmp_path_factory, capsys, text):
+def test_table_in_place_of_a_secret_is_refused(tmp_path_factory, capsys, text):
     roster = tmp_path_factory.mktemp("class") / "roster.csv"
     roster.write_text(text, encoding="utf-8")
     command = ["release", "-o", "out", "--roster", str(roster), "--secret", str(roster)]
@@ -179,12 +179,12 @@ def test_a_table_is_no_secret(tmp_path_factory, capsys, text):
     assert run_command(command) == 2
     assert capsys.readouterr().err == (
         f"grade: {roster}: this file holds no secret: a secret is one line without commas. "
-        "Name the file with the secret, or, to get a new one, a file that is not there.\n"
+        "Name the file with the secret. To get a new secret, name a file that does not exist.\n"
     )
     assert roster.read_text(encoding="utf-8") == text
 
 
-def test_half_a_course_is_not_released(tmp_path):
+def test_incomplete_course_is_not_released(tmp_path):
     with pytest.raises(BadRequest, match="not the whole course"):
         select_package_files(tmp_path)
 

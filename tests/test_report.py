@@ -41,7 +41,7 @@ def drive():
     return found, replace(log, runs=log.runs[:1])
 
 
-def test_a_page_is_alone_and_for_everybody(whole):
+def test_fit_page_loads_nothing_and_is_accessible(whole):
     assert page_flaws(whole) == []
 
 
@@ -76,7 +76,7 @@ def test_a_page_is_written_whole(tmp_path):
         ("drive", "End its name in"),
     ],
 )
-def test_what_cannot_be_written_is_refused_in_one_line(drive, tmp_path, write, name, said):
+def test_page_that_cannot_be_written_is_refused_in_one_line(drive, tmp_path, write, name, said):
     suffix = ".html" if write is write_page else ".svg"
     (tmp_path / f"folder{suffix}").mkdir()
 
@@ -102,7 +102,7 @@ def test_the_picture_is_of_the_kind_its_name_says(drive, tmp_path, suffix, begin
             assert word in text
 
 
-def test_nothing_to_draw_is_refused(drive, tmp_path):
+def test_fit_with_nothing_to_draw_is_refused(drive, tmp_path):
     found = replace(drive[0], gains={"kS": 0.1, "kV": 2.5, "kA": -0.2})
 
     with pytest.raises(BadRequest, match="nothing to draw"):

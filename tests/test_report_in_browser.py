@@ -44,7 +44,7 @@ def saved(browser, tmp_path):
 @pytest.mark.parametrize(
     ("viewport", "theme"), [(DESKTOP, "light"), (PHONE, "dark")], ids=["desktop", "phone"]
 )
-def test_a_page_is_alone_and_legible_on_every_screen(saved, viewport, theme):
+def test_saved_page_loads_nothing_and_is_legible_on_every_screen(saved, viewport, theme):
     page = saved(slipped_log(), viewport=viewport, theme=theme)
 
     page.locator("#fault-lines .link", has_text="encoder slip (sure)").wait_for()
@@ -67,12 +67,12 @@ def test_saved_page_reacts_like_the_page_of_the_server(saved):
     page.locator("#gain-kV").evaluate(SET, 3.2)
     page.get_by_text("× that of the fit").wait_for()
     page.locator("#paste").click()
-    page.locator("#code-text", has_text="this page was saved").wait_for()
+    page.locator("#code-text", has_text="a saved page cannot").wait_for()
     assert not page.get_by_text("Add log").is_visible()
     assert page.complaints == []
 
 
-def test_what_a_file_is_called_is_no_code(browser, tmp_path):
+def test_file_name_is_never_run_as_code(browser, tmp_path):
     one = OpenLog(1, HOSTILE, write_log(drive_log(), tmp_path / "log.csv"))
     html = tmp_path / "log.html"
     html.write_text(render_saved_page(one, Reading()), encoding="utf-8")

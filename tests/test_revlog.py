@@ -86,7 +86,7 @@ def test_two_motors_are_two_logs(tmp_path, run):
         assert log.runs[0].voltage.mean() > 0
 
 
-def test_frames_of_others_and_unknown_records_are_passed_over(tmp_path, run):
+def test_frames_of_other_devices_and_unknown_records_are_ignored(tmp_path, run):
     other = struct.pack("<IIQ", 5, can_id(9, 0, maker=4), 1)
     encoder = struct.pack("<IIQ", 5, can_id(8, 0, kind=ENCODER), 1)
     firmware = record(struct.pack("<I6s", can_id(3, 0), b"\x1a\0\0\0\0\0"), kind=1)

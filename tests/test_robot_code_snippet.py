@@ -231,7 +231,7 @@ GRAVE = Doubt("negative-gain", "kG = -1 is negative: is forward up in this log?"
         ({"gains": GAINS | {"kS": math.nan}}, {}),
     ],
 )
-def test_what_cannot_be_pasted_is_refused_in_one_line(changes, asked):
+def test_snippet_that_cannot_be_pasted_is_refused_in_one_line(changes, asked):
     with pytest.raises(BadRequest) as refused:
         write_robot_code(make_fit("simple", **changes), **({"target": "java"} | asked))
 
@@ -378,7 +378,7 @@ def test_the_code_for_an_arm_of_phoenix_6_says_what_its_sensor_reads_when_level(
         ),
     ],
 )
-def test_what_no_controller_should_get_is_refused(type_, target, changes, said):
+def test_gains_that_no_controller_should_get_are_refused(type_, target, changes, said):
     with pytest.raises(BadRequest, match=re.escape(said)) as refused:
         write_robot_code(fit_in(type_, "meters", **changes), target=target)
 

@@ -25,7 +25,7 @@ def step_at_limit(mechanism):
     return STATOR * mechanism.motor.resistance
 
 
-def test_exercise_12_steps_the_drivetrain_below_its_limit_and_the_shooter_beyond():
+def test_exercise_12_steps_the_drivetrain_below_its_current_limit_and_the_shooter_above():
     driving, shooting = (step_at_limit(MECHANISMS[name]) for name in ("drivetrain", "shooter"))
 
     assert driving == pytest.approx(3.9, abs=0.05)  # as the comment beside the steps says
@@ -115,7 +115,7 @@ def test_the_readme_of_exercise_4_warns_once_of_a_step_that_slips():
     assert "spin the wheels" not in text
 
 
-def test_lesson_9_reaches_the_limit_with_the_hard_step_alone():
+def test_lesson_9_reaches_the_current_limit_with_the_hard_step_only():
     """Below the limit nothing changes by a digit; above it everything does."""
     free = replace(MECHANISMS["drivetrain"], stator=np.inf, supply=np.inf, brownout=0.0)
     limited = replace(free, hidden=(Part("current-limit", {"limit": LIMIT}),))

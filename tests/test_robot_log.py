@@ -45,7 +45,7 @@ def log(robot_log: Path) -> Log:
     return sim.read(robot_log)
 
 
-def test_a_real_routine_comes_back_as_its_four_runs(log: Log) -> None:
+def test_log_of_a_real_routine_is_read_as_its_four_runs(log: Log) -> None:
     assert (log.mechanism, log.units) == ("Fly-Wheel", "rotations")
     assert log.doubts == ()
     assert [run.test for run in log.runs] == list(FOUR)

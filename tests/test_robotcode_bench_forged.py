@@ -60,7 +60,7 @@ def each_level(request, monkeypatch):
 
 
 @pytest.mark.usefixtures("each_level", "tampering_allowed")
-def test_what_a_program_wrote_that_left_early_is_not_believed(mine, write):
+def test_output_of_a_program_that_exits_early_is_not_trusted(mine, write):
     (run,) = python.run_python(mine(write + LEAVE), "routine", MOUNTS)
 
     assert run.stop.outcome is Outcome.CRASHED
@@ -69,7 +69,7 @@ def test_what_a_program_wrote_that_left_early_is_not_believed(mine, write):
 
 
 @pytest.mark.usefixtures("tampering_allowed")
-def test_what_is_written_before_the_facts_makes_them_unreadable(mine, write):
+def test_output_before_the_facts_makes_them_unreadable(mine, write):
     (run,) = python.run_python(mine(write), "routine", MOUNTS)
 
     assert run.stop.outcome is Outcome.CRASHED
@@ -101,7 +101,7 @@ PRIVATE = (
 
 
 @pytest.mark.parametrize("statement", PRIVATE)
-def test_what_is_private_of_the_bench_is_out_of_reach(tmp_path, statement):
+def test_private_state_of_the_bench_cannot_be_reached(tmp_path, statement):
     text = changed(("self.left.setVoltage(voltage)", f"voltage = 2 * voltage; {statement}"))
     run = ran(tmp_path, text)
 
@@ -171,7 +171,7 @@ HONEST = (
 
 
 @pytest.mark.parametrize("text", HONEST)
-def test_what_robot_programs_do_is_not_refused(tmp_path, text):
+def test_ordinary_calls_of_robot_programs_are_not_refused(tmp_path, text):
     (tmp_path / "trick.py").write_text(text, "utf-8")
     path = tmp_path / "mine.py"
     path.write_text("import trick\n" + changed(), "utf-8")
@@ -298,7 +298,7 @@ def test_a_text_that_is_not_python_is_refused_with_its_line(tmp_path, text, line
 @pytest.mark.parametrize(
     "left", ["", "{", "[]", "3", '{"facts": 3}', '{"facts": {"language": 1}}', "[" * 100_000]
 )
-def test_whatever_a_child_says_is_an_answer(tmp_path, monkeypatch, left):
+def test_any_output_of_the_child_becomes_a_result(tmp_path, monkeypatch, left):
     monkeypatch.setattr(
         python, "run_program", lambda *_, stdin, **__: (True, f"{stdin} {left}".encode())
     )
@@ -308,7 +308,7 @@ def test_whatever_a_child_says_is_an_answer(tmp_path, monkeypatch, left):
     assert run.stop.said == "the run leaves no result that can be read"
 
 
-def test_what_nobody_knows_is_assumed_both_ways(tmp_path):
+def test_unknown_condition_is_run_both_ways(tmp_path):
     text = changed(
         ("from commands2 import Subsystem\n", "from commands2 import Subsystem\nimport team\n"),
         ("self.left.setVoltage(voltage)", "self.left.setVoltage(0 if team.STILL else voltage)"),

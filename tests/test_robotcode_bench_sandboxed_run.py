@@ -64,7 +64,7 @@ def quietly(statement):
         pytest.param("import socket; socket.create_connection(('127.0.0.1', {port}))", id="TCP"),
     ],
 )
-def test_a_trick_is_refused_and_the_run_is_what_it_was(tried, tmp_path, statement):
+def test_forbidden_call_is_refused_and_the_run_stays_the_same(tried, tmp_path, statement):
     (tmp_path / "key.txt").write_text(KEY, "utf-8")
     with socket.create_server(("127.0.0.1", 0)) as server:
         names = {
@@ -78,7 +78,7 @@ def test_a_trick_is_refused_and_the_run_is_what_it_was(tried, tmp_path, statemen
     assert not (tmp_path / "planted").exists()
 
 
-def test_the_same_tricks_succeed_where_nothing_is_shut_in(tried, tmp_path, monkeypatch):
+def test_forbidden_calls_succeed_without_the_sandbox(tried, tmp_path, monkeypatch):
     (tmp_path / "key.txt").write_text(KEY, "utf-8")
     monkeypatch.setattr(isolation, "CONFINED", False)
     run = tried(quietly(f"open({str(tmp_path / 'key.txt')!r}).read()"))
@@ -99,7 +99,7 @@ def test_the_same_tricks_succeed_where_nothing_is_shut_in(tried, tmp_path, monke
         pytest.param("print('flood ' * 5_000_000)", None, id="an output flood"),
     ],
 )
-def test_what_takes_too_much_is_ended_and_stops_nobody(tried, trick, outcome):
+def test_program_beyond_its_limits_is_ended(tried, trick, outcome):
     begin = time.monotonic()
     run = tried(trick)
 
@@ -117,7 +117,7 @@ def test_environment_and_arguments_hold_no_secret(tried, monkeypatch):
     assert "of the class" not in run.stop.said
 
 
-def test_a_program_is_handed_over_with_what_belongs_to_it_and_nothing_else(tmp_path):
+def test_only_the_files_of_a_program_are_copied_to_the_sandbox(tmp_path):
     robot, given = tmp_path / "home" / "robot", tmp_path / "given"
     for name in (
         "robot.py", "constants.py", "secret.txt", "subsystems/drive.py", "subsystems/arm/joint.py",
@@ -134,7 +134,7 @@ def test_a_program_is_handed_over_with_what_belongs_to_it_and_nothing_else(tmp_p
     }  # fmt: skip
 
 
-def test_a_folder_that_is_no_robots_is_not_searched_beyond_the_file(tmp_path):
+def test_folder_without_a_robot_project_is_not_searched(tmp_path):
     for name in ("mine/drive.py", "others/key.py", "note.py"):
         (tmp_path / name).parent.mkdir(exist_ok=True)
         (tmp_path / name).write_text(name, "utf-8")
@@ -154,7 +154,7 @@ def test_a_link_is_not_followed_when_a_program_is_handed_over(tmp_path):
     assert [one.name for one in (tmp_path / "given").rglob("*.py")] == ["drive.py"]
 
 
-def test_a_folder_full_of_files_is_handed_over_in_part_and_with_the_one_that_counts(tmp_path):
+def test_overfull_folder_is_copied_in_part_with_the_graded_file(tmp_path):
     (tmp_path / "mine").mkdir()
     for number in range(MOST + 20):
         (tmp_path / "mine" / f"a{number}.py").write_text("", "utf-8")

@@ -49,7 +49,7 @@ def test_every_file_has_a_row_and_every_row_a_file() -> None:
 
 
 @pytest.mark.parametrize("name", TABLE["ran"])
-def test_a_run_shows_what_a_reader_finds(name: str) -> None:
+def test_run_of_each_program_has_the_expected_facts(name: str) -> None:
     row, runs = dict(TABLE["ran"][name]), run(name)
     stop = runs[0].stop.said if runs[0].stop else ""
     own = [one.message for one in runs[0].errors if not one.file]
@@ -67,7 +67,7 @@ def test_no_routine_is_found_where_there_is_none(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", TABLE["refused"])
-def test_what_cannot_be_run_is_refused_with_the_reason(name: str) -> None:
+def test_program_that_cannot_be_run_is_refused_with_the_reason(name: str) -> None:
     with pytest.raises(UnreadableFile) as refusal:
         run(name)
     assert TABLE["refused"][name] in str(refusal.value)

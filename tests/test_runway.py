@@ -31,7 +31,7 @@ def test_a_slow_ramp_goes_as_far_as_the_formula_says():
     assert went.position[off] == pytest.approx(0.5 * 9.624**2 / (2 * 2.524), rel=0.02)
 
 
-def test_the_motors_are_off_a_thumb_after_the_tape():
+def test_motors_stop_one_reaction_time_after_the_tape():
     went = gone(RAMP, wall=12.0, tape=7.0, thumb=0.3)
     passed = went.time[np.argmax(went.position >= 7.0)]
 
@@ -58,7 +58,7 @@ def test_a_robot_on_slippery_ground_goes_further():
     )
 
 
-def test_a_robot_without_a_tape_goes_on_until_the_wall():
+def test_robot_without_a_tape_drives_into_the_wall():
     went = gone(RAMP, wall=12.0)
 
     assert went.hit_wall == pytest.approx(went.time[-1])
@@ -66,7 +66,7 @@ def test_a_robot_without_a_tape_goes_on_until_the_wall():
     assert went.released == pytest.approx(10.0)
 
 
-def test_whoever_watches_ends_the_test_in_any_case():
+def test_test_ends_when_the_watching_time_is_over():
     assert gone(STEP, wall=9.0, watched=1.5).released == pytest.approx(1.5)
 
 
@@ -93,7 +93,7 @@ def test_a_reverse_test_is_refused(reads):
     reads(refused.value)
 
 
-def test_what_braking_takes_is_no_less_than_the_carpet_asks_for():
+def test_braking_distance_is_at_least_that_of_the_carpet_grip():
     went = gone(RAMP, wall=12.0, tape=7.0)
     off = int(np.argmax(went.time >= went.released - PERIOD / 2))
     speed = went.velocity[off]

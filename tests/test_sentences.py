@@ -41,7 +41,7 @@ def run(capsys, *words):
     return re.sub(r" +", " ", NUMBER.sub("#", capsys.readouterr().out.replace("\n", " ")))
 
 
-def test_reconcile_tells_a_story_in_these_words():
+def test_sentences_of_reconcile_equal_the_snapshot():
     off, unsure = STORIES["nothing missing"], STORIES["ambiguous"].findings[0]
     one = STORIES["explained"]
     stories = STORIES | {
@@ -72,7 +72,7 @@ def test_reconcile_tells_a_story_in_these_words():
     )
 
 
-def test_sentences_about_the_gap_are_these():
+def test_sentences_about_the_gap_equal_the_snapshot():
     signals = {
         f"{signal}, {error:+g} noises": replace(PLACE, signal=signal, error=error).sentence
         for signal in ("velocity", "position")
@@ -82,7 +82,7 @@ def test_sentences_about_the_gap_are_these():
     compare("gap", signals)
 
 
-def test_inspect_tells_of_each_fault_in_these_words(tmp_path, monkeypatch, capsys):
+def test_sentences_of_inspect_equal_the_snapshot(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     log = simulate(MECHANISMS["drivetrain"], Routine(), rng=np.random.default_rng(4))
     parts = {}
@@ -96,7 +96,7 @@ def test_inspect_tells_of_each_fault_in_these_words(tmp_path, monkeypatch, capsy
     compare("inspect", parts)
 
 
-def test_fit_tells_of_gains_in_these_words(tmp_path, monkeypatch, capsys):
+def test_sentences_of_fit_equal_the_snapshot(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     parts = {}
     for name in ("drivetrain", "elevator", "arm"):
@@ -106,7 +106,7 @@ def test_fit_tells_of_gains_in_these_words(tmp_path, monkeypatch, capsys):
     compare("fit", parts)
 
 
-def test_every_kept_sentence_belongs_to_a_test():
+def test_every_snapshot_belongs_to_a_test():
     for path in sorted(FOLDER.glob("test_*.txt")):
         source = path.parents[1] / f"{path.stem}.py"
         tests = re.findall(r"^def (test_\w+)", source.read_text(encoding="utf-8"), re.MULTILINE)

@@ -132,7 +132,7 @@ def test_the_viewer_of_signals_shows_no_verdict_on_a_damaged_log(viewer):
     assert all(url.startswith("http://127.0.0.1:") for url in page.asked)
 
 
-def test_the_server_refuses_what_would_give_the_answers(tmp_path):
+def test_server_refuses_requests_that_would_reveal_the_answers(tmp_path):
     file = write_log(slipped_log(), tmp_path / "log04.wpilog")
     (tmp_path / "session").mkdir()
     with served(tmp_path / "session", file, view=PageView(raw=True)) as server:

@@ -179,7 +179,7 @@ def test_current_and_battery_are_recorded_where_asked():
     assert (plain.runs[0].velocity == log.runs[0].velocity).all()
 
 
-def test_a_sensor_is_quiet_at_rest_and_coarse():
+def test_sensor_has_no_noise_at_rest_and_rounds():
     sensor = Sensor(resolution=0.25, velocity_noise=0.1, noise_speed=0.05, jitter=0.0)
     velocity = np.concatenate((np.zeros(500), np.ones(500)))
 
@@ -200,7 +200,7 @@ def sensed(**change):
     return time, speed, read_sensor(sensor, position=way, velocity=speed, time=time, rng=rng())
 
 
-def test_a_filter_in_the_sensor_says_the_mean_of_a_while():
+def test_sensor_filter_returns_the_mean_of_its_window():
     time, _, seen = sensed(filter=0.1)
     mean = (np.cos(6.0 * (time - 0.1)) - np.cos(6.0 * time)) / 0.6
 
@@ -256,7 +256,7 @@ def test_a_brownout_that_a_real_robot_would_have_is_a_doubt():
 @pytest.mark.parametrize(
     ("rest", "resistance"), [(5.0, 0.02), (20.0, 0.02), (12.0, -0.1), (12.0, 1.0), (np.nan, 0.02)]
 )
-def test_no_battery_a_robot_would_start_with_is_refused(rest, resistance):
+def test_every_realistic_battery_is_accepted(rest, resistance):
     with pytest.raises(BadRequest, match="A good one has 12.6 V"):
         Battery(rest, resistance)
 

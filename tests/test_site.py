@@ -170,7 +170,7 @@ def test_a_search_finds_a_gain(tab):
     assert gain in tab.locator("#mkdocs-search-results").inner_text()
 
 
-def test_a_lost_link_and_a_lost_anchor_are_seen(tmp_path):
+def test_check_finds_a_broken_link_and_a_broken_anchor(tmp_path):
     pages = {"a.html": SitePage('<a href="b.html#x">b</a> <a href="c.html">c</a>'),
              "b.html": SitePage("<p id=y>")}  # fmt: skip
     for name in pages:
@@ -197,7 +197,7 @@ def test_a_page_loads_nothing_from_elsewhere(built_site):
     assert styles == []
 
 
-def test_what_a_page_loads_is_there(built_site):
+def test_files_that_a_page_loads_exist(built_site):
     folder, pages = built_site
 
     assert {

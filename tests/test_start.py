@@ -80,7 +80,7 @@ def course(tmp_path, monkeypatch):
     return tmp_path
 
 
-def test_start_shows_what_is_there_before_it_makes_anything(course, capsys):
+def test_start_shows_the_files_before_it_writes_any(course, capsys):
     assert run_command(["start", "--no-lab", "--student", "ann"]) == 0
     out = capsys.readouterr().out
 
@@ -94,7 +94,7 @@ def test_start_shows_what_is_there_before_it_makes_anything(course, capsys):
     assert Lab.command == ()
 
 
-def test_who_one_is_is_remembered(course, capsys):
+def test_name_of_the_student_is_remembered(course, capsys):
     run_command(["start", "--no-lab", "--student", "ann"])
     run_command(["start", "--no-lab"])
     capsys.readouterr()
@@ -160,7 +160,7 @@ def test_the_list_of_files_shows_each_lesson_once_and_no_solutions(course):
     assert {"00_guess.py", "01_motor.py", "solutions", "__pycache__"} <= {*hidden}
 
 
-def test_jupyterlab_opens_the_first_lesson_and_keeps_to_itself(course):
+def test_jupyterlab_opens_the_first_lesson_and_checks_for_no_updates(course):
     assert run_command(["start"]) == 0
 
     assert Lab.command[:3] == (sys.executable, "-m", "jupyterlab")
@@ -291,12 +291,12 @@ def waiting():
     return np.where(TIME < 0.4, wheels, robot)
 
 
-def test_a_plain_rise_is_no_event():
+def test_plain_rise_is_no_launch_event():
     assert find_launch_event(run_of(PLAIN)) is None
 
 
 @pytest.mark.parametrize("noise", [0.0, 0.3])
-def test_a_speed_that_falls_and_recovers_is_an_event(noise):
+def test_speed_that_falls_and_recovers_is_a_launch_event(noise):
     event = find_launch_event(run_of(dented(0.4), noise=noise))
 
     assert event.kind == "fall"
@@ -304,7 +304,7 @@ def test_a_speed_that_falls_and_recovers_is_an_event(noise):
     assert TIME[event.end] == pytest.approx(0.3, abs=0.05)
 
 
-def test_a_speed_that_waits_and_climbs_on_is_an_event():
+def test_speed_that_pauses_in_its_rise_is_a_launch_event():
     event = find_launch_event(run_of(waiting()))
 
     assert event.kind == "wait"
@@ -343,7 +343,7 @@ def test_a_step_begins_where_its_voltage_stays():
     assert TIME[find_step_start(run_of(PLAIN, volts=volts))] == pytest.approx(1.0)
 
 
-def test_wheels_slip_on_a_floor_and_nowhere_else():
+def test_only_wheels_on_a_floor_slip():
     event = run_of(dented(0.4))
 
     def found(**about):
@@ -357,7 +357,7 @@ def test_wheels_slip_on_a_floor_and_nowhere_else():
 
 
 @pytest.mark.parametrize("seed", range(8))
-def test_no_launch_of_the_bench_is_an_event(seed):
+def test_sound_simulated_starts_have_no_launch_event(seed):
     rng = np.random.default_rng(seed)
     period = (0.02, 0.005)[seed % 2]
     log = simulate(MECHANISMS["drivetrain"].draw(rng), Routine(), rng=rng, period=period)
@@ -378,7 +378,7 @@ def test_the_course_is_unpacked_as_it_was_written(root, tmp_path):
     assert not unpack_course(target)  # what a learner wrote there stays
 
 
-def test_what_is_there_already_is_left_alone(tmp_path):
+def test_existing_files_are_left_alone(tmp_path):
     (tmp_path / "diary.txt").write_text("mine", encoding="utf-8")
     for taken in (tmp_path, tmp_path / "diary.txt"):
         with pytest.raises(BadRequest, match="Name a folder that is empty or new"):
@@ -402,7 +402,7 @@ def test_an_installation_without_the_course_says_so(tmp_path, monkeypatch):
         find_course_source()
 
 
-def test_the_course_of_a_wheel_is_found_beside_the_packages(tmp_path, monkeypatch):
+def test_course_of_an_installed_wheel_is_found_in_site_packages(tmp_path, monkeypatch):
     for name in ("exercises", "lessons"):
         (tmp_path / "sysid_course" / name).mkdir(parents=True)
     monkeypatch.setattr(course_folder, "INSTALLATION", tmp_path)
@@ -417,7 +417,7 @@ def test_the_command_refuses_in_one_line(tmp_path, monkeypatch, capsys):
 
     assert run_command(["start", "taken", "--no-lab"]) == 2
     said = capsys.readouterr().err
-    assert said.startswith("grade: taken: something else is there already.")
+    assert said.startswith("grade: taken: this place already holds something else.")
     assert said.count("\n") == 1
 
 

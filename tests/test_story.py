@@ -79,7 +79,7 @@ def test_the_numbers_of_the_story_are_those_of_its_log():
         (0.201, 5.9e-7, ("0.20100", "< 0.01% of it")),
     ],
 )
-def test_a_number_has_the_digits_it_deserves(value, error, said):
+def test_number_has_the_digits_that_its_error_allows(value, error, said):
     estimate = replace(DRAG.parameters["drag"], value=value, error=error)
 
     assert format_estimate(estimate) == said
@@ -256,7 +256,7 @@ def test_every_log_is_read_and_inspected(reconcile, drive, tmp_path):
     assert set(asked["damages"]) == {"log", "validation", "held_out"}
 
 
-def test_damage_reaches_the_solver_in_its_own_words(reconcile, drive, tmp_path):
+def test_solver_is_asked_about_damage_with_fault_advice_and_confidence(reconcile, drive, tmp_path):
     spoilt = tmp_path / "spoilt.csv"
     code = run_command(
         sysid, name="sysid",
@@ -296,7 +296,7 @@ print(seen, file=sys.stderr)
 """
 
 
-def test_for_other_programs_nothing_is_loaded_that_draws(drive):
+def test_json_output_loads_no_drawing_library(drive):
     ran = subprocess.run(
         [sys.executable, "-c", UNSEEN.format(path=str(drive))],
         capture_output=True, check=True, encoding="utf-8",

@@ -71,7 +71,7 @@ def test_only_catalogues_import_our_modules_by_name():
         "from importlib import import_module as load",
     ],
 )
-def test_a_hidden_import_in_the_solver_is_seen(text):
+def test_import_check_finds_a_hidden_import_in_the_solver(text):
     assert hidden_imports("sim/reconcile/story.py", text)
 
 
@@ -108,7 +108,7 @@ TOPS = (*OURS, "tests", ".ci", "exercises", "solutions")
 
 
 @pytest.mark.parametrize("page", PAGES)
-def test_files_that_a_page_names_are_there(page):
+def test_files_named_in_documents_exist(page):
     text = (ROOT / page).read_text(encoding="utf-8")
     named = set(re.findall(r"`([\w./]+\.py)`", text)) - {"lessons/NN_name.py"}
 
@@ -116,7 +116,7 @@ def test_files_that_a_page_names_are_there(page):
 
 
 @pytest.mark.parametrize(("folder", "contract"), load_script("check_addition").CONTRACTS.items())
-def test_the_check_of_an_addition_names_a_folder_and_tests_that_are_there(folder, contract):
+def test_addition_check_names_existing_folders_and_tests(folder, contract):
     tests = [ROOT / "tests" / f"test_{one}.py" for one in contract.tests.split()]
 
     assert (ROOT / folder).is_dir()
@@ -141,7 +141,7 @@ SHOWING = {"story_text.py", "model_selection.py", "residual_map.py"}
 HARMLESS = {0, 0.5, 1, 2}  # halves, doubles and counts
 
 
-def test_numbers_that_decide_in_reconcile_stand_in_one_file():
+def test_thresholds_of_reconcile_are_in_one_file():
     found = {
         path.name
         for path in (ROOT / "sim/reconcile").rglob("*.py")

@@ -55,14 +55,14 @@ def test_a_word_may_be_written_in_many_ways(given, meant):
 
 
 @pytest.mark.parametrize("given", [None, "", 3, True, ["Arm"], "Arms", "…"])
-def test_no_word_or_another_one_gets_the_list(given):
+def test_missing_or_unknown_word_gets_the_list_of_words(given):
     with pytest.raises(WrongAnswer) as wrong:
         read_choice(given, TYPES)
 
     assert wrong.value.hint == "Choose one of: Simple, Arm, Elevator."
 
 
-def test_a_wrong_word_gets_the_reason():
+def test_wrong_word_gets_a_reason():
     check_choice("arm", "Arm", TYPES, why=lambda _: ("no", ""))
     with pytest.raises(WrongAnswer, match="no gravity") as wrong:
         check_choice("simple", "Arm", TYPES, why=lambda one: (f"{one} has no gravity", "M-R2"))
@@ -79,11 +79,11 @@ def test_a_wrong_word_gets_the_reason():
         (make_wrong_answer("kV", '"2 V"'), 'kS = 0.1\nkV = "2 V"\n'),
     ],
 )
-def test_answers_are_changed(change, made):
+def test_answers_in_a_file_are_replaced(change, made):
     assert change("kS = 0.1\nkV = 2.0\n") == made
 
 
-def test_a_change_that_changes_nothing_is_refused():
+def test_change_without_effect_is_refused():
     with pytest.raises(ValueError, match="none of the numbers"):
         scale_numbers(1, "kV")("kV = 2\n")
     with pytest.raises(ValueError, match="no kA"):

@@ -55,7 +55,7 @@ def test_each_platforms_names_are_read(name, folder, found):
 
 
 @pytest.mark.parametrize("name", ["roster.csv", "notes.txt", "answers.toml"])
-def test_a_file_that_no_platform_named_belongs_to_whom_the_roster_knows(tmp_path, name):
+def test_file_with_an_ordinary_name_belongs_to_the_student_on_the_roster(tmp_path, name):
     found = parse_name(name, folder=False)
 
     assert (found.guessed, found.file) == (True, name)
@@ -245,7 +245,7 @@ def test_a_class_with_unused_files_is_not_all_graded(tmp_path, four, monkeypatch
     assert "some work of 2 students could not be graded" in said
 
 
-def test_several_files_of_one_student_are_one_hand_in(tmp_path, course):
+def test_several_files_of_one_student_are_one_submission(tmp_path, course):
     second = tmp_path / "course" / "exercises" / "exercise2"
     second.mkdir()
     first = course[0].folder

@@ -117,7 +117,7 @@ def test_wheels_that_slip_follow_the_closed_form(step, grip):
 
 
 @pytest.mark.parametrize(("step", "found"), [(2.0, set()), (4.0, {"wheel-slip"})])
-def test_the_step_of_ctres_generator_slips_a_kraken_drive_and_is_found_out(step, found):
+def test_step_of_ctres_generator_slips_a_kraken_drive_and_is_reported(step, found):
     """4 V is the generator's step; this robot slips from 2.3 V on."""
     log = simulate(KRAKEN.translation, Routine(ramp=0.5, step=step), rng=rng())
 
@@ -418,7 +418,7 @@ def test_the_gyro_is_read_in_degrees_though_the_motors_are_in_rotations(logs):
         (("--straight", "x.wpilog", "--mass", "60"), "there is no such file"),
     ],
 )
-def test_options_that_do_not_go_together_are_refused(logs, capsys, options, says):
+def test_contradicting_swerve_options_are_refused(logs, capsys, options, says):
     code, _, why = run(capsys, "fit", logs / "turning.wpilog", *TURNED, *options)
 
     assert code == 2
@@ -476,7 +476,7 @@ def test_a_real_robot_that_turned_has_a_moment_of_inertia_a_robot_can_have(real_
 
 
 @pytest.mark.shared
-def test_a_real_log_of_a_swerve_project_is_read_and_not_believed(real_logs, capsys):
+def test_real_swerve_log_is_read_and_gets_warnings(real_logs, capsys):
     """Its velocity is the position times a factor: no gains describe it, and it is said so."""
     code, _, why = run(capsys, "fit", real_logs / CUBE)
 
@@ -505,7 +505,7 @@ EDWIN = "StuyPulse+Edwin~sysid~data~drivetrain"
 
 
 @pytest.mark.parametrize("name", ["swerve", "swerve-rotation"])
-def test_the_catalogues_own_never_slip_at_the_step_of_wpilib(name):
+def test_drives_of_the_catalogue_never_slip_at_the_step_of_wpilib(name):
     drawn = [MECHANISMS[name].draw(rng(seed)) for seed in range(200)]
 
     assert min(compute_slip_voltage(one) for one in drawn) > 7.0
@@ -542,7 +542,7 @@ def test_slip_makes_ka_too_large_and_leaves_kv():
     assert gains["kA"] > 1.2 * true["kA"]
 
 
-def test_without_a_lever_the_speeds_determine_it():
+def test_missing_lever_is_computed_from_the_speeds():
     found = compute_moment_of_inertia(*both(KRAKEN), mass=60.0)
 
     assert found.lever == found.lever_seen == pytest.approx(KRAKEN.lever_arm, rel=1e-3)

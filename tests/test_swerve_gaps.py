@@ -22,7 +22,7 @@ def written(
     return check_formulas(radius=radius, inertia=inertia, grip=grip)
 
 
-def test_right_formulas_are_reported_as_right_and_used():
+def test_right_formulas_are_reported_and_used():
     mine = written()
 
     said = ["Formula 1: right.", "Formula 2: right.", "Formula 3: right."]
@@ -41,7 +41,7 @@ def test_right_formulas_are_reported_as_right_and_used():
         ({"grip": lambda torque, ratio, *_: torque * ratio}, "Formula 3: not yet. torque"),
     ],
 )
-def test_a_wrong_formula_gets_advice_and_ours_is_used_for_it(wrong, says):
+def test_wrong_formula_gets_advice_and_is_replaced_by_the_right_one(wrong, says):
     mine = written(**wrong)
     (name,) = wrong
 

@@ -27,7 +27,7 @@ def drive(tmp_path_factory):
 
 
 @pytest.mark.parametrize("suffix", [".csv", ".wpilog"])
-def test_what_simulate_writes_fit_reads(tmp_path, suffix):
+def test_fit_reads_the_files_of_simulate(tmp_path, suffix):
     made = run_sysid(
         "simulate", "shooter", "--seed", 4, "-o", f"log{suffix}", "--truth", "truth.json",
         folder=tmp_path,
@@ -108,7 +108,7 @@ def test_a_file_of_nonsense_gets_one_line_whatever_its_name(tmp_path, suffix, co
 @pytest.mark.parametrize(
     ("name", "heavy"), [("simulate", "matplotlib"), ("fit", "matplotlib"), ("", "numpy")]
 )
-def test_help_is_there_and_loads_nothing_heavy(name, heavy):
+def test_help_imports_no_heavy_library(name, heavy):
     code = (
         "import sys; from sim.cli import sysid\n"
         f"sysid.main({[*name.split(), '--help']!r}, standalone_mode=False)\n"

@@ -48,7 +48,7 @@ def test_rows_of_four_are_one_mechanism(tmp_path: Path, test: str, type_: str) -
         pytest.param({"type": "arm"}, "radians", id="an arm's default"),
     ],
 )
-def test_units_a_file_leaves_open_are_settled_by_asking(
+def test_units_that_a_file_leaves_open_come_from_an_option(
     tmp_path: Path, asked: dict[str, str], units: str
 ) -> None:
     log = read_json(tmp_path, document(6), **asked)
@@ -311,7 +311,7 @@ def test_both_sides_against_the_tests_name_stay_as_recorded(tmp_path: Path) -> N
     assert log.list_runs_of_test("dynamic-forward")[0].velocity[-1] < 0
 
 
-def test_living_side_is_read_where_the_other_does_not_move(tmp_path: Path) -> None:
+def test_moving_side_is_read_when_the_other_stands_still(tmp_path: Path) -> None:
     made = sysid(9, "Drivetrain")
     for key in RUNS:
         scaled(made, key, 4, 6, by=0.0)

@@ -122,7 +122,7 @@ def test_the_damage_and_the_effects_of_an_item_are_drawn_for_learners(item):
 
 
 @each_claim
-def test_a_claim_of_the_source_lesson_stands_beside_the_fact(claim):
+def test_claim_of_the_source_lesson_is_shown_next_to_the_fact(claim):
     for lesson, said, fact in claim.get("boxes", []):
         against = [facts for claimed, facts in boxes(lesson) if said in claimed]
         assert against, f"lesson {lesson} no longer quotes {said!r}"
@@ -151,7 +151,7 @@ def test_a_fact_has_a_test_that_shows_it(fact):
 
 
 @each_fact
-def test_a_fact_has_its_source_beside_it_at_one_version(fact):
+def test_fact_has_its_source_pinned_to_one_version(fact):
     beside = [sections(lesson)[title][1] for lesson, title, _ in fact.get("taught", [])]
     beside += [one_line(path) for path, _ in fact.get("texts", [])]
     assert fact["sources"]
@@ -196,7 +196,7 @@ def test_every_exercise_is_practice_of_a_lesson():
 
 
 @pytest.mark.parametrize("name", EXERCISES)
-def test_the_pointer_hint_sends_to_sections_that_are_there(name):
+def test_pointer_hint_names_existing_sections(name):
     _, pointer, _ = EXERCISES[name].hints
     sent = set()
     for part in re.split(r"(?=[Ll]esson \d)", pointer)[1:]:
@@ -212,7 +212,7 @@ def test_the_pointer_hint_sends_to_sections_that_are_there(name):
 
 
 @pytest.mark.parametrize("code", MISCONCEPTIONS)
-def test_a_misconception_sends_to_a_section_that_is_there(code):
+def test_misconception_points_to_an_existing_section(code):
     known = MISCONCEPTIONS[code]
     assert LESSONS[known.lesson[:2]].stem == known.lesson
     assert known.section in sections(known.lesson[:2])
@@ -241,7 +241,7 @@ def test_the_table_has_every_row_of_the_curriculum_in_its_order(shared):
 
 
 @pytest.mark.shared
-def test_what_is_false_or_misleading_in_the_source_lesson_has_a_box(shared):
+def test_false_statement_of_the_source_lesson_has_a_box(shared):
     facts = rows((shared / "facts.md").read_text(encoding="utf-8"), "against the facts")
     boxed = {claim["row"] for claim in TABLE["claim"] if claim.get("boxes")}
     assert {number for number, *_ in facts} == {claim["row"] for claim in TABLE["claim"]}

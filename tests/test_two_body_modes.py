@@ -120,9 +120,7 @@ def test_a_spring_moves_as_in_steps_a_thousand_times_as_fine(body, volts, swing,
 @pytest.mark.parametrize("moment", [0.0005, 0.002, 0.01, 0.04])
 @pytest.mark.parametrize("volts", VOLTAGES)
 @pytest.mark.parametrize("body", BODIES)
-def test_teeth_meet_and_part_when_they_do_in_steps_a_thousand_times_as_fine(
-    body, volts, moment, share
-):
+def test_gear_teeth_meet_and_part_at_the_times_of_fine_steps(body, volts, moment, share):
     model, asked = loose(BODIES[body], moment=moment, share=share), VOLTAGES[volts]
 
     right = simulate_run(model, time=TIME, voltage=asked, state=State(), step=FINE)
@@ -134,7 +132,7 @@ def test_teeth_meet_and_part_when_they_do_in_steps_a_thousand_times_as_fine(
 
 
 @pytest.mark.parametrize("part", ["compliance", "backlash"])
-def test_a_load_on_its_stop_is_lifted_when_it_is_in_fine_steps(part):
+def test_load_leaves_its_stop_at_the_time_of_fine_steps(part):
     gains = {**BODIES["heavy"], "kG": 0.9}
     other = sprung if part == "compliance" else loose
     size = {"swing": 6.0} if part == "compliance" else {"moment": 0.004}

@@ -62,9 +62,7 @@ def grow(path, content, share):
 
 @settings(max_examples=20)
 @given(cuts=st.lists(st.floats(0.0, 1.0), max_size=6))
-def test_wherever_a_growing_log_stops_its_tests_are_those_of_the_whole(
-    tmp_path_factory, content, cuts
-):
+def test_growing_log_has_the_tests_of_the_whole_at_any_length(tmp_path_factory, content, cuts):
     path = tmp_path_factory.mktemp("grows") / "drive.wpilog"
     path.write_bytes(b"")
     growing = GrowingLog(path)
@@ -115,7 +113,7 @@ def test_a_test_that_still_runs_is_left_out(tmp_path, content):
     assert update.pooled.found.gains == expected.in_log_units().gains
 
 
-def test_a_file_that_is_renamed_goes_on(tmp_path, content):
+def test_watching_continues_after_a_file_is_renamed(tmp_path, content):
     path = tmp_path / "FRC_TBD_1.wpilog"
     grow(path, content, 0.6)
     live = LiveFit(FileSource(path), READ)
@@ -130,7 +128,7 @@ def test_a_file_that_is_renamed_goes_on(tmp_path, content):
     assert len(second.log.runs) == 4
 
 
-def test_a_file_that_begins_anew_adds_to_what_was_complete(tmp_path, content):
+def test_file_that_starts_again_adds_to_the_finished_tests(tmp_path, content):
     path = tmp_path / "robot.wpilog"
     grow(path, content, 0.6)
     live = LiveFit(FileSource(path), READ)
@@ -166,7 +164,7 @@ def test_in_a_folder_logs_of_another_day_do_not_count(tmp_path, content):
     assert len(second.log.runs) == len(first.log.runs) + 4
 
 
-def test_what_is_not_there_or_is_no_log_is_refused(tmp_path):
+def test_missing_file_or_non_log_is_refused(tmp_path):
     with pytest.raises(UnreadableFile, match="no such file or folder"):
         FileSource(tmp_path / "missing.wpilog")
     foreign = tmp_path / "foreign.wpilog"
@@ -196,7 +194,7 @@ def test_a_run_that_is_damaged_is_repeated_before_others_are_asked_for():
     )
 
 
-def test_a_step_that_a_current_limit_held_down_is_repeated_with_what_it_let_through():
+def test_step_cut_by_a_current_limit_is_repeated_with_a_smaller_voltage():
     robot = replace(MECHANISMS["drivetrain"], stator=40.0)
     log = simulate(robot, Routine(step=5.0), rng=np.random.default_rng(1), electrical=True)
     run = log.list_runs_of_test("dynamic-forward")[0]
@@ -212,7 +210,7 @@ def test_a_step_that_a_current_limit_held_down_is_repeated_with_what_it_let_thro
     assert find_voltage_limit(freed.list_runs_of_test("dynamic-forward")[0]) is None
 
 
-def test_a_step_that_met_its_end_is_repeated_with_one_that_settles_before():
+def test_step_that_hit_its_stop_is_repeated_with_a_smaller_voltage():
     log = drive_log()
     log = contaminate(
         log, "hard-stop", severity=1.0, test="dynamic-forward", at=0.4,
@@ -250,7 +248,7 @@ def test_a_settled_step_has_95_percent_of_its_speed_at_the_end_of_the_way(kv, ka
         (["missing.wpilog"], "missing.wpilog: there is no such file or folder. Give the .wpilog"),
     ],
 )
-def test_what_cannot_be_followed_is_refused_in_one_line(tmp_path, arguments, said):
+def test_file_that_cannot_be_watched_is_refused_in_one_line(tmp_path, arguments, said):
     done = run_sysid("watch", *arguments, folder=tmp_path)
 
     assert (done.returncode, done.stdout) == (2, "")
@@ -357,7 +355,7 @@ def test_a_wrong_gain_is_described_by_its_effect_on_the_motion(kind, changes, re
     reads(followed(kind, **changes).description)
 
 
-def test_what_cannot_be_drawn_is_refused(reads):
+def test_consequence_that_cannot_be_drawn_is_refused(reads):
     short = Trace("thing", "way [m]", (0.0, 1.0), (0.0, 1.0), {"what it does": (0.0,)})
 
     with pytest.raises(BadRequest) as refused:
@@ -395,7 +393,7 @@ def saves(course, *texts):
     return wait
 
 
-def test_each_saving_is_graded_until_all_is_right(course, monkeypatch, capsys):
+def test_file_is_graded_at_each_save_until_all_is_right(course, monkeypatch, capsys):
     monkeypatch.setattr("time.sleep", saves(course, "", "", HALF, "size = [\n", RIGHT))
     monkeypatch.setattr(
         "grader.watch.watch_exercise.__kwdefaults__", {"wait": __import__("time").sleep}
@@ -422,7 +420,7 @@ def test_the_watch_ends_at_once_when_asked(course):
     assert grades == [1]
 
 
-def test_a_file_that_is_away_for_a_moment_is_waited_for(course):
+def test_watching_waits_for_a_file_that_is_briefly_missing(course):
     (one,) = list_exercises(course)
     path = one.folder / "answers.toml"
     codes = [1, 1, 0]
@@ -432,7 +430,7 @@ def test_a_file_that_is_away_for_a_moment_is_waited_for(course):
     assert codes == []
 
 
-def test_a_grade_can_be_listened_to(course, capsys):
+def test_plain_output_of_grade_has_words_in_place_of_symbols(course, capsys):
     answer(course, HALF)
     run_command(["1", "--plain"])
     out = capsys.readouterr().out
@@ -460,7 +458,7 @@ def test_a_finished_exercise_shows_where_the_solution_is(course, capsys):
 
 
 @pytest.mark.usefixtures("course")
-def test_the_doctor_finds_this_machine_fit(capsys):
+def test_doctor_finds_no_problem_on_this_machine(capsys):
     assert run_command(["doctor"]) == 0
     out = capsys.readouterr().out
     for what in ("Python", "packages", "simulation", "course", "learners' code", "RobotPy"):

@@ -160,7 +160,7 @@ def test_a_robot_that_starts_again_loses_the_test_that_was_running_and_no_other(
     assert update.advice == ENOUGH
 
 
-def test_a_test_whose_begin_nobody_saw_does_not_count(start, port, tmp_path):
+def test_test_that_began_before_the_watch_does_not_count(start, port, tmp_path):
     robot = start()
     robot.clock = -60.0
     robot.publish(0, share=0.5, ends=False)
@@ -177,6 +177,6 @@ def test_a_test_whose_begin_nobody_saw_does_not_count(start, port, tmp_path):
 
 
 @pytest.mark.parametrize("address", ["", "no such host", "http://x", "localhost:x", "99999"])
-def test_what_is_no_address_is_refused(tmp_path, address):
+def test_invalid_network_address_is_refused(tmp_path, address):
     with pytest.raises(BadRequest, match="no address|no team"):
         NetworkTablesSource(address, folder=tmp_path)

@@ -44,7 +44,7 @@ def test_a_fit_has_the_same_digits(folder, log):
     assert slow.returncode == quick.returncode
 
 
-def test_a_numba_that_refuses_to_start_is_done_without(monkeypatch):
+def test_broken_numba_is_not_used(monkeypatch):
     from sim.physics import engine  # noqa: PLC0415 - its private functions are replaced here
 
     def refuse(_effects, *, compiled=True):
@@ -53,7 +53,7 @@ def test_a_numba_that_refuses_to_start_is_done_without(monkeypatch):
         return "plain"
 
     monkeypatch.setattr(engine, "compose_engine", refuse)
-    monkeypatch.setattr(engine, "_plain_engine", lambda: "plain")
+    monkeypatch.setattr(engine, "_load_plain_engine", lambda: "plain")
 
     assert engine._build_engine.__wrapped__() == "plain"
 
@@ -73,7 +73,7 @@ def test_a_numba_that_refuses_to_start_is_done_without(monkeypatch):
         ("cos", 0.0, 1.0),
     ],
 )
-def test_mathematics_answers_as_compiled_code_does(name, argument, expected):
+def test_invalid_arithmetic_gives_the_results_of_compiled_code(name, argument, expected):
     found = getattr(ieee_math, name)(argument)
 
     assert found == expected or (math.isnan(found) and math.isnan(expected))

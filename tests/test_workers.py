@@ -67,7 +67,7 @@ def grade_answer(course, there, out):
     return results, [job.submission.student for job in left]
 
 
-def test_what_hangs_dies_or_eats_memory_is_named_and_stops_nobody(course, tmp_path, monkeypatch):
+def test_hanging_dying_or_greedy_job_is_named_and_stops_no_other(course, tmp_path, monkeypatch):
     monkeypatch.setattr(workers, "SECONDS", 4.0)
     there = hand_in(tmp_path / "in", ann="", ben="hang", cat="die", dan="eat", eve="", fay="")
     results, _ = grade_answer(course, there, tmp_path / "out")
@@ -147,7 +147,7 @@ def test_a_class_of_hostile_files_grades_everybody_else(tmp_path, monkeypatch, c
     assert all(name in index for name in ("ben", "bomb", "corrupt", odd))
 
 
-def test_the_worst_bomb_that_is_read_stays_small(course, tmp_path):
+def test_largest_accepted_zip_bomb_uses_little_memory(course, tmp_path):
     """A file within the ratio of an honest one is cut off where answers end."""
     with zipfile.ZipFile(tmp_path / "ann.zip", "w") as archive:
         archive.writestr("exercise1/answers.toml", b"#" * 5_000_000)

@@ -179,7 +179,7 @@ def test_the_battery_sinks_as_in_wpilib(name):
 
 @pytest.mark.parametrize("wrong", [{"spin": 0.03}, {"drag": 0.03}, {"friction": 0.05}])
 @pairs
-def test_wrong_gains_are_seen(name, twin, tolerance, wrong):
+def test_comparison_with_wpilib_finds_wrong_gains(name, twin, tolerance, wrong):
     """By 3 % of kA, by 3 % of kV, by a friction of 0.05 V."""
     built = replace(bare(name), **wrong)
 

@@ -23,7 +23,7 @@ def expected(test: str, loops: range, *, si: float = TURN) -> tuple[Array, Array
     return np.array([voltage(test, loop) for loop in loops]), seen[:, 0] * si, seen[:, 1] * si
 
 
-def test_a_routine_comes_back_as_its_four_runs(tmp_path: Path) -> None:
+def test_log_of_a_routine_is_read_as_its_four_runs(tmp_path: Path) -> None:
     path = saved(tmp_path)
 
     log = sim.read(path)
@@ -123,7 +123,7 @@ def states(tmp_path: Path, *said: str) -> Path:
         ("none/dynamic-forward", {"dynamic-forward": 10}, ["unfinished-run"]),
     ],
 )
-def test_states_make_runs(
+def test_test_states_split_a_log_into_runs(
     tmp_path: Path, said: str, runs: dict[str, int], doubts: list[str]
 ) -> None:
     log = sim.read(states(tmp_path, *said.split("/")), units="meters")
@@ -171,7 +171,7 @@ def test_dashes_in_names_are_split_by_the_mechanism(
     assert log.list_runs_of_test("dynamic-forward")[0].voltage[0] == 7.0 * sign
 
 
-def test_of_two_mechanisms_one_is_asked_for(tmp_path: Path) -> None:
+def test_file_with_two_mechanisms_asks_for_one(tmp_path: Path) -> None:
     logger = Logger()
     routine(logger, Motor("a"), mechanism="Arm")
     routine(logger, Motor("b"), mechanism="Wrist", begin=10**9)
@@ -217,7 +217,7 @@ def test_motors_against_each_other_are_not_averaged(tmp_path: Path) -> None:
     assert sim.read(path, motor="right").list_runs_of_test("dynamic-forward")[0].voltage[0] == -7.0
 
 
-def test_a_motor_that_lacks_a_signal_is_left_out_with_a_word(tmp_path: Path) -> None:
+def test_motor_that_lacks_a_signal_is_left_out_with_a_warning(tmp_path: Path) -> None:
     log = sim.read(saved(tmp_path, LEFT, Motor("follower", leave_out=("velocity",))))
 
     assert codes(log) == ["incomplete-motor"]

@@ -76,7 +76,7 @@ def test_any_records_with_any_headers_are_found_where_they_are(
 
 @TMP
 @given(extra=st.binary(max_size=20))
-def test_first_record_stands_after_the_extra_header(tmp_path: Path, extra: bytes) -> None:
+def test_first_record_follows_the_extra_header(tmp_path: Path, extra: bytes) -> None:
     path = tmp_path / "log.wpilog"
     path.write_bytes(
         HEADER[:8] + struct.pack("<I", len(extra)) + extra + record(0, 5, start(7, "it", "raw"))
@@ -119,7 +119,7 @@ def double(number: int, time: int, value: float) -> bytes:
     return record(number, time, struct.pack("<d", value))
 
 
-def test_an_entry_that_comes_back_under_another_id_is_joined_in_time_order(tmp_path: Path) -> None:
+def test_entry_that_returns_under_another_id_is_joined_in_time_order(tmp_path: Path) -> None:
     found = contents_in(
         tmp_path,
         record(0, 0, start(1, "it", "double", "Meter")),
@@ -174,7 +174,7 @@ def test_packed_log_is_recognized_by_its_content(plain, packed):
     assert_same(read_motors(renamed).popitem()[1], read(plain))
 
 
-def test_what_is_written_packed_is_smaller_and_reads_back(plain, tmp_path):
+def test_packed_log_is_smaller_and_is_read_back(plain, tmp_path):
     path = tmp_path / "again.wpilogxz"
     write(read(plain), path)
 
@@ -182,7 +182,7 @@ def test_what_is_written_packed_is_smaller_and_reads_back(plain, tmp_path):
     assert_same(read(path), read(plain))
 
 
-def test_one_that_was_cut_off_gives_what_came_before(plain, packed):
+def test_truncated_packed_log_is_read_up_to_the_cut(plain, packed):
     content = packed.read_bytes()
     packed.write_bytes(content[: round(0.8 * len(content))])
     log = read(packed)
@@ -192,7 +192,7 @@ def test_one_that_was_cut_off_gives_what_came_before(plain, packed):
     np.testing.assert_array_equal(log.runs[0].velocity, read(plain).runs[0].velocity)
 
 
-def test_one_that_is_damaged_is_refused_in_one_line(packed):
+def test_damaged_packed_log_is_refused_in_one_line(packed):
     content = bytearray(packed.read_bytes())
     content[len(content) // 2] ^= 0xFF
     packed.write_bytes(content)
@@ -203,7 +203,7 @@ def test_one_that_is_damaged_is_refused_in_one_line(packed):
     assert str(packed) in str(refused.value)
 
 
-def test_one_that_unpacks_to_too_much_is_refused(packed, monkeypatch):
+def test_packed_log_that_unpacks_to_too_much_is_refused(packed, monkeypatch):
     monkeypatch.setattr(record_reader, "LARGEST_FILE", 10_000)
 
     with pytest.raises(UnreadableFile, match="the most that is read"):
@@ -380,7 +380,7 @@ def shape(found, wanted):
     tail=st.sampled_from((b"", b"\0" * 40, b"\xff" * 30)),
     name=st.sampled_from(("", "entry 1")),
 )
-def test_windows_change_nothing(tmp_path, several, cut, tail, name):
+def test_reading_in_small_windows_gives_the_same_contents(tmp_path, several, cut, tail, name):
     path = tmp_path / "log.wpilog"
     body = b"".join(record(n, 7 * i, content) for i, (n, content) in enumerate(several))
     path.write_bytes(HEADER + body[: max(len(body) - cut, 0)] + tail)

@@ -35,7 +35,7 @@ def test_a_log_of_changes_only_reads_as_the_whole_one(
         assert np.array_equal(ours.velocity, theirs.velocity)
 
 
-def test_a_slow_sensor_is_no_log_of_changes_only(tmp_path: Path) -> None:
+def test_slow_sensor_is_not_taken_for_a_log_of_changes(tmp_path: Path) -> None:
     slow = Motor("main", units=METERS, every=(1, 1, 5))
     log = sim.read(saved(tmp_path, slow, tests=("quasistatic-forward",)))
 
@@ -46,7 +46,7 @@ def test_a_slow_sensor_is_no_log_of_changes_only(tmp_path: Path) -> None:
     assert run.time[-1] == pytest.approx(1.0 + 0.02 * 38)  # the line reaches a little further
 
 
-def test_what_lies_beyond_a_signal_is_not_made_up(tmp_path: Path) -> None:
+def test_values_beyond_the_end_of_a_signal_are_not_invented(tmp_path: Path) -> None:
     """Lines are drawn between samples, not for seconds past the last of them."""
     logger = Logger()
     for name in ("voltage", "position", "velocity"):
@@ -112,7 +112,7 @@ ENTRIES = {
 }
 
 
-def test_an_entry_given_wins_over_one_found(tmp_path: Path) -> None:
+def test_named_entry_wins_over_one_found(tmp_path: Path) -> None:
     logger = Logger()
     routine(logger, Motor("main"))
     routine(logger, Motor("main", sign=-1), mechanism="Other", begin=1_000_000, tests=FOUR[:1])
@@ -207,7 +207,7 @@ TURN = math.tau
          ["unknown-unit"] * 2),
     ],
 )  # fmt: skip
-def test_odd_units_are_converted_with_a_doubt(
+def test_unusual_units_are_converted_with_a_warning(
     tmp_path: Path,
     units: tuple[str, str, str],
     asked: dict[str, str],

@@ -115,7 +115,7 @@ def any_run(draw: st.DrawFn) -> Run:
     units=st.sampled_from(list(UNITS)),
     mechanism=st.sampled_from(("Arm", "drive-left", "/a/voltage-b", "Flügel", "")) | st.text(),
 )
-def test_any_log_comes_back_whole(
+def test_any_log_is_read_back_unchanged(
     tmp_path: Path, several: list[Run], units: str, mechanism: str
 ) -> None:
     log, _ = written(tmp_path, *several, units=units, mechanism=mechanism)

@@ -49,11 +49,11 @@ class Variant:
         return friction, self.gains["kV"] * at.velocity, self.gains["kA"] * at.acceleration
 
     def asked(self, name: str) -> AskedNumber:
-        """The voltage at a moment, as it is asked for."""
+        """The requested voltage at a moment."""
         return AskedNumber(name, sum(self.terms(name)), "V", NEAR)
 
     @property
     def largest(self) -> str:
-        """The gain whose term is the largest where that is asked."""
+        """The gain whose term is the largest in the requested phase."""
         sizes = zip(self.terms(self.largest_at), ("kS", "kV", "kA"), strict=True)
         return max((abs(volts), gain) for volts, gain in sizes)[1]

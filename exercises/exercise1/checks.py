@@ -61,7 +61,7 @@ def _describe(variant: Variant) -> str:
 
 
 def consequence(answers: StudentAnswers) -> Consequence | None:
-    """What the learner's volts would do on their mechanism."""
+    """The motion that the learner's volts would cause."""
     return find_outcome(answers.given, answers.variant)
 
 
@@ -147,7 +147,7 @@ def largest(answers: StudentAnswers) -> None:
     text = re.sub(r"[\s·⋅*()]", "", str(raw)).lower()
     word = WORDS.get(re.sub(r"^(ks|kv|ka)(sgnv|v|a)$", r"\1", text))
     if word is None:
-        raise WrongAnswer(f'"{raw}", which is none of the terms', hint=listed)
+        raise WrongAnswer(f'"{raw}", which is not one of the terms', hint=listed)
     if word == variant.largest:
         return
     hint = f"compute all three terms at {variant.largest_at}, in volts, and compare their sizes"

@@ -31,7 +31,7 @@ def draw(student: str) -> Variant:
     kind = choose(tuple(SHOWN), rng)
     return draw_until(
         lambda _: _draw_variant(kind, rng),
-        lambda variant: _grips(variant) and all(_is_clear(variant, name) for name in MOMENTS),
+        lambda variant: _has_grip(variant) and all(_is_clear(variant, name) for name in MOMENTS),
     )
 
 
@@ -57,7 +57,7 @@ def _draw_variant(kind: str, rng: np.random.Generator) -> Variant:
     return Variant(kind, unit.symbol, gains, moments, largest_at)
 
 
-def _grips(variant: Variant) -> bool:
+def _has_grip(variant: Variant) -> bool:
     """Whether a drivetrain's wheels can give these accelerations without slipping."""
     pushes = (abs(at.acceleration) for at in variant.moments.values())
     return variant.kind != "drivetrain" or max(pushes) <= GRIP

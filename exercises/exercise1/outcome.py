@@ -1,4 +1,4 @@
-"""What a learner's volts would do: the speed they bring beside the speed that was wanted.
+"""The speed that the learner's volts would cause, compared with the wanted speed.
 
 At a steady speed the mechanism begins at rest and gets the volts. Where it speeds up or brakes, it
 begins at the moment's velocity, and gets in addition what kV takes of the change since: only what

@@ -42,7 +42,7 @@ def list_guesses(variant: Variant, name: str) -> list[Guess]:
 
 
 def _list_ways(variant: Variant, name: str) -> tuple[list[Way], ...]:
-    """For each of the three terms, its volts as they are right and as slips make them."""
+    """For each of the three terms, its right volts and its volts after slips."""
     friction, speed, push = variant.terms(name)
     backward, units = name == "backward", list(_list_unit_slips(variant, name))
     sgn = f"sgn-{name}" if name in {"braking", "backward"} else "sgn"

@@ -38,7 +38,7 @@ START = re.compile(
 
 @dataclass(frozen=True)
 class Code:
-    """What the checks look at: the runs of the program, and the learner's mechanism."""
+    """The object that the checks read: the runs of the program, and the learner's mechanism."""
 
     runs: Runs
     variant: Variant
@@ -61,12 +61,12 @@ def check_all_runs(points: float) -> Callable[[Look], Check[Code]]:
 
 
 def make_files(student: str) -> dict[str, Made]:
-    """What the analyzer showed for the learner's mechanism."""
+    """The analyzer's result for the learner's mechanism, as a file."""
     return {"given.toml": describe(draw(student))}
 
 
 def describe(variant: Variant) -> str:
-    """What a learner gets to know."""
+    """The facts that a learner reads in the task."""
     given, used = variant.symbol(used=False), variant.symbol(used=True)
     units = {
         "kV": f"V for a velocity of 1 {given}/s",
@@ -103,7 +103,7 @@ gear_ratio = {variant.ratio:g}  # turns of the motor for one turn of the {thing}
 
 
 def read(path: Path, *, student: str, run: bool = True) -> Code:
-    """What the program holds of gains.
+    """The gains that the program holds.
 
     Args:
         path: the file.
@@ -118,7 +118,7 @@ def read(path: Path, *, student: str, run: bool = True) -> Code:
 
 
 def consequence(code: Code) -> Consequence | None:
-    """What the learner's feedforward would do on their mechanism."""
+    """The motion that the learner's feedforward would cause."""
     return find_outcome(Seen(code.runs[0], code.variant))
 
 
@@ -210,7 +210,7 @@ def units(seen: Seen) -> None:
         if not verdict:
             hint = "This is the right kind of unit, but not the unit of this number."
             if other:
-                hint = f"That is a unit of something else than {one.name}. Each gain times what it "
+                hint = f"This unit does not belong to {one.name}. Each gain times what it "
                 hint += "is multiplied by gives volts."
             raise WrongAnswer(f"{shown}, line {one.line}", hint=hint, misconception="M-UNITS")
 

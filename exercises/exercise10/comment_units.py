@@ -35,7 +35,7 @@ def _read_units(text: str) -> Iterator[Quantity]:
 
 
 def judge_comment(comment: str, unit: str, *, name: str = "") -> bool | None:
-    """Whether a comment tells a unit: yes, no, or None where it tells another one of its kind."""
+    """Whether a comment names a unit; None if it names another unit of the same kind."""
     wanted = read_unit(unit)
     alike = [one for one in find_commented_units(comment, name) if one.powers == wanted.powers]
     if any(math.isclose(one.factor, wanted.factor, rel_tol=1e-6) for one in alike):

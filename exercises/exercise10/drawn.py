@@ -37,9 +37,9 @@ def draw(student: str) -> Variant:
 
 def _is_clear(variant: Variant) -> bool:
     """Whether every number is known by its size, wherever the learner puts the gains."""
-    places = [variant.held_by(place) for place in ("", *PLACES)]
+    places = [variant.convert_for_class(place) for place in ("", *PLACES)]
     return all(map(_are_numbers_distinguishable, places)) and _is_gearing_distinguishable(
-        variant.held_by(SLOT0)
+        variant.convert_for_class(SLOT0)
     )
 
 
@@ -72,7 +72,7 @@ def _is_gearing_distinguishable(variant: Variant) -> bool:
 
 
 def _are_numbers_distinguishable(variant: Variant) -> bool:
-    """Whether the sizes of all numbers differ, as they are shown and as they are needed."""
+    """Whether all numbers, given and needed ones, differ in size."""
     times = variant.times
     volts = [variant.shown[name] for name in ("kS", "kG") if name in variant.shown]
     others = [

@@ -1,4 +1,4 @@
-"""What a feedforward, or a motor controller, really got: which gain is in which place."""
+"""The gains that a feedforward or a motor controller received, each with its place."""
 
 import re
 from collections.abc import Iterator
@@ -23,7 +23,7 @@ SETTINGS = ("kCosRatio", RATIO, "RotorToSensorRatio")  # that are no gains
 
 @dataclass(frozen=True)
 class Seen:
-    """What a check looks at: one run of the program, and the learner's mechanism."""
+    """The object that a check reads: one run of the program, and the learner's mechanism."""
 
     facts: GainFacts
     drawn: Variant
@@ -33,7 +33,9 @@ class Seen:
         """The mechanism, with its gains in the unit of the place where this code puts them."""
         kinds = [one.kind for one in self.facts.feedforwards]
         inside = [kind for kind in kinds if kind in PLACES]
-        return self.drawn.held_by(inside[0] if inside and len(inside) == len(kinds) else "")
+        return self.drawn.convert_for_class(
+            inside[0] if inside and len(inside) == len(kinds) else ""
+        )
 
     @property
     def feedforwards(self) -> list[Gains]:
@@ -103,13 +105,13 @@ def check_one_place(facts: GainFacts) -> None:
             twice = [gain for gain, value in one.gains.items() if value != 0 and gain in held]
             if twice:
                 raise WrongAnswer(
-                    f"{', '.join(twice)} twice: in {_at(one)}, and in {_at(other)}",
+                    f"{', '.join(twice)} twice: in {_locate(one)}, and in {_locate(other)}",
                     hint="This is a double feedforward: the motor controller adds its own volts to "
                     "those that your code sends. Choose one place.",
                 )
 
 
-def _at(one: Gains) -> str:
+def _locate(one: Gains) -> str:
     return f"{one.kind} in line {one.line}"
 
 
@@ -140,7 +142,7 @@ def check_settings(one: Gains, variant: Variant) -> None:
     elif spark and arm and not (turns and near(turns, variant.turns_per_unit)):
         slip, seen = "arm-turns", f"kCosRatio = {turns:g}" if turns else "no kCosRatio"
     if slip:
-        raise explain(f"{_at(one)} has {seen}", name_slip(slip, "kG", variant))
+        raise explain(f"{_locate(one)} has {seen}", name_slip(slip, "kG", variant))
 
 
 def check_order(one: Gains, seen: Seen, *, points: float) -> None:
@@ -153,22 +155,22 @@ def check_order(one: Gains, seen: Seen, *, points: float) -> None:
     places = seen.variant.gains if one.kind in PLACES else CLASSES[one.kind]
     lacking = [place for place in places if given.get(place, 0.0) == 0.0]
     for place, number in given.items():
-        value = seen.get_value(number, f"{place} of {_at(one)}")
+        value = seen.get_value(number, f"{place} of {_locate(one)}")
         gain = seen.find_gain(value, place)
         if value and gain and gain != place:
             raise WrongAnswer(
-                f"{_at(one)} gets {place} = {value:.4g}",
+                f"{_locate(one)} gets {place} = {value:.4g}",
                 hint=f"{gain} is where {one.kind} expects {place}. {LOOK[one.kind in PLACES]}",
                 misconception="M-ARGORDER",
             )
         if value and not gain and place in seen.variant.gains and place in {"kS", "kG"}:
             slip = find_constant_slip(value, place, seen.variant, text="")
-            raise explain(f"{_at(one)} gets {place} = {value:.4g}, not your {place}", slip)
+            raise explain(f"{_locate(one)} gets {place} = {value:.4g}, not your {place}", slip)
     _check_step(one, seen)
     constants = [seen.facts.find_constant(place) for place in lacking]
     if lacking and not any(constant and constant.value == 0 for constant in constants):
         raise WrongAnswer(
-            f"{_at(one)} has no {' and no '.join(lacking)}",
+            f"{_locate(one)} has no {' and no '.join(lacking)}",
             hint="A missing argument counts as 0.",
             earned=points / 2 if lacking == ["kA"] else 0.0,
         )
@@ -185,21 +187,21 @@ def _check_step(one: Gains, seen: Seen) -> None:
     if held or step > LONGEST_STEP:
         gain = f"{held[0]} does not belong here. " if held else ""
         raise WrongAnswer(
-            f"{_at(one)} gets the time step dt = {step:.4g} s",
+            f"{_locate(one)} gets the time step dt = {step:.4g} s",
             hint=f"{gain}The last argument is the time from loop to loop in seconds: leave it out.",
             misconception="M-ARGORDER",
         )
 
 
 def list_feedbacks(seen: Seen) -> Iterator[tuple[str, float, Variant]]:
-    """The loops that got something like the suggested kP: what is seen, kP, how the loop counts.
+    """The loops with a gain near the suggested kP: text, kP, and unit of the loop.
 
     Raises:
         WrongAnswer: one got kP in the place of another gain.
     """
     for loop in seen.facts.loops:
         kind = FEED_FORWARD if loop.kind == CLOSED_LOOP else loop.kind
-        variant = seen.drawn.held_by(kind)
+        variant = seen.drawn.convert_for_class(kind)
         at = f"{loop.kind} in line {loop.line} gets"
         value, *others = loop.gains.values()
         for name, other in zip(("kI", "kD"), others, strict=True):

@@ -1,7 +1,7 @@
-"""What a learner is given, and what the robot needs: gains in two units, and a loop's output.
+"""A learner's given gains, and the gains that the robot needs, in the units of its loops.
 
 The gains may go into WPILib's feedforward class in the roboRIO, or into the motor controller. Each
-place counts in a unit of its own and has a loop with an output of its own (``Variant.held_by``).
+place has its own unit, and its loop has its own output (``Variant.convert_for_class``).
 """
 
 from collections.abc import Mapping
@@ -59,7 +59,7 @@ class Variant:
     place: str = ""
     coded_in: str = ""
 
-    def held_by(self, kind: str) -> "Variant":
+    def convert_for_class(self, kind: str) -> "Variant":
         """The mechanism with its gains in the unit in which a class takes them.
 
         Phoenix 6 counts rotations of the mechanism and puts out volts. A Spark counts in the unit
@@ -86,11 +86,11 @@ class Variant:
 
     @property
     def times(self) -> float:
-        """What a gain per velocity is multiplied with to fit the unit of the place."""
-        return self.times_to(self.used_in)
+        """The factor from a gain per velocity to the unit of its place."""
+        return self.get_factor_to(self.used_in)
 
-    def times_to(self, unit: str) -> float:
-        """What a gain per velocity is multiplied with to be one per another unit.
+    def get_factor_to(self, unit: str) -> float:
+        """The factor from a gain per velocity to a gain per another unit.
 
         Args:
             unit: as SysId has it: ``Meters``.
@@ -114,11 +114,11 @@ class Variant:
         """Whether a constant is the analyzer's number, or one in a unit of this robot."""
         if near(value, self.shown[gain]) or near(value, self.needed(gain)):
             return True
-        return gain in SCALED and near(value, self.coded(gain))
+        return gain in SCALED and near(value, self.convert_to_code_unit(gain))
 
-    def coded(self, gain: str) -> float:
+    def convert_to_code_unit(self, gain: str) -> float:
         """The gain kV or kA in the unit that the robot's code uses."""
-        return self.shown[gain] * self.times_to(self.coded_in or self.used_in)
+        return self.shown[gain] * self.get_factor_to(self.coded_in or self.used_in)
 
     @property
     def coded_symbol(self) -> str:
@@ -138,7 +138,7 @@ class Variant:
         return UNITS[self.used_in if used else self.shown_in][0]
 
     def list_matching_units(self, gain: str, value: float | None) -> list[str]:
-        """The units that a gain of this value may have; any of this robot's if it is none of it.
+        """The units that a gain of this value may have; if it fits none, all units of this robot.
 
         Args:
             gain: ``kV``.
@@ -146,17 +146,17 @@ class Variant:
         """
         sizes = dict.fromkeys((self.used_in, self.coded_in or self.used_in, self.shown_in))
         fitting = [
-            self._unit(gain, one)
+            self._format_unit(gain, one)
             for one in sizes
             if value is not None
-            and near(value, self.shown[gain] * (self.times_to(one) if gain in SCALED else 1.0))
+            and near(value, self.shown[gain] * (self.get_factor_to(one) if gain in SCALED else 1.0))
         ]
-        return fitting or [self._unit(gain, one) for one in sizes]
+        return fitting or [self._format_unit(gain, one) for one in sizes]
 
-    def _unit(self, gain: str, position: str) -> str:
+    def _format_unit(self, gain: str, position: str) -> str:
         return {"kV": "V·s/{}", "kA": "V·s²/{}"}.get(gain, "V").format(UNITS[position][0])
 
 
 def near(value: float, wanted: float, *, share: float = NEAR) -> bool:
-    """Whether a number is what is wanted, rounding apart."""
+    """Whether a number equals the wanted one, except for rounding."""
     return abs(value - wanted) <= share * abs(wanted)

@@ -1,4 +1,4 @@
-"""What a learner's feedforward would do: their mechanism follows a profile by it alone."""
+"""The motion of a learner's mechanism that follows a profile by its feedforward alone."""
 
 import math
 
@@ -21,7 +21,7 @@ RISING, STEADY, STILL = 0.25, 0.75, 0.5  # [s]
 
 
 def find_outcome(seen: Seen) -> Consequence | None:
-    """What the feedforward would do; None where it is as it should be, or cannot be told."""
+    """The motion under the feedforward; None if it is right or unknown."""
     variant = seen.variant
     try:
         one = seen.feedforwards[0]
@@ -31,9 +31,9 @@ def find_outcome(seen: Seen) -> Consequence | None:
     if not all(value is not None and math.isfinite(value) for value in given.values()):
         return None
     gains = {"kS": 0.0, "kV": 0.0, "kA": 0.0} | {
-        name: _in_code(name, value or 0.0, variant) for name, value in given.items()
+        name: _convert_to_code(name, value or 0.0, variant) for name, value in given.items()
     }
-    truth = {name: _in_code(name, variant.needed(name), variant) for name in variant.gains}
+    truth = {name: _convert_to_code(name, variant.needed(name), variant) for name in variant.gains}
     kind = _find_type(one)
     if kind == variant.analysis.lower() and all(
         near(gains.get(name, 0.0), value) for name, value in truth.items()
@@ -53,7 +53,7 @@ def find_outcome(seen: Seen) -> Consequence | None:
 
 
 def _find_type(one: Gains) -> str:
-    """How it takes gravity: ``simple``, ``elevator`` or ``arm``."""
+    """The type of the mechanism: ``simple``, ``elevator`` or ``arm``."""
     if one.kind in TYPES:
         return TYPES[one.kind]
     if "kCos" in one.gains or one.choices.get("GravityType") == "Arm_Cosine":
@@ -61,9 +61,13 @@ def _find_type(one: Gains) -> str:
     return "elevator" if one.gains.get("kG") else "simple"
 
 
-def _in_code(name: str, value: float, variant: Variant) -> float:
+def _convert_to_code(name: str, value: float, variant: Variant) -> float:
     """A gain of the place in the unit that the robot's code uses."""
-    return value * variant.coded(name) / variant.needed(name) if name in SCALED else value
+    return (
+        value * variant.convert_to_code_unit(name) / variant.needed(name)
+        if name in SCALED
+        else value
+    )
 
 
 def _make_profile(plant: Plant, kind: str) -> Profile:

@@ -43,7 +43,7 @@ def _list_rotations(gain: str, variant: Variant) -> Ways:
     if variant.place != SLOT0 or gain in {"kS", "kG"}:
         return []
     needed = variant.needed(gain)
-    right = (needed, variant.coded(gain))
+    right = (needed, variant.convert_to_code_unit(gain))
     return [
         ("radians", [needed / TURN]),
         ("rotor", [needed / variant.ratio]),
@@ -84,11 +84,11 @@ def find_constant_slip(value: float, gain: str, variant: Variant, *, text: str) 
 
 
 def find_handed_slip(value: float, gain: str, variant: Variant) -> WrongNumber:
-    """Why what a feedforward is given does not fit the robot's unit."""
+    """The slip that explains a feedforward argument in another unit than the robot's."""
     shown = variant.shown[gain]
     ways: Ways = [("unconverted", [shown]), ("again", [shown * variant.times**2])]
     if variant.place == SLOT0:
-        ways.insert(1, ("coded", [variant.coded(gain)]))
+        ways.insert(1, ("coded", [variant.convert_to_code_unit(gain)]))
     code = _find_first(value, ways)
     found = None if code else _find_known(value, gain, variant)
     return found or name_slip(code or "handed", gain, variant)
@@ -100,7 +100,7 @@ def find_feedback_slip(value: float, variant: Variant, *, text: str = "") -> Wro
     ways = [
         *_list_rotations("kP", variant),
         ("unmodified", [shown]),
-        ("coded", [variant.coded("kP")] if variant.place == SLOT0 else []),
+        ("coded", [variant.convert_to_code_unit("kP")] if variant.place == SLOT0 else []),
         ("output", {shown * times, shown * times / FULL} - {needed}),
         ("12-turned", [shown * times * FULL]),
         ("unit", [shown / FULL]),

@@ -1,4 +1,4 @@
-"""The questions and their right answers, and what is said about wrong ones.
+"""The questions, their right answers, and the feedback on wrong ones.
 
 A class's package lacks this module and all that only it imports: see ``grader.answers.answer_key``.
 """
@@ -151,6 +151,10 @@ def _read_reason(
         return letters[text]
     if not asked:
         return ""
-    seen = "nothing yet" if raw is None or raw == "" else f"{shorten(raw)}, which is none of them"
+    seen = (
+        "nothing yet"
+        if raw is None or raw == ""
+        else f"{shorten(raw)}, which is not one of the choices"
+    )
     ask = "Write the letter of a reason: the list is at the end of your questions.md."
     raise WrongAnswer(seen, hint=ask)

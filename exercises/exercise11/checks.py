@@ -14,7 +14,7 @@ QUESTIONS = {  # name -> what its check is about, and its points
     "Q0_guess": ("The question of somebody who guesses gains.", SINGLE),
     "Q0_sysid": ("The question of somebody who runs SysId.", SINGLE),
     "Q0_brace": ("The gain that a brace changes.", SINGLE),
-    "kA_use": ("What else a drivetrain's kA tells.", SINGLE),
+    "kA_use": ("What else the kA of a drivetrain shows.", SINGLE),
     "kS_flag": ("What to do when kS has grown.", SINGLE),
     "step_shape": ("What a long steady acceleration means.", SINGLE),
     "step_length": ("What a longer dynamic test gives.", SINGLE),

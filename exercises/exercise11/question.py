@@ -65,12 +65,12 @@ class Question:
         same = [one for one in self.options if normalize(one.text) == given]
         like = same or [one for one in self.options if normalize(one.text).startswith(given)]
         if (len(given) < SHORTEST and not same) or len(like) != 1:
-            raise WrongAnswer(f'"{shorten(raw)}", which is none of them', hint=ask)
+            raise WrongAnswer(f'"{shorten(raw)}", which is not one of the choices', hint=ask)
         return like[0]
 
 
 def normalize(text: str) -> str:
-    """A text without what people write it differently by: case, blanks, full stops."""
+    """A text without differences of case, blanks and full stops."""
     return re.sub(r"[^a-z0-9+-]+", " ", text.lower()).strip()
 
 
@@ -80,7 +80,7 @@ def letter_options(options: Sequence[Option], order: Sequence[int]) -> dict[str,
 
 
 def judge_choice(chosen: Option, *, points: float, backed: bool) -> str | None:
-    """Compare the chosen option with what is right.
+    """Compare the chosen option with the right one.
 
     Args:
         chosen: the option.
@@ -97,12 +97,12 @@ def judge_choice(chosen: Option, *, points: float, backed: bool) -> str | None:
     if chosen.share == 1.0 and counts:
         return chosen.says or None
     raise WrongAnswer(
-        f'"{_short(chosen.text)}"',
+        f'"{_shorten(chosen.text)}"',
         hint=chosen.says if counts else f"{chosen.says}. It counts only with the right reason",
         misconception=chosen.code,
         earned=chosen.share * points if counts else 0.0,
     )
 
 
-def _short(text: str) -> str:
+def _shorten(text: str) -> str:
     return text if len(text) <= LONGEST else f"{text[: LONGEST - 1].rsplit(' ', 1)[0]} …"

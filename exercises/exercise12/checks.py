@@ -43,7 +43,7 @@ REMEMBERED = 16  # searches and fits that are kept while this runs
 
 
 class Answers(StudentAnswers):
-    """What the checks look at."""
+    """The object that the checks read: the answers, and the learner's mechanism."""
 
     names_only = False  # whether only names are asked for, as in a mystery
 
@@ -187,7 +187,7 @@ def _require_narrower(answers: Answers) -> None:
 
 
 def _describe_alone(answers: Answers) -> str:
-    """What the first effect does by itself, as the learner sized it."""
+    """The gap with the first effect alone, in the size that the learner chose."""
     try:
         part = answers.parts[0]
     except WrongAnswer:
@@ -253,7 +253,7 @@ def held_out(answers: Answers) -> str | None:
 
 
 def _check_reported(answers: Answers, *, before: float, after: float) -> None:
-    """Refuse gaps that the learner wrote down and that are not those of this model.
+    """Refuse reported gaps that this model does not have.
 
     Raises:
         WrongAnswer: one of them is another number.
@@ -271,7 +271,7 @@ def _check_reported(answers: Answers, *, before: float, after: float) -> None:
 
 
 def _explain_gap(value: float, *, other: float, validation: float) -> WrongAnswer:
-    """Which gap a wrong one may be.
+    """The other gap that a wrong number may be.
 
     Args:
         value: as the learner wrote it.

@@ -108,7 +108,7 @@ def draw_determined(rng: np.random.Generator, among: Sequence[Recipe]) -> Varian
         rng: the source of chance.
         among: what may be hidden, as in ``HIDDEN``.
     """
-    return draw_until(lambda _: draw_any(rng, among), is_determined, most=50)
+    return draw_until(lambda _: draw_recipe(rng, among), is_determined, most=50)
 
 
 def is_determined(variant: Variant) -> bool:
@@ -142,8 +142,8 @@ def is_determined(variant: Variant) -> bool:
     return min(without) >= least and without[0] >= CLEAR * max(without[1:], default=0.0)
 
 
-def draw_any(rng: np.random.Generator, among: Sequence[Recipe]) -> Variant:
-    """Any mechanism, and its logs."""
+def draw_recipe(rng: np.random.Generator, among: Sequence[Recipe]) -> Variant:
+    """A random mechanism of one of the recipes, and its logs."""
     kind, effects = choose(among, rng)
     mechanism = MECHANISMS[kind].draw(rng)
     for effect, size in effects:

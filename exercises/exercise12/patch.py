@@ -1,4 +1,4 @@
-"""What a learner puts into the model: names in order, and the parameters of each."""
+"""A learner's additions to the model: names in order, and the parameters of each."""
 
 import difflib
 import math
@@ -55,7 +55,7 @@ def _require_effect(name: str) -> None:
         near = difflib.get_close_matches(name, EFFECTS, n=1)
         near = near or [one for one in EFFECTS if name and name in one.split("-")]
         also = f"Did you mean {near[0]}? " if near else ""
-        raise WrongAnswer(f'"{name[:40]}", which is no effect', hint=f"{also}{LIST}.")
+        raise WrongAnswer(f'"{name[:40]}", which is not an effect', hint=f"{also}{LIST}.")
 
 
 def read_parts(names: tuple[str, ...], given: Mapping[str, object], unit: Unit) -> list[Part]:
@@ -92,7 +92,7 @@ def _require_parameters(name: str, table: Mapping[str, object], known: list[str]
         if other not in known:
             own = " and ".join(f"{name}.{one}" for one in known)
             raise WrongAnswer(
-                f"{name}.{shorten(other)}, which is no parameter of {name}",
+                f"{name}.{shorten(other)}, which is not a parameter of {name}",
                 hint=f"It has {own}. Copy the lines that try_it.py prints.",
             )
 
@@ -120,7 +120,7 @@ def _read_value(name: str, known: Parameter, raw: object, unit: Unit) -> float:
 
 
 def find_bound(part: Part) -> str:
-    """The parameter that stands at the end of what is allowed; empty if none does."""
+    """The parameter that has reached the limit of its range; empty if none has."""
     for one in find_effect(part.effect).parameters:
         value = part.parameters[one.name]
         for bound in (one.least, one.most):

@@ -36,7 +36,7 @@ RAMP, TIMEOUT = 0.5, 8.0  # [V/s], [s] of both routines
 
 
 class Answers(StudentAnswers):
-    """What the checks look at."""
+    """The object that the checks read: the answers, and the learner's drive."""
 
     @cached_property
     def key(self) -> AnswerKey:
@@ -85,7 +85,7 @@ def _record_push(variant: Variant, path: Path) -> None:
 
 
 def _describe(variant: Variant) -> str:
-    """What a learner gets to know about the robot, and what was read after the slow spin."""
+    """The facts that a learner reads: the robot, and the readings after the slow spin."""
     drive, rng = variant.drive, np.random.default_rng([variant.seed, 4])
     spin = record_spin(drive, turns=variant.turns, rng=rng, radii=variant.radii)
     motor = drive.motor
@@ -142,7 +142,7 @@ lever = make_number_check(
 
 @check(points=1)
 def rate_unit(answers: Answers) -> None:
-    """What the entry Rotational_Rate is measured in."""
+    """The unit of the entry Rotational_Rate."""
     load_answer_key(__name__).judge_rate_unit(answers.given.get("rate_unit"))
 
 

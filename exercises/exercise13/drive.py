@@ -1,4 +1,4 @@
-"""A learner's swerve drive: what it is, and what it leaves in the files."""
+"""A learner's swerve drive, and its files."""
 
 import math
 from collections.abc import Mapping
@@ -98,7 +98,7 @@ class Variant:
             ("kA", straight["kA"], "V·s²/m", BANDS["kA"]),
             ("worn_radius", self.worn_radius, "m", Band(0.01, 0.02)),
             ("lever", drive.lever_arm, "m", Band(0.01, 0.01)),
-            ("kA_turning", turning["kA"], "V·s²/rad", _ka_band(turning)),
+            ("kA_turning", turning["kA"], "V·s²/rad", _make_ka_band(turning)),
             ("inertia", inertia, "kg·m²", Band(0.08, 0.16)),
             ("slip_current", drive.slip_current, "A", Band(0.06, 0.12)),
             ("top_speed", (BATTERY - straight["kS"]) / straight["kV"], "m/s", Band(0.04, 0.08)),
@@ -107,5 +107,5 @@ class Variant:
         return {name: AskedNumber(name, value, unit, band) for name, value, unit, band in numbers}
 
 
-def _ka_band(gains: Mapping[str, float]) -> Band:
+def _make_ka_band(gains: Mapping[str, float]) -> Band:
     return FAST_KA if gains["kA"] < FAST * gains["kV"] else BANDS["kA"]

@@ -14,7 +14,7 @@ Numbers = dict[str, tuple[Lookalike, ...]]  # name of a number -> what slips mak
 
 
 def list_lookalikes(variant: Variant) -> Numbers:
-    """Name of a number -> what known slips make of it."""
+    """Name of a number -> its values after known slips."""
     asked = {name: one.expected for name, one in variant.asked.items()}
     radius, inertia, lever = asked["worn_radius"], asked["inertia"], asked["lever"]
     turning, straight, mass = asked["kA_turning"], asked["kA"], variant.mass

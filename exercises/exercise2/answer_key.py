@@ -1,4 +1,4 @@
-"""Which causes can be behind a kV, and in which order one looks: cheap things first.
+"""Possible causes behind a kV, and the order to look for them: cheap ones first.
 
 A class's package lacks this module: see ``grader.answers.answer_key``.
 """
@@ -55,7 +55,7 @@ def judge_list(raw: object, variant: Variant) -> None:
     words = sorted(KINDS)
     ask = f'Write at least two, in a list: ["...", "..."]. Choose from: {", ".join(words)}.'
     causes = list(dict.fromkeys(read_choices(raw, words, ask=ask)))
-    refused = {one: why for one in causes if (why := _refused(one, variant))}
+    refused = {one: why for one in causes if (why := _refuse_cause(one, variant))}
     possible = [one for one in causes if one not in refused]
     found = [(f"{one}: {says}", code) for one, (says, code) in refused.items()]
     lost = len(refused)
@@ -106,16 +106,16 @@ def _find_ruling_line(word: str, variant: Variant) -> str:
     return RULED_OUT_BY.get(word, "")
 
 
-def _refused(cause: str, variant: Variant) -> Problem | None:
+def _refuse_cause(cause: str, variant: Variant) -> Problem | None:
     """Why a cause cannot be behind this kV, by physics or by the student's own file."""
     if not is_possible(cause, variant):
-        return _impossible(cause, variant)
+        return _explain_impossible(cause, variant)
     line = _find_ruling_line(cause, variant)
     return (DISAGREES[line], "") if line else None
 
 
 def _explain_order(causes: list[str], variant: Variant) -> str:
-    """What is wrong with the order; the cause that the file shows may also stand first."""
+    """The fault in the order; the cause that the file shows may also stand first."""
     kinds = [KINDS[one] for one in causes]
     rest = kinds[1:] if causes[0] == find_evident(variant) else kinds
     if rest == sorted(rest, key=ORDER.index):
@@ -127,7 +127,7 @@ def _explain_order(causes: list[str], variant: Variant) -> str:
 
 
 def _explain_evidence(causes: list[str], variant: Variant) -> str:
-    """What the list lacks: the cause that the file shows or, on a sound mechanism, two kinds."""
+    """The missing causes: the one that the file shows or, on a sound mechanism, two kinds."""
     evident = find_evident(variant)
     if evident:
         if evident in causes:
@@ -144,7 +144,7 @@ def _explain_evidence(causes: list[str], variant: Variant) -> str:
     return ""
 
 
-def _impossible(cause: str, variant: Variant) -> tuple[str, str]:
+def _explain_impossible(cause: str, variant: Variant) -> tuple[str, str]:
     """Why a cause cannot be behind this kV, and the misconception's code."""
     if cause == "mass":
         return "does a heavier robot need more volts at a steady speed?", "M-KV-MASS"

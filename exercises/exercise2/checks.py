@@ -27,7 +27,7 @@ def make_files(student: str) -> dict[str, Made]:
 
 
 def _describe(variant: Variant) -> str:
-    """What a learner gets to know: parts, log, code, and what the team noticed."""
+    """The facts that a learner reads: parts, log, code, and the team's notes."""
     parts, symbol = variant.parts, variant.symbol
     part = {"drivetrain": "wheel", "elevator": "drum"}.get(variant.kind, variant.kind)
     lines = [
@@ -73,16 +73,16 @@ def kv_theory(answers: StudentAnswers) -> str | None:
 @check(points=2)
 def difference(answers: StudentAnswers) -> None:
     """How far the measured kV is above the theoretical one, in percent."""
-    variant, value, theirs = answers.variant, _percent(answers), _own_theory(answers)
+    variant, value, theirs = answers.variant, _read_percent(answers), _read_theory(answers)
     if _is_accepted(value, answers):
         return
-    if theirs > 0.0 and _near(value, variant.percent(theirs), variant):
+    if theirs > 0.0 and _is_near(value, variant.percent(theirs), variant):
         says = "it follows from your kV_theory, but your kV_theory is not right yet"
-        raise WrongAnswer(_shown(value), hint=says, earned=1.0)
-    raise WrongAnswer(_shown(value), hint=_explain_percent(value, variant))
+        raise WrongAnswer(_format_percent(value), hint=says, earned=1.0)
+    raise WrongAnswer(_format_percent(value), hint=_explain_percent(value, variant))
 
 
-def _own_theory(answers: StudentAnswers) -> float:
+def _read_theory(answers: StudentAnswers) -> float:
     """The student's kV_theory; 0 if it is not a number."""
     try:
         return read_answer_number(answers.given.get("kv_theory"), answers.variant.asked)
@@ -92,18 +92,18 @@ def _own_theory(answers: StudentAnswers) -> float:
 
 def _is_accepted(value: float, answers: StudentAnswers) -> bool:
     """Whether a difference [%] follows from a kV_theory that is right."""
-    variant, theirs = answers.variant, _own_theory(answers)
+    variant, theirs = answers.variant, _read_theory(answers)
     known = (*variant.theories, *((theirs,) if variant.right(theirs) else ()))
-    return any(_near(value, variant.percent(one), variant) for one in known)
+    return any(_is_near(value, variant.percent(one), variant) for one in known)
 
 
-def _shown(percent: float) -> str:
+def _format_percent(percent: float) -> str:
     """A percentage with at most one decimal where it is large, and no powers of ten."""
     size = abs(percent)
     return f"{percent:.4g} %" if size < LARGE or size > LARGEST else f"{percent:.0f} %"
 
 
-def _percent(answers: StudentAnswers) -> float:
+def _read_percent(answers: StudentAnswers) -> float:
     """The student's difference [%].
 
     Raises:
@@ -114,20 +114,20 @@ def _percent(answers: StudentAnswers) -> float:
     return read_answer_number(raw, AskedNumber("difference", 0.0, "", Band(0.0, 0.0)))
 
 
-def _own_difference(answers: StudentAnswers) -> float | None:
+def _read_difference(answers: StudentAnswers) -> float | None:
     try:
-        return _percent(answers)
+        return _read_percent(answers)
     except WrongAnswer:
         return None
 
 
-def _near(value: float, percent: float, variant: Variant) -> bool:
+def _is_near(value: float, percent: float, variant: Variant) -> bool:
     ratio = variant.measured / variant.parts.theoretical_kv
     return abs(value - percent) <= POINT * max(1.0, ratio)
 
 
 def _explain_percent(value: float, variant: Variant) -> str:
-    """What a wrong percentage may have been."""
+    """The likely cause of a wrong percentage."""
     percent = variant.percent(variant.parts.theoretical_kv)
     undone = (
         (100.0 * value, "this is a fraction. Write percent, 100 times as much"),
@@ -142,10 +142,10 @@ def _explain_percent(value: float, variant: Variant) -> str:
         ),
     )
     for once, says in undone:
-        if _near(once, percent, variant):
+        if _is_near(once, percent, variant):
             return says
     of_measured = 100.0 * (1.0 - variant.parts.theoretical_kv / variant.measured)
-    if _near(value, of_measured, variant):
+    if _is_near(value, of_measured, variant):
         return "percent of what? Divide by the theoretical kV, not by the measured one"
     return (
         "outside the accepted ±1 %. Compute measured minus theory, divide by theory, and "
@@ -157,13 +157,13 @@ def _explain_percent(value: float, variant: Variant) -> str:
 def verdict(answers: StudentAnswers) -> None:
     """The verdict on the difference: bookkeeping, ok, watch or inspect."""
     right = answers.variant.verdict
-    theirs = _own_difference(answers)
+    theirs = _read_difference(answers)
     sound = theirs is not None and (theirs < 0.0) == (right == "bookkeeping")
     off = theirs is not None and not any(_is_accepted(one, answers) for one in (theirs, -theirs))
 
     def why(found: str) -> tuple[str, str]:
         if off and theirs is not None and found == find_verdict(theirs):
-            first = "it" if answers.variant.right(_own_theory(answers)) else "kV_theory"
+            first = "it" if answers.variant.right(_read_theory(answers)) else "kV_theory"
             says = "your verdict fits your difference, but your difference is not right yet."
             return f"{says} Correct {first} first", ""
         if right == "bookkeeping":

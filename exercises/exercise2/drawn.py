@@ -76,7 +76,7 @@ def _draw_variant(rng: np.random.Generator) -> Variant | None:
 def _draw_cause(
     cause: str, parts: Parts, ratios: tuple[float, ...], rng: np.random.Generator
 ) -> tuple[float, tuple[str, ...], dict[str, dict[str, str]]]:
-    """By how much kV is off, the words that name why, and what the team can see of it."""
+    """A random error of kV, the words for its cause, and the signs of it that the team sees."""
     factor, words = 1.0 + float(rng.uniform(*FREE_DRAG)), ()
     ratio, radius, battery = parts.ratio, parts.diameter / 2.0, float(rng.uniform(12.2, 12.6))
     drive, logged = "motor.setVoltage(volts)", "the applied volts"

@@ -13,7 +13,7 @@ SLIPS = Slips(Path(__file__).with_name("slips.toml"))
 
 
 def list_lookalikes(variant: Variant) -> tuple[Lookalike, ...]:
-    """What the known slips make of a learner's own parts; the measured kV comes first."""
+    """The results of known slips on a learner's own parts; the measured kV comes first."""
     parts, kv = variant.parts, variant.parts.theoretical_kv
     found = [
         ("measured", variant.measured),

@@ -1,4 +1,4 @@
-"""A team's mechanism: what its parts promise, what its log says, and what came between."""
+"""A team's mechanism: the gains of its parts, its log, and the cause of their difference."""
 
 import math
 from collections.abc import Mapping
@@ -80,7 +80,7 @@ class Variant:
 
     @property
     def asked(self) -> AskedNumber:
-        """The theoretical kV, as it is asked for."""
+        """The requested theoretical kV."""
         return AskedNumber("kV_theory", self.parts.theoretical_kv, f"V·s/{self.symbol}", NEAR)
 
     def right(self, value: float) -> bool:
@@ -93,7 +93,7 @@ class Variant:
         return self.parts.theoretical_kv, self.parts.exact
 
     def percent(self, theory: float) -> float:
-        """How far the measured kV is above a theory [%]."""
+        """[%] difference between the measured kV and a theoretical one."""
         return 100.0 * (self.measured / theory - 1.0)
 
     @property

@@ -24,11 +24,11 @@ ANSWER_NAMES = (
 
 
 class Answers(StudentAnswers):
-    """What the checks look at."""
+    """The object that the checks read: the answers, and the learner's mechanisms."""
 
     @cached_property
     def key(self) -> AnswerKey:
-        """The numbers; who has the offset right goes on with it as they rounded it."""
+        """The right numbers; after a right offset, computed from the learner's rounded offset."""
         offset = self.variant.found["arm_offset"]
         try:
             theirs = read_answer_number(self.given.get("arm_offset"), self.variant.offset)
@@ -45,7 +45,7 @@ def make_files(student: str) -> dict[str, Made]:
 
 
 def _describe(variant: Variant) -> str:
-    """What a learner gets to know: the voltages, nothing else."""
+    """The facts that a learner reads: the voltages."""
     rows = "".join(
         f"  [{hold.reading:5.0f}, {hold.lower:5.2f}, {hold.upper:5.2f}],\n" for hold in variant.arm
     )
@@ -65,7 +65,7 @@ hold = [
 
 
 def consequence(answers: Answers) -> Consequence | None:
-    """What the learner's numbers would do on their elevator and their arm."""
+    """The motion of elevator and arm under the learner's numbers."""
     return find_outcome(answers.given, answers.variant)
 
 

@@ -33,7 +33,7 @@ class Hold:
 
 @dataclass(frozen=True)
 class Variant:
-    """One learner's elevator and arm: what was read, and the truth."""
+    """One learner's elevator and arm: the readings, and the true gains."""
 
     elevator: Hold
     arm: tuple[Hold, ...]
@@ -42,7 +42,7 @@ class Variant:
 
     @property
     def found(self) -> dict[str, float]:
-        """What a learner finds who does as the last hint says [V, and deg]."""
+        """The numbers that the method of the last hint gives [V, and deg]."""
         by_reading = {hold.reading: hold for hold in self.arm}
         level, (side,) = by_reading[0.0], {-90.0, 90.0} & by_reading.keys()
         sine = -by_reading[side].middle * math.copysign(1.0, side)

@@ -1,4 +1,4 @@
-"""What a learner's gravity and friction would do: an elevator and an arm that go up and come down.
+"""The motion of an elevator and an arm under a learner's gravity and friction.
 
 Nobody asks for kV and kA here, so the feedforward has the right ones; both follow from the parts
 that the course's own elevator and arm are made of, and kA from kG: the same mass makes both.
@@ -24,7 +24,7 @@ ROOM = {"elevator": (0.0, 1.3), "arm": (-math.pi / 4, math.pi / 2)}  # [m, rad f
 
 
 def find_outcome(given: Mapping[str, object], variant: Variant) -> Consequence | None:
-    """What the numbers would do; None where none is wrong, or too few are there."""
+    """The motion under the numbers; None if all are right, or too few are answered."""
     found = list(_follow_profiles(given, variant))
     return follow_profiles(found) if found else None
 

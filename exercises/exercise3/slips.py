@@ -14,7 +14,7 @@ SLIPS = Slips(Path(__file__).with_name("slips.toml"))
 
 
 def make_key(variant: Variant, *, offset: float) -> AnswerKey:
-    """What is asked for, with what slips would give who uses this offset [deg]."""
+    """The right numbers, with the results of slips under this offset [deg]."""
     others = {"elevator": "arm", "arm": "elevator"}
     rarer = {
         f"{mine}_{gain}": SLIPS.list_lookalikes(
@@ -59,7 +59,7 @@ def _earns_nothing(name: str, likely: Lookalike, key: AnswerKey) -> bool:
 def _list_lookalikes(
     variant: Variant, offset: float
 ) -> Iterator[tuple[str, tuple[Lookalike, ...]]]:
-    """Gain -> what the known slips make of the learner's own numbers [V]."""
+    """Gain -> the results of known slips on the learner's own numbers [V]."""
     level = next(hold for hold in variant.arm if hold.reading == 0.0)
     found = variant.found
     for name, rows in {"elevator": (variant.elevator,), "arm": variant.arm}.items():
@@ -83,7 +83,7 @@ def _list_lookalikes(
 
 
 def find_offset_slip(value: float, variant: Variant) -> WrongNumber | None:
-    """What a wrong offset [deg] may have been."""
+    """The likely cause of a wrong offset [deg]."""
     right_if_undone = (
         ("sign", -value),
         ("radians", math.degrees(value)),

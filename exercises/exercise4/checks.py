@@ -12,8 +12,8 @@ from grader.robotcode.checks.routine import (
     ConfigSetting,
     check_assembled,
     check_driven,
-    check_found,
     check_open_loop,
+    check_routine_found,
 )
 from grader.robotcode.running import Runs, judge_runs, run_routine
 
@@ -36,7 +36,7 @@ FULL_BATTERY = 13.0  # [V] more than any battery of a robot has
 
 
 def read(path: Path, *, student: str, run: bool = True) -> Runs:  # noqa: ARG001 - one task for all
-    """What the program does.
+    """The facts about the program's routine.
 
     Args:
         path: the file.
@@ -50,7 +50,7 @@ def read(path: Path, *, student: str, run: bool = True) -> Runs:  # noqa: ARG001
     return run_routine(path, mounts=MOUNTS, task=TASK, run=run)
 
 
-def _both(runs: Runs, judge: Callable[[RoutineFacts], str | None]) -> str | None:
+def _judge_both_runs(runs: Runs, judge: Callable[[RoutineFacts], str | None]) -> str | None:
     """Judge the program under both values of each condition that is not known."""
     return judge_runs(runs, judge)
 
@@ -58,7 +58,7 @@ def _both(runs: Runs, judge: Callable[[RoutineFacts], str | None]) -> str | None
 @check(points=1)
 def routine(runs: Runs) -> str | None:
     """Your subsystem makes a SysIdRoutine."""
-    return _both(runs, check_found)
+    return _judge_both_runs(runs, check_routine_found)
 
 
 def _number(
@@ -69,7 +69,7 @@ def _number(
     def look(facts: RoutineFacts) -> str | None:
         return wanted.check(facts, getattr(facts, name), advice=partial(advice, facts))
 
-    return _both(runs, look)
+    return _judge_both_runs(runs, look)
 
 
 @check(points=1, after=routine)
@@ -111,13 +111,15 @@ def timeout(runs: Runs) -> str | None:
 @check(points=3, after=routine)
 def drive(runs: Runs) -> str | None:
     """The drive callback sends its voltage to every motor, as a voltage."""
-    return _both(runs, lambda one: check_driven(one, points=3, mirrored=one.name != TASK))
+    return _judge_both_runs(
+        runs, lambda one: check_driven(one, points=3, mirrored=one.name != TASK)
+    )
 
 
 @check(points=3, after=routine)
 def log(runs: Runs) -> str | None:
     """The log callback records the motor's name, position, velocity and applied voltage."""
-    return _both(
+    return _judge_both_runs(
         runs, lambda one: check_logged(one, points=3, demanded=SIDES if one.name == TASK else 0)
     )
 
@@ -132,16 +134,16 @@ def units(runs: Runs) -> str | None:
             one, mechanism="Drivetrain" if task else one.name, scales=METERS if task else {}
         )
 
-    return _both(runs, look)
+    return _judge_both_runs(runs, look)
 
 
 @check(points=1, after=routine)
 def assembled(runs: Runs) -> str | None:
     """The parts are in their places: Config, Mechanism, and the subsystem itself."""
-    return _both(runs, check_assembled)
+    return _judge_both_runs(runs, check_assembled)
 
 
 @check(points=2, after=routine)
 def open_loop(runs: Runs) -> str | None:
     """The drive callback uses no closed loop and no duty cycle."""
-    return _both(runs, check_open_loop)
+    return _judge_both_runs(runs, check_open_loop)

@@ -25,7 +25,7 @@ WAYS = (
 
 
 def read(path: Path, *, student: str, run: bool = True) -> Runs:  # noqa: ARG001 - one task for everyone
-    """What the buttons of the program do.
+    """The facts about the program's buttons.
 
     Args:
         path: the file.
@@ -39,12 +39,12 @@ def read(path: Path, *, student: str, run: bool = True) -> Runs:  # noqa: ARG001
     return run_buttons(path, run=run)
 
 
-def _missing(facts: ButtonFacts) -> list[str]:
+def _list_missing_tests(facts: ButtonFacts) -> list[str]:
     """The tests that no button runs."""
     return [one for one in TESTS if one not in {press.test for press in facts.presses}]
 
 
-def _reached(facts: ButtonFacts) -> None:
+def _check_reached(facts: ButtonFacts) -> None:
     """Look no further where no button runs a test.
 
     Raises:
@@ -57,10 +57,10 @@ def _reached(facts: ButtonFacts) -> None:
 @check(points=2)
 def factories(runs: Runs) -> str | None:
     """Public methods of the subsystem make the commands of all four tests."""
-    return judge_runs(runs, _factories)
+    return judge_runs(runs, _check_factories)
 
 
-def _factories(facts: ButtonFacts) -> None:
+def _check_factories(facts: ButtonFacts) -> None:
     made = {test for one in facts.factories for test in one.tests}
     public = {test for one in facts.factories if one.public for test in one.tests}
     if public >= set(TESTS):
@@ -88,10 +88,10 @@ def _factories(facts: ButtonFacts) -> None:
 @check(points=3)
 def held(runs: Runs) -> str | None:
     """Each of the four tests runs only while its own button is held."""
-    return judge_runs(runs, _held)
+    return judge_runs(runs, _check_held)
 
 
-def _held(facts: ButtonFacts) -> None:
+def _check_held(facts: ButtonFacts) -> None:
     faults = {one.test: next(_list_faults(one, facts), None) for one in facts.presses}
     share = 0.0
     for one in facts.presses:
@@ -109,7 +109,7 @@ def _held(facts: ButtonFacts) -> None:
     for _, seen, hint in (fault for fault in faults.values() if fault is not None):
         check_compiles(facts, earned=earned)
         raise WrongAnswer(seen, hint=hint, earned=earned)
-    lacking = _missing(facts)
+    lacking = _list_missing_tests(facts)
     if not lacking:
         check_compiles(facts, earned=1)
         return
@@ -118,7 +118,7 @@ def _held(facts: ButtonFacts) -> None:
 
 
 def _list_faults(one: Press, facts: ButtonFacts) -> Iterator[tuple[bool, str, str]]:
-    """What is wrong with how a test is held, the worst first.
+    """Faults in how a test is held, the worst first.
 
     Yields:
         Whether it starts at all, what is seen, and the advice.
@@ -140,7 +140,7 @@ def _list_faults(one: Press, facts: ButtonFacts) -> Iterator[tuple[bool, str, st
             ),
         )
     if one.stayed:
-        yield _describe_stay(one, f"{test} goes on when the button is released{at}")
+        yield _describe_stay(one, f"{test} continues when the button is released{at}")
     if one.how in {"onFalse", "whileFalse", "toggleOnFalse"}:
         yield False, f"{test} starts when the button is released{at}", "Use whileTrue()."
     if one.delay > LATE:
@@ -196,7 +196,7 @@ def _describe_stay(one: Press, seen: str) -> tuple[bool, str, str]:
 
 
 def _is_shorter(one: Press, facts: ButtonFacts) -> bool:
-    """Whether a test ends before the others, or so soon that no timeout is meant."""
+    """Whether a test ends before the others, and too early for a timeout."""
     longest = max((press.lasted for press in facts.presses), default=0.0)
     return one.lasted < 3.0 or one.lasted < EARLY * min(longest, TIMEOUT)  # [s] no ramp is so short
 
@@ -243,24 +243,24 @@ def _explain_missing(facts: ButtonFacts, lacking: list[str], earned: float) -> N
 @check(points=1)
 def each_once(runs: Runs) -> str | None:
     """Every test is there once: two kinds, two directions."""
-    return judge_runs(runs, _each_once)
+    return judge_runs(runs, _check_each_once)
 
 
-def _each_once(facts: ButtonFacts) -> None:
-    _reached(facts)
+def _check_each_once(facts: ButtonFacts) -> None:
+    _check_reached(facts)
     for one in facts.presses:
         if sequence := _describe_sequence(one, facts):
             raise WrongAnswer(sequence[0], hint=sequence[1])
     bound = {line for _, line in facts.made}
     for test in TESTS:
         lines = sorted({line for made, line in facts.made if made == test and line in bound})
-        if len(lines) > 1 and _missing(facts):
+        if len(lines) > 1 and _list_missing_tests(facts):
             raise WrongAnswer(
                 f"{list_tests([test])} twice: {' and '.join(f'line {line}' for line in lines)}",
                 hint="Did you copy a line and forget to change it? Check the kind and the "
                 "direction in both lines.",
             )
-    lacking = _missing(facts)
+    lacking = _list_missing_tests(facts)
     if lacking:
         only = {one.rpartition("-")[2] for one in lacking} == {"reverse"}
         raise WrongAnswer(
@@ -276,11 +276,11 @@ def _each_once(facts: ButtonFacts) -> None:
 @check(points=2)
 def comments(runs: Runs) -> str | None:
     """A comment next to each binding says which test it is and what that measures."""
-    return judge_runs(runs, _comments)
+    return judge_runs(runs, _check_comments)
 
 
-def _comments(facts: ButtonFacts) -> None:
-    _reached(facts)
+def _check_comments(facts: ButtonFacts) -> None:
+    _check_reached(facts)
     wrong: list[WrongAnswer] = []
     for one in facts.presses:
         try:
@@ -302,7 +302,7 @@ def guard(runs: Runs) -> str | None:
 def _guard(facts: ButtonFacts) -> str | None:
     if not facts.presses:
         _check_asked_once(facts)
-    _reached(facts)
+    _check_reached(facts)
     for said, line in facts.elsewhere:
         if said.startswith(("autonomous", "the program")):
             raise WrongAnswer(

@@ -35,13 +35,13 @@ class Choice:
     also: Mapping[str, str] = field(default_factory=dict)
 
 
-def _decision(item: str) -> Choice:
+def _make_decision(item: str) -> Choice:
     says = f"{item}: {WHY[item]} Read that line of your morning once more"
     also = {"yes": "go", "no": "no-go", "stop": "no-go"}
     return Choice(DECISIONS, lambda _: (says, ""), also=also)
 
 
-def _folder_2026(found: str) -> tuple[str, str]:
+def _explain_folder_2026(found: str) -> tuple[str, str]:
     if "systemcore" in found:
         return "that is on another controller than the roboRIO", ""
     if found.endswith("deploy"):
@@ -49,7 +49,7 @@ def _folder_2026(found: str) -> tuple[str, str]:
     return "does your roboRIO have a USB stick? A log goes there first, if there is one", ""
 
 
-def _folder_2027(found: str) -> tuple[str, str]:
+def _explain_folder_2027(found: str) -> tuple[str, str]:
     if found.startswith("/u/"):
         return (
             "that is the folder of a USB stick; the question is about a Systemcore without one"
@@ -64,7 +64,7 @@ def _limit(found: str) -> tuple[str, str]:
     return who, "M-LIMITS-BYPASSED" if found == "bypassed" else ""
 
 
-def _season(found: str) -> tuple[str, str]:
+def _explain_season(found: str) -> tuple[str, str]:
     if found == "kickoff-week":
         return "the friction and the weight of the robot will still change", ""
     if found == "after-the-season":
@@ -76,14 +76,14 @@ def _season(found: str) -> tuple[str, str]:
 
 
 CHOICES: Mapping[str, Choice] = {
-    **{f"check_{item}": _decision(item) for item in SEEN},
-    "log_2026": Choice(FOLDERS, _folder_2026),
-    "log_2027": Choice(FOLDERS, _folder_2027, always="/home/systemcore/logs"),
+    **{f"check_{item}": _make_decision(item) for item in SEEN},
+    "log_2026": Choice(FOLDERS, _explain_folder_2026),
+    "log_2027": Choice(FOLDERS, _explain_folder_2027, always="/home/systemcore/logs"),
     "limit_a": Choice(("acts", "bypassed"), _limit),
     "limit_b": Choice(("acts", "bypassed"), _limit),
     "schedule": Choice(
         ("kickoff-week", "last-two-weeks-of-build-season", "first-regional", "after-the-season"),
-        _season,
+        _explain_season,
         always="last-two-weeks-of-build-season",
         also={"last-two-weeks": "last-two-weeks-of-build-season"},
     ),

@@ -36,7 +36,7 @@ ANSWER_NAMES = (
 
 
 class Answers(StudentAnswers):
-    """What the checks look at."""
+    """The object that the checks read: the answers, and the learner's mechanisms."""
 
     @property
     def morning(self) -> Any:  # noqa: ANN401 - of a module that a class's package lacks
@@ -55,7 +55,7 @@ def make_files(student: str) -> dict[str, Made]:
 
 
 def _describe_morning(morning: Any) -> list[str]:  # noqa: ANN401 - of a module that a class's package lacks
-    """What is seen on the morning of the tests."""
+    """The things that are seen on the morning of the tests."""
     lines = ["", "[morning]  # what you see on the morning of the tests"]
     lines += [f'{item} = "{seen}"' for item, seen in morning.seen.items()]
     stick = "a USB stick, formatted as FAT32," if morning.stick else "no USB stick"
@@ -93,7 +93,7 @@ def _describe_machine(machine: Machine) -> list[str]:
 
 
 def consequence(answers: Answers) -> Consequence | None:
-    """What the learner's plans would do in the room there is."""
+    """The motion of the learner's plans in the available space."""
     plans = {}
     for kind, machine in answers.variant.machines.items():
         with suppress(WrongAnswer):

@@ -131,7 +131,7 @@ def _describe_mechanism(kind: str, built: Mechanism, rng: np.random.Generator) -
 
 
 def find_steps(machine: Machine) -> tuple[float, float]:
-    """[V] the smallest and the largest step that is allowed, whatever the travel."""
+    """[V] the smallest and the largest step that is allowed for any travel."""
     low = machine.hold + SIGNAL * machine.scatter * machine.ka
     return low, min(12.0 * machine.limit / machine.stall, GRIP * machine.slip)
 

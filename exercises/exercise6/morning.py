@@ -17,7 +17,7 @@ LEAST_BAD, MOST_BAD = 2, 4  # items that say no-go
 
 @dataclass(frozen=True)
 class Morning:
-    """What a learner sees that morning.
+    """The things that a learner sees that morning.
 
     Args:
         seen: item -> what is seen.

@@ -1,4 +1,4 @@
-"""What a learner's plans would do: the run each test takes, and the travel there is."""
+"""The motion of a learner's plans: the travel of each test, and the available travel."""
 
 import math
 from collections.abc import Iterator, Mapping
@@ -18,7 +18,7 @@ TESTS = {"the ramp": quasistatic, "the step": dynamic}
 
 
 def find_outcome(plans: Mapping[str, Plan], machines: Mapping[str, Machine]) -> Consequence | None:
-    """What goes too far; None where nothing does.
+    """The test that travels too far; None if none does.
 
     Args:
         plans: those that can be read, by mechanism.
@@ -71,7 +71,7 @@ def _find_end(test: Test) -> float:
 
 
 def _simulate_run(test: Test, time: tuple[float, ...]) -> tuple[float, ...]:
-    """Where it is: driven, then with 0 V in brake mode, until it stands."""
+    """The positions of a run: driven, then with 0 V in brake mode until it stands."""
     machine, places, ends = test.machine, [], test.still + test.lasts
     gains = {"kS": machine.hold, "kV": machine.kv, "kA": machine.ka}  # on its way up: all hold it
     moving = MovingPlant(

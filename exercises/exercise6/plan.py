@@ -1,4 +1,4 @@
-"""What a test does to a mechanism, in closed form, from rest until it stands again.
+"""The motion of a mechanism in a test, in closed form, from rest to rest.
 
     kA·v' = c + r·t - kV·v        from the moment it moves; c volts of push, r of ramp
     v(t) = (c·e + r·(t - τ·e))/kV                with e = 1 - exp(-t/τ), τ = kA/kV
@@ -21,7 +21,7 @@ HALVINGS = 60  # of an interval: as exact as a number gets
 
 @dataclass(frozen=True)
 class Machine:
-    """What a learner knows of one mechanism.
+    """The facts about one mechanism that a learner knows.
 
     Args:
         kind: ``drivetrain``.
@@ -50,12 +50,12 @@ class Machine:
 
     @property
     def tau(self) -> float:
-        """[s] in which it nearly follows its voltage."""
+        """[s] time constant of the velocity, kA over kV."""
         return self.ka / self.kv
 
     @property
     def hold(self) -> float:
-        """[V] that it needs before it moves."""
+        """[V] voltage at which it begins to move, kS + kG."""
         return self.ks + self.kg
 
     @property
@@ -65,7 +65,7 @@ class Machine:
 
     @property
     def slip(self) -> float:
-        """[V] at which the wheels spin, from standstill."""
+        """[V] voltage at which the wheels spin from standstill."""
         return self.ks + self.ka * self.grip * GRAVITY if self.grip else math.inf
 
     @property
@@ -85,14 +85,14 @@ class Machine:
         return (push * (time - tau * e) + ramp * risen) / self.kv
 
     def stops_in(self, speed: float) -> float:
-        """How far it goes on with 0 V in brake mode."""
+        """The braking distance with 0 V in brake mode."""
         wall = self.hold / self.kv
         return self.tau * (speed - wall * math.log1p(speed / wall))
 
 
 @dataclass(frozen=True)
 class Plan:
-    """What a learner chose: V/s, V, s, and the mark at which the button is let go."""
+    """A learner's choices: V/s, V, s, and the position at which the button is released."""
 
     ramp: float
     step: float
@@ -124,7 +124,7 @@ class Test:
 
     @cached_property
     def lasts(self) -> float:
-        """[s] that it moves with a voltage on."""
+        """[s] duration of the driven motion."""
         longest = max(self.timeout - self.still, 0.0)
         if self.place(longest) <= self.release:
             return longest
@@ -137,12 +137,12 @@ class Test:
 
     @property
     def fastest(self) -> float:
-        """The speed at its end."""
+        """The speed at the end of the driven motion."""
         return self.speed(self.lasts)
 
     @property
     def rests(self) -> float:
-        """How far from its start it stands again."""
+        """The distance from the start at which it stands again."""
         return self.place(self.lasts) + self.machine.stops_in(self.fastest)
 
     def speed(self, time: float) -> float:
@@ -154,7 +154,7 @@ class Test:
         return self.machine.place(self.push, self.ramp, time)
 
     def when(self, what: Callable[[float], float], value: float) -> float:
-        """[s] of moving after which a speed or a place is reached; they only grow."""
+        """[s] time of motion after which an increasing quantity reaches a value."""
         low, high = 0.0, 1.0
         while what(high) < value:
             high *= 2.0

@@ -64,7 +64,7 @@ class Drive(Subsystem):
         self.right.setVoltage(voltage)
 
     def applied_voltage(self) -> float:
-        """[V] that the motors get."""
+        """[V] voltage at the motors."""
         return float(self.left.get() * RobotController.getBatteryVoltage())
 
     def record(self, log: SysIdRoutineLog) -> None:
@@ -81,7 +81,7 @@ class Drive(Subsystem):
 
 
 class Bench:
-    """What the motors move.
+    """The mechanism that the motors move.
 
     Args:
         drive: the subsystem.

@@ -1,4 +1,4 @@
-"""What a plan has to keep, each rule with its figure, and what the robot would do otherwise."""
+"""The rules of a plan with their figures, and the sentences about broken ones."""
 
 import math
 from collections.abc import Iterator
@@ -19,7 +19,7 @@ CLEARLY = 10.0  # [travels] a mark beyond the end is less of a slip of the pen t
 
 @dataclass(frozen=True)
 class BrokenRule:
-    """A rule that a plan breaks: what is told, and the misconception's code, or empty."""
+    """A rule that a plan breaks: its message, and the misconception's code, or empty."""
 
     says: str
     misconception: str = ""

@@ -87,7 +87,7 @@ def draw(student: str) -> tuple[Case, ...]:
 
 
 def _plan(rng: np.random.Generator) -> list[tuple[str, ...]]:
-    """Which faults strike which log; the first has one that the lesson names."""
+    """The faults of each log; the first log has one that the lesson names."""
     first, *lesson = (str(name) for name in rng.permutation(LESSON))
     sound = int(rng.choice(SOUND))
     twice = str(rng.choice(TWICE))
@@ -137,11 +137,11 @@ def _draw_log(
     struck = [{part.run for part in one.where} for one in damage]
     if len(struck) > 1 and set.intersection(*struck):
         return None
-    return Case(_as_written(log), tuple(damage))
+    return Case(_round_as_written(log), tuple(damage))
 
 
-def _as_written(log: Log) -> Log:
-    """The log with the times that a file holds: what is found in it must be found in the file."""
+def _round_as_written(log: Log) -> Log:
+    """The log with its times as the file holds them, so that faults are found in both."""
     runs = (replace(run, time=np.round(run.time * TICKS) / TICKS) for run in log.runs)
     return replace(log, runs=tuple(runs))
 

@@ -1,4 +1,4 @@
-"""What a learner is told about a wrong log: how their fault would look, and where to look next.
+"""Feedback on a wrong log: how the claimed fault would look, and where to look next.
 
 Nothing here names what it really is.
 """
@@ -19,7 +19,7 @@ def list_actions(fault: str) -> list[str]:
 
 
 def explain_wrong_samples(fault: str) -> str:
-    """Which samples count as wrong, where that is a question; else nothing."""
+    """The samples that count as wrong, if that can be doubtful; else empty."""
     place: str = _TEXTS["faults"][fault].get("place", "")
     return place
 
@@ -32,12 +32,12 @@ def explain_mixed_up(said: str, really: str) -> str:
 
 
 def explain_false_alarm(said: str) -> str:
-    """How a fault would look, if it were there."""
+    """The look of a fault, for a log that does not have it."""
     return f"{said} would look like this: {_TEXTS['faults'][said]['looks']}."
 
 
 def explain_overlooked(really: str) -> str:
-    """What to say of a fault that nobody named."""
+    """Feedback about a fault that the learner overlooked."""
     return (
         "Something is wrong here. The R² may be good anyway: look at the signals. "
         f"{_TEXTS['faults'][really]['plot']}"

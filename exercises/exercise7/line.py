@@ -1,4 +1,4 @@
-"""One line of an answer: what is wrong with a log, where, and what to do, in any order.
+"""One line of an answer: the fault, its place, and the action, in any order.
 
     log04 = "hard-stop, dynamic-forward, 1.20 to 1.66, trim"
 
@@ -29,7 +29,7 @@ Span = tuple[int, float, float]  # which run, from [s], to [s] in the log's own 
 
 @dataclass(frozen=True)
 class Claim:
-    """What a learner says about one fault.
+    """A learner's claim about one fault.
 
     Args:
         fault: one of ``FAULTS``, or ``CLEAN``.
@@ -51,7 +51,7 @@ class Claim:
         return all(place in ("whole", *test.split("-")) for place in self.places)
 
     def spans(self, log: Log, *, whole: bool) -> list[list[Span]]:
-        """The parts of a log that may be meant; none if no place was given.
+        """The parts of a log that a claim may refer to; none if it names no place.
 
         Args:
             log: which the claim is about.
@@ -106,22 +106,22 @@ def read_claims(raw: object) -> tuple[Claim, ...]:
     parts = raw if isinstance(raw, list) else [raw]
     if not all(isinstance(part, str) for part in parts):
         raise WrongAnswer(
-            f"{raw}, which is not text in quotes", hint=f"Write words in quotes. {_listed()}"
+            f"{raw}, which is not text in quotes", hint=f"Write words in quotes. {_list_words()}"
         )
     said = [part for whole in parts for part in re.split(r"[+;&\n]|\band\b", whole)]
-    claims = tuple(_claim(part) for part in said if part.strip())
+    claims = tuple(_parse_claim(part) for part in said if part.strip())
     if not claims or len(claims) > MANY:
-        raise WrongAnswer(f"{len(claims)} faults", hint=f"Name those you can see. {_listed()}")
+        raise WrongAnswer(f"{len(claims)} faults", hint=f"Name those you can see. {_list_words()}")
     if len(claims) > 1 and any(one.fault == CLEAN for one in claims):
         raise WrongAnswer(f'"{CLEAN}" and a fault', hint="It cannot be both. Write only one.")
     return claims
 
 
-def _listed() -> str:
+def _list_words() -> str:
     return f"Choose one of: {', '.join((CLEAN, *FAULTS))}."
 
 
-def _claim(text: str) -> Claim:
+def _parse_claim(text: str) -> Claim:
     left = re.sub(r"[\s_]+", " ", text.lower().replace("backward", "reverse"))
     faults, left = _take(left, (CLEAN, *FAULTS))
     actions, left = _take(left, tuple(ACTIONS))
@@ -131,13 +131,13 @@ def _claim(text: str) -> Claim:
     shown = f'"{shorten(text)}"'
     if unknown:
         hint = (
-            f"What is wrong? {_listed()} Where? One of: {', '.join(PLACES)}. What to do? One of: "
-            f"{', '.join(ACTIONS)}."
+            f"What is wrong? {_list_words()} Where? One of: {', '.join(PLACES)}. What to do? "
+            f"One of: {', '.join(ACTIONS)}."
         )
         raise WrongAnswer(f'{shown}, in which "{shorten(unknown[0])}" is not known', hint=hint)
     if len(faults) != 1:
         raise WrongAnswer(
-            f"{shown}, with {len(faults) or 'no'} faults in it", hint=_one_each(faults)
+            f"{shown}, with {len(faults) or 'no'} faults in it", hint=_format_examples(faults)
         )
     if len(actions) > 1:
         raise WrongAnswer(f"{shown}, with {len(actions)} actions", hint="Write only one.")
@@ -149,8 +149,8 @@ def _claim(text: str) -> Claim:
     return Claim(faults[0], tuple(places), span, "".join(actions))
 
 
-def _one_each(faults: Sequence[str]) -> str:
-    return "Put a + between two faults, each with its own place." if faults else _listed()
+def _format_examples(faults: Sequence[str]) -> str:
+    return "Put a + between two faults, each with its own place." if faults else _list_words()
 
 
 def _take(text: str, words: Sequence[str]) -> tuple[list[str], str]:

@@ -65,26 +65,26 @@ def main(log: str, test: str, begin: float, end: float, student: str, *, page: b
     try:
         found = read(place)
         if page:
-            serve_page([place], view=PageView(raw=True, span_text=_span_text(place)))
+            serve_page([place], view=PageView(raw=True, span_text=_load_span_text(place)))
             return
         runs = [run for run in found.runs if test in ("", run.test)]
         picture = draw_signals(found, runs, begin=begin, end=end)
-        target = place.with_name(f"{place.stem}{_suffix(test, begin, end)}.svg")
+        target = place.with_name(f"{place.stem}{_make_suffix(test, begin, end)}.svg")
         picture.save(target)
     except Refusal as refusal:
         raise click.ClickException(str(refusal)) from None
     click.echo(f"{picture.alt} Open {target} in a browser.")
 
 
-def _span_text(place: Path) -> SpanText:
-    """How a marked part is written in the answers of the exercise that a log belongs to."""
+def _load_span_text(place: Path) -> SpanText:
+    """The function that writes a marked part as the exercise of the log reads it."""
     if "exercise8" in place.resolve().parts:
         return PARTS
     return NAMED_FAULTS if re.fullmatch(r"log\d\d", place.stem) else FAULTS
 
 
-def _suffix(test: str, begin: float, end: float) -> str:
-    """What the picture of a part is called after its log: the test, and the times if it has any."""
+def _make_suffix(test: str, begin: float, end: float) -> str:
+    """The suffix for the picture of a part: the test, and the times if there are any."""
     times = (
         "" if (begin, end) == (0.0, ALL) else f"-{begin:g}-{end:g}" if end < ALL else f"-{begin:g}"
     )
@@ -116,7 +116,7 @@ def draw_signals(
     for column, run in enumerate(runs):
         since = run.time - run.time[0]
         kept = (since >= begin) & (since <= end)
-        signals = _signals(run, unit.si)
+        signals = _list_signals(run, unit.si)
         shown.append([signal[kept] for signal in signals])
         style = "o-" if kept.sum() <= DOTS else "-"
         for row, signal in enumerate(signals):
@@ -126,9 +126,9 @@ def draw_signals(
                 axes.set_ylabel(names[row], color=INK)
         grid[0][column].set_title(run.test, fontsize=10, color=INK)
         grid[-1][column].set_xlabel("time since the test began [s]", color=INK)
-    whole = [_signals(run, unit.si) for run in log.runs]
+    whole = [_list_signals(run, unit.si) for run in log.runs]
     for row, axes_of_row in enumerate(grid):
-        limits = _limits([one[row] for one in shown], [one[row] for one in whole])
+        limits = _choose_limits([one[row] for one in shown], [one[row] for one in whole])
         if row == len(grid) - 1:
             typical = np.nanmedian(np.concatenate([one[row] for one in whole]))
             limits = (0.0, max(limits[1], STEPS * float(typical)))
@@ -138,22 +138,22 @@ def draw_signals(
     return Picture(figure, f"Voltage, velocity, position and time steps of {said}.")
 
 
-def _signals(run: "Run", si: float) -> "tuple[Array, Array, Array, Array]":
+def _list_signals(run: "Run", si: float) -> "tuple[Array, Array, Array, Array]":
     """(n,) voltage [V], velocity and position in the log's own unit, time steps [ms]."""
     step = np.diff(run.time, prepend=np.nan) * 1e3  # the first sample has none before it
     return run.voltage, run.velocity / si, run.position / si, step
 
 
-def _limits(shown: "list[Array]", whole: "list[Array]") -> tuple[float, float]:
-    """The ends of an axis for what is shown of a signal, and no closer than its noise deserves."""
-    low, high = _range(shown)
-    least, most = _range(whole)
+def _choose_limits(shown: "list[Array]", whole: "list[Array]") -> tuple[float, float]:
+    """The limits of an axis for a signal, but no narrower than its noise deserves."""
+    low, high = _find_range(shown)
+    least, most = _find_range(whole)
     middle, width = (low + high) / 2, max(high - low, CLOSEST * (most - least)) or 1.0
     half = (0.5 + MARGIN) * width
     return middle - half, middle + half
 
 
-def _range(several: "list[Array]") -> tuple[float, float]:
+def _find_range(several: "list[Array]") -> tuple[float, float]:
     """The least and the largest number of all that are numbers; zero twice if none is."""
     every = np.concatenate(several)
     every = every[np.isfinite(every)]

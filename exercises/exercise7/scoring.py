@@ -1,4 +1,4 @@
-"""Compare what was said about one log with the truth about it."""
+"""Compare the claims about one log with the truth."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -22,7 +22,7 @@ FALSE_ALARM = 0.5  # points off for each fault where there is none
 
 @dataclass(frozen=True)
 class Score:
-    """What a line earns, and what to say; nothing to say if all is right."""
+    """The points of a line, and its feedback; empty if all is right."""
 
     points: float
     hint: str
@@ -64,7 +64,7 @@ def _pair_claims(
         pairs.append((damaged, named[0] if named else None))
         left = [one for one in left if one not in named[:1]]
     for index, (damaged, found) in enumerate(pairs):
-        there = [one for one in left if not found and _overlap(one, damaged, case) > 0.0]
+        there = [one for one in left if not found and _measure_overlap(one, damaged, case) > 0.0]
         if there:  # seen, but taken for something else
             pairs[index] = (damaged, there[0])
             left.remove(there[0])
@@ -75,7 +75,7 @@ def _judge_claim(claim: Claim | None, damaged: Damaged, case: Case) -> tuple[flo
     """Share of a fault's points, and what to say."""
     if claim is None:
         return 0.0, explain_overlooked(damaged.fault)
-    placed = _overlap(claim, damaged, case) >= NEAR
+    placed = _measure_overlap(claim, damaged, case) >= NEAR
     share = PLACE * placed
     if claim.fault != damaged.fault:
         return share, explain_mixed_up(claim.fault, damaged.fault)
@@ -123,12 +123,12 @@ def _explain_place(claim: Claim, *, whole: bool, lasts: float) -> str:
 
 def _explain_alarm(claim: Claim) -> str:
     return (
-        f"{explain_false_alarm(claim.fault)} Can you find that in a plot? What looks odd may be "
+        f"{explain_false_alarm(claim.fault)} Can you find that in a plot? Something odd may be "
         "normal for a good mechanism. Does it look the same in the other direction?"
     )
 
 
-def _overlap(claim: Claim, damaged: Damaged, case: Case) -> float:
+def _measure_overlap(claim: Claim, damaged: Damaged, case: Case) -> float:
     """Shared over covered time, of the better way to read the claim; 1 where both ends are near."""
     truth = [(part.run or 0, part.start, part.end) for part in damaged.where]
     if damaged.whole:

@@ -1,4 +1,4 @@
-"""Which part of a preparation is to blame for a gain: the one whose repair helps it most."""
+"""The part of a preparation that spoils a gain most: the one whose repair helps most."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -34,20 +34,20 @@ LOW = (
 
 
 def blame(gain: str, variant: Variant, preparation: Preparation) -> Said:
-    """What to say about a gain that came out wrong; nothing if no one part explains it."""
+    """Feedback about a wrong gain; empty if no single part explains it."""
     errors = [
-        (_error(gain, variant, repaired), says)
-        for repaired, says in _repairs(variant.reference, preparation)
+        (_compute_error(gain, variant, repaired), says)
+        for repaired, says in _list_repairs(variant.reference, preparation)
     ]
-    limit = HELPS * _error(gain, variant, preparation)
+    limit = HELPS * _compute_error(gain, variant, preparation)
     helped = [one for one in errors if one[0] < limit]
     if not helped:
         return ("Several things are wrong: start with the hard stops.", "")
     return min(helped, key=lambda one: one[0])[1]
 
 
-def _error(gain: str, variant: Variant, preparation: Preparation) -> float:
-    """How far a gain is off; infinitely, if there is no fit."""
+def _compute_error(gain: str, variant: Variant, preparation: Preparation) -> float:
+    """The relative error of a gain; infinite without a fit."""
     try:
         found = fit_prepared(variant.log, preparation).gains[gain]
     except Refusal:
@@ -55,30 +55,30 @@ def _error(gain: str, variant: Variant, preparation: Preparation) -> float:
     return abs(found - variant.asked[gain].expected)
 
 
-def _repairs(reference: Preparation, given: Preparation) -> Iterator[tuple[Preparation, Said]]:
+def _list_repairs(reference: Preparation, given: Preparation) -> Iterator[tuple[Preparation, Said]]:
     """The preparation with one part of it repaired, and what was wrong with that part."""
-    yield replace(given, median=reference.median), _median(reference, given)
-    yield replace(given, threshold=reference.threshold), _threshold(reference, given)
+    yield replace(given, median=reference.median), _explain_median(reference, given)
+    yield replace(given, threshold=reference.threshold), _explain_threshold(reference, given)
     for test in FOUR_TESTS:
         keep = dict(given.keep)
         if test in reference.keep:
             keep[test] = reference.keep[test]
         else:
             keep.pop(test, None)
-        yield replace(given, keep=keep), _window(test, reference, given)
+        yield replace(given, keep=keep), _explain_window(test, reference, given)
 
 
-def _median(reference: Preparation, given: Preparation) -> Said:
+def _explain_median(reference: Preparation, given: Preparation) -> Said:
     if given.median > reference.median:
         return LONG, "M-FILTER-FREE"
     return (EVEN, "") if given.median == 2 else (SHORT, "")
 
 
-def _threshold(reference: Preparation, given: Preparation) -> Said:
+def _explain_threshold(reference: Preparation, given: Preparation) -> Said:
     return (HIGH, "M-TRIM-PRETTY") if given.threshold > reference.threshold else (LOW, "")
 
 
-def _window(test: str, reference: Preparation, given: Preparation) -> Said:
+def _explain_window(test: str, reference: Preparation, given: Preparation) -> Said:
     begin, end = given.keep.get(test, (0.0, float("inf")))
     if end > reference.keep.get(test, (0.0, float("inf")))[1]:
         return (f"{test}: you keep samples in which a hard stop holds the mechanism.", "")

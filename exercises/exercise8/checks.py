@@ -1,4 +1,4 @@
-"""Exercise 8: what to cut from a damaged log, graded by the fit that comes of it."""
+"""Exercise 8: what to cut from a damaged log, graded by the fit of the rest."""
 
 import math
 from dataclasses import dataclass
@@ -30,7 +30,7 @@ LATE = 0.15  # [s] after a careful cut before a stop: who cuts by eye may be so 
 
 @dataclass(frozen=True)
 class Answers:
-    """What the checks look at."""
+    """The object that the checks read: the answers, and the learner's log."""
 
     preparation: Preparation | WrongAnswer
     variant: Variant
@@ -42,7 +42,7 @@ def make_files(student: str) -> dict[str, Made]:
 
 
 def read(path: Path, *, student: str) -> Answers:
-    """The answers, and what they are held against.
+    """The answers, with the learner's log and its reference.
 
     Raises:
         UnreadableFile: the file cannot be read.
@@ -87,32 +87,32 @@ def reach(answers: Answers) -> None:
 
 
 def _refuse_tests(seen: str, short: list[Coverage], hint: str) -> WrongAnswer:
-    """What is wrong with what is left of some tests; the others earn their points."""
+    """Explain which tests lost samples; the others earn their points."""
     tests = ", ".join(one.test for one in short)
     earned = 2 * (1 - len(short) / len(FOUR_TESTS))
     return WrongAnswer(f"{seen} {tests}", hint=hint, misconception="M-TRIM-PRETTY", earned=earned)
 
 
-def _preparation(answers: Answers) -> Preparation:
+def _read_preparation(answers: Answers) -> Preparation:
     if isinstance(answers.preparation, WrongAnswer):
         raise NotReachedError("checked after all six lines can be read")
     return answers.preparation
 
 
 def _measure_coverage(answers: Answers) -> tuple[Coverage, ...]:
-    """What is left of each test, once both stops are cut."""
+    """The part of each test that is left, if both stops are cut."""
     _require_stops_cut(answers)
-    preparation, variant = _preparation(answers), answers.variant
+    preparation, variant = _read_preparation(answers), answers.variant
     return measure_coverage(variant.log, preparation, valid=variant.valid, clean=variant.clean)
 
 
 def _require_stops_cut(answers: Answers) -> None:
-    """What is kept counts only where both stops are cut: who keeps everything has not chosen.
+    """Refuse answers that do not cut both stops: keeping everything is no choice.
 
     Raises:
         NotReachedError: a test is kept longer than until its mechanism hits a stop.
     """
-    windows = _preparation(answers).keep
+    windows = _read_preparation(answers).keep
     for test, (_, end) in answers.variant.reference.keep.items():
         if windows.get(test, (0.0, math.inf))[1] > end + LATE:
             raise NotReachedError("counts after you cut the ends of tests that do not look right")
@@ -127,7 +127,7 @@ def _keeps_ends(answers: Answers) -> bool:
 
 
 def _judge_gain(name: str, answers: Answers) -> None:
-    preparation, variant = _preparation(answers), answers.variant
+    preparation, variant = _read_preparation(answers), answers.variant
     try:
         found = fit_prepared(variant.log, preparation)
     except Refusal:

@@ -17,7 +17,7 @@ FIRST_RISE = 0.1  # [share] of a step's fastest valid speed up to which a start 
 
 @dataclass(frozen=True)
 class Coverage:
-    """How much of one test a preparation keeps.
+    """The share of one test that a preparation keeps.
 
     Args:
         test: its name.
@@ -50,10 +50,12 @@ def measure_coverage(
         valid: test -> (n,) which samples tell of the mechanism.
         clean: test -> (n,) [m/s or rad/s] its velocity without the damage.
     """
-    return tuple(_of(run, valid[run.test], clean[run.test], preparation) for run in log.runs)
+    return tuple(
+        _measure_coverage(run, valid[run.test], clean[run.test], preparation) for run in log.runs
+    )
 
 
-def _of(run: Run, valid: Flags, clean: Array, preparation: Preparation) -> Coverage:
+def _measure_coverage(run: Run, valid: Flags, clean: Array, preparation: Preparation) -> Coverage:
     speed = np.abs(clean)
     trimmed = preparation.kept(run).time
     kept = valid & np.isin(run.time, trimmed)

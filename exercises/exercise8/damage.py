@@ -1,4 +1,4 @@
-"""What is done to a learner's log: two stops, and single readings that are far off."""
+"""The damage to a learner's log: two stops, and single readings that are far off."""
 
 from collections.abc import Sequence
 from dataclasses import replace

@@ -49,7 +49,7 @@ NEARLY = 0.98  # [times the bands] the same, for thresholds between two that wer
 
 @dataclass(frozen=True, eq=False)
 class Variant:
-    """One learner's log, and what is known about it.
+    """One learner's log, with its true gains and its damage.
 
     Args:
         mechanism: the truth.

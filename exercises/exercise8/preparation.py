@@ -1,4 +1,4 @@
-"""What a learner does to a log before it is fitted, and the fit that comes of it."""
+"""A learner's preparation of a log, and the fit of the prepared log."""
 
 import re
 from collections.abc import Mapping
@@ -55,7 +55,7 @@ def read_preparation(given: Mapping[str, object], *, symbol: str, si: float) -> 
     Raises:
         WrongAnswer: one of them is missing or makes no sense; the message names it.
     """
-    keep = {test: _window(test, given.get(test.replace("-", "_"))) for test in FOUR_TESTS}
+    keep = {test: _parse_window(test, given.get(test.replace("-", "_"))) for test in FOUR_TESTS}
     asked = AskedNumber("threshold", 0.0, f"{symbol}/s", ANY)
     threshold = _number(given.get("threshold"), asked)
     if threshold < 0.0:
@@ -85,8 +85,8 @@ def _number(raw: object, asked: AskedNumber) -> float:
         raise
 
 
-def _window(test: str, raw: object) -> tuple[float, float] | None:
-    """What to keep of one test; None for all of it."""
+def _parse_window(test: str, raw: object) -> tuple[float, float] | None:
+    """The part of one test to keep; None for all of it."""
     name = test.replace("-", "_")
     ask = (
         "Write the first and the last second to keep, counted from the start of the test: "
@@ -151,7 +151,7 @@ def judge_gain(value: float, asked: AskedNumber) -> float:
 def sum_points(
     log: Log, preparation: Preparation, asked: Mapping[str, AskedNumber], *, wider: float = 1.0
 ) -> float:
-    """What the fit of a log, so prepared, earns; were the bands this many times as wide."""
+    """The points for the fit of a prepared log, with bands this many times as wide."""
     try:
         gains = fit_prepared(log, preparation).gains
     except Refusal:

@@ -55,7 +55,7 @@ class Variant:
 
 @dataclass(frozen=True)
 class Answers:
-    """What the checks look at."""
+    """The object that the checks read: the answers, and the learner's log."""
 
     given: Mapping[str, object]
     key: AnswerKey
@@ -119,7 +119,7 @@ def make_files(student: str) -> dict[str, Made]:
 
 
 def read(path: Path, *, student: str, run: bool = True) -> Answers:
-    """The answers, and what they are held against.
+    """The answers, with the learner's log and the right gains.
 
     Args:
         path: the file with the answers.
@@ -142,19 +142,19 @@ def read(path: Path, *, student: str, run: bool = True) -> Answers:
 
 
 def consequence(answers: Answers) -> Consequence | None:
-    """What the learner's gains would do on their mechanism."""
+    """The motion that the learner's gains would cause."""
     of = answers.variant.mechanism
     symbol = find_unit(of.units).symbol
     return find_outcome(answers.given, answers.key.asked, kind=of.name, symbol=symbol)
 
 
 def _judge_gain(name: str, points: float, answers: Answers) -> str | None:
-    """Judge one gain; where no slip explains it, say how far the three miss the log."""
+    """Judge one gain; without a known slip, say how far the learner's model misses the log."""
     try:
         return judge_number(name, answers.given, answers.key, points=points)
     except WrongAnswer as wrong:
         if "outside" in wrong.hint:
-            wrong.hint += _missed(answers)
+            wrong.hint += _describe_miss(answers)
         raise
 
 
@@ -174,7 +174,7 @@ def metrics(answers: Answers) -> None:
     wrong: list[WrongAnswer] = []
     for name in METRICS:
         try:
-            _metric(name, answers)
+            _check_metric(name, answers)
         except WrongAnswer as why:
             why.seen = f"{name}: {why.seen}"
             wrong.append(why)
@@ -190,7 +190,7 @@ def function(answers: Answers) -> str | None:
 
 
 def explain_r2(value: float, asked: AskedNumber) -> str:
-    """What is wrong with an R²; empty if it is right: 1 is, only where two digits make it 1."""
+    """The cause of a wrong R²; empty if it is right."""
     if value > 1:
         return "R² is at most 1: write a fraction, not percent."
     if value == 1 and round(asked.expected, 2) < 1:
@@ -202,7 +202,7 @@ def explain_r2(value: float, asked: AskedNumber) -> str:
     return "" if asked.is_right(value) else PRINTED
 
 
-def _metric(name: str, answers: Answers) -> None:
+def _check_metric(name: str, answers: Answers) -> None:
     expected = {one: float(getattr(answers.variant.fit, one)) for one in METRICS}
     asked = {
         one: AskedNumber(one, expected[one], "", Band(0, 0, METRIC_BANDS[one], METRIC_BANDS[one]))
@@ -217,8 +217,8 @@ def _metric(name: str, answers: Answers) -> None:
         raise WrongAnswer(f"{value:.4g}", hint=hint, misconception="M-R2")
 
 
-def _missed(answers: Answers) -> str:
-    """How far the learner's model misses the voltage in the log, beside how far a good one does."""
+def _describe_miss(answers: Answers) -> str:
+    """The voltage error of the learner's model, compared with that of a good one."""
     variant, asked = answers.variant, answers.key.asked
     try:
         gains = [read_answer_number(answers.given.get(name), one) for name, one in asked.items()]
@@ -233,11 +233,11 @@ def _missed(answers: Answers) -> str:
     if not np.isfinite(mine) or mine <= best:  # noise: it says nothing about these gains
         return ""
     return (
-        f". With your three gains, the voltage error in the log is {_volts(mine)} (RMS); with a "
-        f"good fit it is {_volts(best)}"
+        f". With your three gains, the voltage error in the log is {_format_volts(mine)} (RMS); "
+        f"with a good fit it is {_format_volts(best)}"
     )
 
 
-def _volts(value: float) -> str:
+def _format_volts(value: float) -> str:
     """Two digits, and no powers of ten: a learner reads this."""
     return f"{value:.2g} V" if value < 10.0 else f"{value:.0f} V"

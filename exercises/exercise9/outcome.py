@@ -1,4 +1,4 @@
-"""What a learner's gains would do: their mechanism follows a profile by feedforward alone."""
+"""The motion of a learner's mechanism that follows a profile by feedforward alone."""
 
 from collections.abc import Mapping
 
@@ -15,7 +15,7 @@ SPINS = {"shooter"}  # mechanisms whose place does not matter
 def find_outcome(
     given: Mapping[str, object], asked: Mapping[str, AskedNumber], *, kind: str, symbol: str
 ) -> Consequence | None:
-    """What the gains would do; None where one is missing, or all are right.
+    """The motion under the gains; None if one is missing, or all are right.
 
     Args:
         given: the answers, by name.

@@ -1,4 +1,4 @@
-"""The learner's own function, tried on five logs that nobody has seen.
+"""The learner's own function, tried on five hidden logs.
 
 It runs apart (``grader.isolation``): it gets the columns of each log, and returns three numbers.
 """
@@ -49,7 +49,7 @@ PRINTED = 120  # [characters] of a learner's own prints that are shown
 
 @dataclass(frozen=True)
 class Recipe:
-    """How a log of the hidden ones is made, and what it is for.
+    """The settings of one hidden log, and its purpose.
 
     Args:
         kind: the mechanism.
@@ -102,7 +102,7 @@ RECIPES = (
 
 @dataclass(frozen=True)
 class Hidden:
-    """One hidden log, and what is right for it."""
+    """One hidden log, and its right gains."""
 
     recipe: Recipe
     data: Mapping[str, Array]
@@ -217,7 +217,7 @@ def judge_function(path: Path, *, student: str, points: float, run: bool) -> str
 
 
 def _explain_same_gains(returned: Sequence[Mapping[str, float]]) -> WrongAnswer | None:
-    """What to say of a function that returns the same gains for every log, if it does."""
+    """Feedback on a function that returns the same gains for every log; else None."""
     if not returned[0] or any(numbers != returned[0] for numbers in returned):
         return None
     return WrongAnswer(
@@ -245,7 +245,7 @@ class Miss:
 
 
 def _choose_feedback(wrong: Sequence[Sequence[Miss]]) -> WrongAnswer:
-    """Of all that is wrong, what to tell: the slip that explains most logs, else the first."""
+    """The feedback to give: the slip that explains most logs, else the first fault."""
     logs = Counter(slip for log in wrong for slip in {slip for one in log for slip in one.slips})
     misses = [miss for log in wrong for miss in log]
     often = [slip for slip, count in logs.most_common() if count > 1 or len(wrong) == 1]
@@ -264,7 +264,7 @@ def _choose_feedback(wrong: Sequence[Sequence[Miss]]) -> WrongAnswer:
 
 
 def _judge_log(log: Hidden, answer: CallResult) -> list[Miss]:
-    """What is wrong with the numbers for one log."""
+    """The faults of the numbers for one log."""
     where = f"{log.recipe.kind}, every {log.recipe.period:g} s"
     if answer.reason:
         hint = "Try it on your own log first: python exercises/exercise9/fit.py"

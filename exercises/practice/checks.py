@@ -52,8 +52,8 @@ COMMENT = re.compile(r"//[^\n]*|#[^\n]*|/\*.*?\*/", re.DOTALL)
 LITTLE = 12  # [characters] shorter than which nothing is said
 NEAR_BOUND = 1.5  # [%] that a verdict's bound is known to
 OWN_LOG = (
-    "Your routine has no log callback, and a logger of your own records its state. So the grader "
-    "did not check what is logged here: your own log, which is fitted below, shows it."
+    "Your routine has no log callback, and your own logger records its state. So the grader did "
+    "not check the logging code. Your log, which is fitted below, shows whether it works."
 )
 BELOW = -3.0  # [%] under theory that a good motor may still be
 
@@ -73,7 +73,7 @@ TEAM = sys.modules[f"{SECOND.__name__}.team"]
 
 @dataclass(frozen=True)
 class Answers:
-    """What the checks look at: the answers, and the folder with everything that belongs to them."""
+    """The object that the checks read: the answers, and the folder of the project."""
 
     given: Mapping[str, object]
     folder: Path
@@ -294,7 +294,7 @@ def _check_one_routine(answers: Answers, facts: RoutineFacts) -> None:
 
 
 def _check_same_motion(measured: Measured, facts: RoutineFacts) -> None:
-    """Whether the code records what the log holds: meters, or turns of something."""
+    """Check that the code records the same quantity as the log: meters or rotations."""
     signals = [one for test in facts.tests.values() for one in test.signals.values()]
     families = {one.family for several in signals for one in several.values() if one.family}
     expected = "linear" if measured.units == "Meters" else "angular"

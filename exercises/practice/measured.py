@@ -27,7 +27,7 @@ POSITION = WrongNumber(
 
 @dataclass(frozen=True)
 class Parts:
-    """What is built in: motor, how many, turns of it for one of the output, [m] of the wheel."""
+    """The built-in parts: motor, number of motors, gear ratio, diameter of the wheel [m]."""
 
     motor: Motor
     motors: int
@@ -37,7 +37,7 @@ class Parts:
 
 @dataclass(frozen=True)
 class Measured:
-    """A mechanism's fit, what it is asked for, and its parts; ``why`` says what is missing."""
+    """A mechanism's fit, the requested numbers, and its parts; ``why`` says what is missing."""
 
     fit: Fit
     key: AnswerKey
@@ -52,11 +52,11 @@ class Measured:
 
 
 def of_bench(variant: object) -> Measured:
-    """The mechanism of exercise 9: whoever has no robot at hand uses its log."""
+    """The mechanism of exercise 9, for learners without a robot."""
     built, fit = variant.mechanism, variant.fit  # type: ignore[attr-defined]  # loaded by path
     turns = built.radius == 1.0
     parts = Parts(built.motor, built.motor_count, built.ratio, 0.0 if turns else 2 * built.radius)
-    return _measured(fit, "Rotations" if turns else "Meters", parts, "")
+    return _make_measured(fit, "Rotations" if turns else "Meters", parts, "")
 
 
 def of_robot(path: Path, given: Mapping[str, object]) -> Measured:
@@ -76,9 +76,9 @@ def of_robot(path: Path, given: Mapping[str, object]) -> Measured:
     except Refusal as refusal:
         raise NotReachedError(str(refusal)) from None
     try:
-        return _measured(found, units, _parts(given, units), "")
+        return _make_measured(found, units, _read_parts(given, units), "")
     except WrongAnswer as wrong:
-        return _measured(found, units, None, f"{wrong.seen}. {wrong.hint}")
+        return _make_measured(found, units, None, f"{wrong.seen}. {wrong.hint}")
 
 
 def _is_file(path: Path) -> bool:
@@ -89,7 +89,7 @@ def _is_file(path: Path) -> bool:
         return False
 
 
-def _measured(found: Fit, units: str, parts: Parts | None, why: str) -> Measured:
+def _make_measured(found: Fit, units: str, parts: Parts | None, why: str) -> Measured:
     symbol = UNITS[units]
     names = [name for name in ("kS", "kV", "kA", "kG") if name in found.gains]
     asked = ask_gains({name: found.gains[name] for name in names}, position=symbol)
@@ -103,7 +103,7 @@ def _measured(found: Fit, units: str, parts: Parts | None, why: str) -> Measured
     return Measured(found, AnswerKey(asked, scene), units, parts, why)
 
 
-def _parts(given: Mapping[str, object], units: str) -> Parts:
+def _read_parts(given: Mapping[str, object], units: str) -> Parts:
     named = given.get("motor")
     known = {normalize_choice(name): motor for name, motor in MOTORS.items()}
     motor = known.get(normalize_choice(named)) if isinstance(named, str) else None
@@ -115,13 +115,14 @@ def _parts(given: Mapping[str, object], units: str) -> Parts:
     diameter = read_answer_number(given.get("wheel_diameter"), size) if units == "Meters" else 0.0
     if ratio <= 0.0 or diameter < 0.0 or (units == "Meters" and not diameter):
         raise WrongAnswer(
-            "a ratio or a diameter that cannot be", hint="Both must be larger than zero."
+            "a ratio or a diameter that is not larger than zero",
+            hint="Write the gear ratio, and the diameter of the wheel in meters.",
         )
     return Parts(motor, 1, ratio, diameter)
 
 
 def team_of(measured: Measured, given: Mapping[str, object], team: ModuleType) -> object:
-    """The mechanism as a team of exercise 2, whose gains that exercise checks against physics.
+    """The mechanism as a team of exercise 2, which compares its gains with theory.
 
     Args:
         measured: the mechanism.

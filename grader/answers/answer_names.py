@@ -62,7 +62,7 @@ def find_similar_name(name: str, known: Sequence[str]) -> str:
 def _list_unread(
     answers: Mapping[str, object], asked: Mapping[str, bool], text: str
 ) -> Iterator[tuple[str, str]]:
-    """Each name that is not asked for, and each that comes again with what it repeats.
+    """Each unknown name, and each repeated name with the line that it repeats.
 
     Args:
         answers: name -> answer.

@@ -33,7 +33,7 @@ def read_choice(
     known |= {normalize_choice(other): one for other, one in (also or {}).items()}
     found = known.get(normalize_choice(raw))
     if found is None:
-        raise WrongAnswer(f'"{shorten(raw)}", which is none of them', hint=ask)
+        raise WrongAnswer(f'"{shorten(raw)}", which is not one of the choices', hint=ask)
     return found
 
 

@@ -67,7 +67,7 @@ def _require_finite(value: float, asked: AskedNumber) -> float:
 
 
 def _find_scale(unit: str, asked: AskedNumber) -> float:
-    """How many of the unit asked for one of the unit given is."""
+    """The factor from the unit of the answer to the requested unit."""
     wanted = read_unit(asked.unit or "1")
     try:
         given = read_unit(unit)

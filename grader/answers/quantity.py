@@ -128,18 +128,18 @@ class _Reader:
         """Everything up to the closing parenthesis, or to the end."""
         found, power = ONE, 1
         while self.rest:
-            part = self._next()
+            part = self._take_token()
             if part == closing:
                 return found
             if part in {"*", "/"}:
                 power = -1 if part == "/" else 1
                 continue
-            found, power = found.multiply(self._factor(part), power=power), 1
+            found, power = found.multiply(self._parse_factor(part), power=power), 1
         if closing:
             raise NotAUnitError("( without )")
         return found
 
-    def _factor(self, part: str) -> Quantity:
+    def _parse_factor(self, part: str) -> Quantity:
         if part != "(" and part not in SYMBOLS:
             raise NotAUnitError(part)
         measure = self.product(closing=")") if part == "(" else SYMBOLS[part]
@@ -149,7 +149,7 @@ class _Reader:
         self.rest = self.rest[raised.end() :].strip()
         return ONE.multiply(measure, power=int(raised[1]))
 
-    def _next(self) -> str:
+    def _take_token(self) -> str:
         part = PART.match(self.rest)
         if part is None:
             raise NotAUnitError(self.rest[:8])

@@ -1,4 +1,4 @@
-"""What a learner hands in: which file it is, and its text, or a refusal that says why not."""
+"""A learner's submission: which file it is, and its text, or a refusal with the reason."""
 
 import re
 import tomllib
@@ -38,7 +38,7 @@ class NamedAnswers(UserDict[str, object]):
 
 @dataclass(frozen=True)
 class StudentAnswers:
-    """What the checks of an exercise look at.
+    """A student's answers, as the checks of an exercise read them.
 
     Args:
         given: the answers.
@@ -118,7 +118,7 @@ def _may_be_answer(file: Path, names: Sequence[str]) -> bool:
 
 
 def _is_filled(file: Path) -> bool:
-    """Whether there is something in it: a package's empty ``__init__.py`` is nobody's answer."""
+    """Whether a file has content: a package's empty ``__init__.py`` is no answer."""
     return file.is_file() and file.stat().st_size > 0
 
 
@@ -181,7 +181,7 @@ def read_answers(path: Path) -> dict[str, object]:
         elif _BARE_WORDS.fullmatch(row):
             advice = 'Put quotes around each word: "word", or in a list ["word", "word"].'
         elif re.fullmatch(r"[\w.]+\s*=\s*(#.*)?", row):
-            what = f"nothing stands after {row.partition('=')[0].strip()} ="
+            what = f"the value is missing after {row.partition('=')[0].strip()} ="
             advice = 'Write a number there, or "" as long as you have none.'
         raise UnreadableFile(what, where=f"{path}, line {number}", advice=advice) from None
 
@@ -202,7 +202,7 @@ def _find_same_name(rows: Sequence[str], row: str) -> int:
 
 
 def _check_size(text: str, path: Path) -> None:
-    """Refuse what nobody writes as an answer, and what takes long to read.
+    """Refuse a file that is too large for an answer, or would take long to read.
 
     Raises:
         UnreadableFile: the file or one of its lines is too long, or its lists go too deep.
@@ -247,7 +247,7 @@ def _explain_restore(folder: Path, name: str) -> str:
 
 
 def explain_restore(course: Path, *names: str) -> str:
-    """How to get files of the course back as they were.
+    """The command that restores changed files of the course.
 
     Args:
         course: the course folder.

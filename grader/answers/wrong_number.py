@@ -43,7 +43,7 @@ class Lookalike:
 
 
 class Slips:
-    """The slips of an exercise: its file ``slips.toml`` says of each what a learner reads.
+    """The slips of an exercise, with the sentences about each from its file ``slips.toml``.
 
     A name comes before its sentence. A slip stands in the table of its misconception, or above all
     tables if it has none::
@@ -103,7 +103,7 @@ def are_distinguishable(
 
 @dataclass(frozen=True)
 class Scene:
-    """What is known about the mechanism and the tests, to recognize slips by.
+    """Facts about the mechanism and the tests that help to recognize slips.
 
     Args:
         angular: whether the mechanism turns instead of going along.

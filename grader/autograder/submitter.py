@@ -38,7 +38,7 @@ def find_submitter(metadata: Path, *, by: str, roster: Path | None) -> str:
         raise BadRequest(
             f"the student has no {by}",
             where=str(metadata),
-            advice="Export the autograder anew with another --student-from.",
+            advice="Export the autograder again with another --student-from.",
         )
     return check_student_name(found) if roster is None else _find_on_roster(found, roster)
 
@@ -50,7 +50,7 @@ def _find_on_roster(found: str, roster: Path) -> str:
         if found.casefold() in {cell.strip().casefold() for cell in row.values()}:
             return student
     raise BadRequest(
-        f"nobody on the roster is {found!r}",
+        f"the roster does not contain {found!r}",
         where=roster.name,
         advice="Add the student, and export the autograder again.",
     )

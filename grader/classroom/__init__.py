@@ -1,4 +1,4 @@
-"""A class: what was handed in, graded beside one another, kept, summed up and exported.
+"""Grading of a whole class: read submissions, grade them in parallel, store and export results.
 
 submissions.py     what each student handed in, and who that is
 submitted_files.py the files in one folder or zip file

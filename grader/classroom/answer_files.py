@@ -1,4 +1,4 @@
-"""Which of one student's files are graded: one rule, for everything that was handed in.
+"""The choice of a student's graded files: one rule for all kinds of submissions.
 
 A file may be an answer to an exercise if it lies in a folder with the exercise's name
 (``exercise4``, ``Exercise 4``, ``ex4``), however deep. In no such folder, it belongs to the
@@ -115,7 +115,7 @@ class Submission:
 
     @property
     def numbers_owner(self) -> str:
-        """The student whose numbers it is graded on."""
+        """The student whose numbers the submission is graded on."""
         return self.worked_as or self.student
 
 
@@ -140,7 +140,7 @@ class AnswerSelector:
         self._left = MAX_TOTAL
 
     def add(self, found: SubmittedFile) -> None:
-        """Take a file, if it may be an answer or says whose numbers these are.
+        """Store a file if it may be an answer, or names the owner of the numbers.
 
         Raises:
             ValueError: there is too much to read.
@@ -199,17 +199,17 @@ class AnswerSelector:
         return content
 
     def _of_folder(self, path: PurePosixPath) -> Exercise | None:
-        found = (self._of_word(part) for part in reversed(path.parts[:-1]))
+        found = (self._find_by_word(part) for part in reversed(path.parts[:-1]))
         return next((one for one in found if one), None)
 
     def _of_name(self, path: PurePosixPath) -> Exercise | None:
         """The exercise that a file's own name means."""
-        named = self._of_word(path.stem)
+        named = self._find_by_word(path.stem)
         if named and path.suffix.lower() in _list_endings(named):
             return named
         return self._by_file.get(_strip_copy(path.name))
 
-    def _of_word(self, word: str) -> Exercise | None:
+    def _find_by_word(self, word: str) -> Exercise | None:
         """The exercise of a name as people write it: ``exercise4``, ``Exercise 4``, ``ex4``."""
         for plain in (word.strip().casefold(), COPY.sub("", word.strip().casefold())):
             number = EXERCISE.fullmatch(plain)
@@ -218,7 +218,7 @@ class AnswerSelector:
         return None
 
     def select(self, student: str, place: Path, *, late: bool) -> Submission:
-        """What a student handed in: the files that are graded, and a line for each that is not."""
+        """The student's graded files, and one line for each file that is not graded."""
         files: dict[str, Files] = {}
         problems: dict[str, str] = {}
         unused: list[str] = []
@@ -398,7 +398,7 @@ def _is_own_name(name: str, exercise: Exercise) -> bool:
 
 
 def _strip_copy(name: str) -> str:
-    """A file's name in lower case, without what a browser or a computer adds to it."""
+    """A file's name in lower case, without the additions of a browser or a computer."""
     path = PurePosixPath(name.casefold().removesuffix(".txt"))
     return f"{COPY.sub('', path.stem)}{path.suffix}"
 
@@ -422,7 +422,7 @@ def _find_declared(name: str, content: bytes, exercise: Exercise) -> str:
 
 @cache
 def _name_given_files(exercise: Exercise) -> frozenset[str]:
-    """The names of the files of an exercise's folder that nobody fills in."""
+    """The names of the files in an exercise's folder that a student does not fill in."""
     modules = find_imported_modules(exercise.folder / "checks.py", exercise.folder / KEY)
     listed = read_listed_files(exercise).keys() - {*exercise.starters}
     return frozenset({*(path.name for path in modules), *listed, *OURS})
@@ -434,7 +434,7 @@ def _is_starter(one: _Candidate, exercise: Exercise) -> bool:
 
 
 def _list_endings(exercise: Exercise) -> set[str]:
-    """What the names of an exercise's files end in."""
+    """The possible endings of the names of an exercise's answer files."""
     return {*(Path(file).suffix for file in exercise.starters), *exercise.log_endings}
 
 

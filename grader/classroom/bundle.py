@@ -55,7 +55,7 @@ def zip_files(
 
 
 def unpack_course(given: Path | CourseBundle) -> Path:
-    """The folder of a course: as it is, or unpacked once in each process."""
+    """The folder of a course: the given one, or one unpacked once in each process."""
     return given if isinstance(given, Path) else Path(_unpack_bundle(given).name)
 
 

@@ -34,7 +34,7 @@ class GradedClass:
     run: bool = False
 
     def make_jobs(self, *, travel: bool) -> tuple[GradingJob, ...]:
-        """One for each student whose files could be read.
+        """One job for each student whose files can be read.
 
         Args:
             travel: whether another machine does them.
@@ -89,7 +89,7 @@ def grade_class(
     say: Callable[[], None],
     stop_if_asked: Callable[[], None] = lambda: None,
 ) -> tuple[GradedStudent, ...]:
-    """Grade what is left, store it, and return all results sorted by student.
+    """Grade the students without a stored result, and return all results sorted by student.
 
     Args:
         asked: the class.

@@ -111,7 +111,7 @@ def _format_mount(path: Path, target: str, *, write: bool = False) -> str:
 
 
 def _format_option(parameter: click.Parameter, value: Any) -> Iterator[str]:  # noqa: ANN401 - whatever an option holds
-    """An option or argument with its value, as it is typed; nothing where nothing was said."""
+    """An option or argument with its value, as typed; empty if it was not given."""
     if value is None or (value is False and not parameter.secondary_opts):
         return
     if not isinstance(parameter, click.Option):

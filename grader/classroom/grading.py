@@ -58,7 +58,7 @@ class GradedStudent:
 
 
 def grade_student(job: GradingJob) -> GradedStudent:
-    """Grade everything one student handed in; whatever happens is a result."""
+    """Grade all submissions of one student; every error becomes a result."""
     with (
         tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder,
         use_class_secret(job.secret) if job.secret is not None else nullcontext(),

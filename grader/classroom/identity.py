@@ -1,4 +1,4 @@
-"""Whose numbers a student worked on: read from what the course wrote into what was handed in."""
+"""The owner of the numbers in a submission, read from the seals that the course wrote into it."""
 
 import hmac
 import tomllib

@@ -17,7 +17,7 @@ DECIMALS = 6  # of sums of points that are compared
 
 @dataclass(frozen=True)
 class ItemStatistics:
-    """One question, over everybody whose answer could be graded.
+    """Statistics of one question over all students with a graded answer.
 
     Args:
         exercise, check: which.

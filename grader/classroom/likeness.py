@@ -1,4 +1,4 @@
-"""What is alike in the answers of two students: told to the instructor, and never a verdict.
+"""Similar answers of two students: a report to the instructor, and never a verdict.
 
 A line that two answers share says the more, the fewer others wrote it: it counts for -log2 of the
 share of the class that has it, in bits (the self-information of Shannon, 1948). Lines of the
@@ -44,7 +44,7 @@ class _Answer:
 def find_likenesses(
     handed_in: Sequence[Submission], exercises: Sequence[Exercise], graded: Sequence[GradedStudent]
 ) -> tuple[str, ...]:
-    """Find pairs of students whose answers share lines that hardly anybody else wrote.
+    """Find pairs of students whose answers share lines that few others wrote.
 
     Args:
         handed_in: by everybody.
@@ -80,7 +80,7 @@ def _find_pairs(
     others = max(len(answers) - 2, 1)
 
     def bits(those: frozenset[str], *, writers: int) -> float:
-        """The self-information of lines, by how many others wrote them; two if nobody did."""
+        """[bit] self-information of lines, from the number of students who wrote them."""
         return sum(
             -math.log2((count[line] - writers + 1) / (others + 2)) for line in those - starter
         )
@@ -154,7 +154,7 @@ def find_foreign_logs(handed_in: Sequence[Submission], packages: Path) -> tuple[
 
 
 def _list_digests(package: Path) -> Iterator[str]:
-    """The digests of what a package holds."""
+    """The digests of the files in a package."""
     try:
         with zipfile.ZipFile(package) as archive:
             for info in archive.infolist():

@@ -107,7 +107,7 @@ def _parse_row(
         what = f"{exercise} has no check {check!r}"
         advice = f"Choose one of: {', '.join(checks)}."
     elif not 0 <= points <= limit:
-        what = f"{cells['points']!r} is no number of points from 0 to {limit:g}"
+        what = f"{cells['points']!r} is not a number of points from 0 to {limit:g}"
         advice = "Write a number, such as 2 or 1.5."
     elif not cells["why"]:
         what = "it does not say why"

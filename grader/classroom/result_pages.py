@@ -103,13 +103,13 @@ def _fill_class_page(results: ClassResults) -> dict[str, Any]:
 
 
 def _explain_misconception(code: str) -> str:
-    """What puts a misconception right, and which lesson shows it; empty for a code of no list."""
+    """How to correct a misconception, and the lesson about it; empty for an unknown code."""
     known = MISCONCEPTIONS.get(code)
     return f"{known.says} See {known.reference}." if known else ""
 
 
 def _list_open_cases(results: ClassResults) -> list[dict[str, str]]:
-    """What a person has to look at: whatever could not be graded, with the reason; once each."""
+    """The ungraded submissions that a person has to check; each once, with the reason."""
     found = []
     for one in results.students:
         unread: dict[str, list[str]] = {}  # reason -> exercises

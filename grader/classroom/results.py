@@ -1,4 +1,4 @@
-"""The results of a class: what the overview and every export are made of."""
+"""The results of a class, from which the overview and every export are made."""
 
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
@@ -67,7 +67,7 @@ def find_total(one: GradedStudent, results: ClassResults) -> float | None:
 
 
 def list_ungraded(one: GradedStudent, results: ClassResults) -> list[str]:
-    """What a student handed in that was not graded: exercises, and other files."""
+    """Submissions of a student that were not graded: exercises, and other files."""
     found = [name for name, how in find_status(one).items() if how == "ungradable"]
     return [*found, *(["unused files"] if one.student in results.remarks else [])]
 
@@ -80,7 +80,7 @@ def collect_results(
     asked: Sequence[Exercise],
     handed_in: Sequence[Submission],
 ) -> ClassResults:
-    """The results of everybody, and of whoever is on the roster and handed nothing in.
+    """The results of all students, absent ones on the roster included.
 
     Who handed nothing in and belongs to a group on the roster gets the results of the one in the
     group who did.
@@ -103,7 +103,7 @@ def collect_results(
         elif not one.problem:
             remarks[one.student] += one.unused
         for student in one.likely:
-            maybe = f"perhaps {one.place.name} is theirs; it was not graded"
+            maybe = f"perhaps {one.place.name} is their answer; it was not graded"
             remarks[student].append(maybe)
     present = dict(found)
     for student in rows:
@@ -126,13 +126,13 @@ def collect_results(
 def _grade_absent(
     student: str, found: Mapping[str, GradedStudent], known: Roster, asked: Sequence[Exercise]
 ) -> tuple[GradedStudent, list[str]]:
-    """The results of who handed nothing in: those of the partner who did, if there is one."""
+    """The results of a student without a submission: those of the partner, if there is one."""
     partners = known.partners.get(student, ())
     theirs = [found[key] for one in partners if (key := normalize_name(one)) in found]
     if len(theirs) == 1:
         return replace(theirs[0], student=student), []
     names = list_first([one.student for one in theirs], most=len(theirs), separator="; ")
-    said = f"nothing is theirs, and several of their group handed something in: {names}"
+    said = f"they handed nothing in, but several of their group did: {names}"
     nothing = skip_student(student, asked, status=MISSING, reason=NOTHING)
     return nothing, [said] if theirs else []
 

@@ -27,7 +27,7 @@ class Roster:
     def partners(self) -> dict[str, tuple[str, ...]]:
         """Student -> the others of the same group, by the column ``group``."""
         groups: dict[str, list[str]] = {}
-        for student, text in self._column(GROUP).items():
+        for student, text in self._read_column(GROUP).items():
             groups.setdefault(text.casefold(), []).append(student)
         return {
             student: tuple(other for other in those if other != student)
@@ -37,10 +37,10 @@ class Roster:
 
     @property
     def late(self) -> dict[str, str]:
-        """Student -> what the column ``late`` says of them, where it says anything."""
-        return self._column(LATE)
+        """Student -> the entry in the column ``late``, if it is not empty."""
+        return self._read_column(LATE)
 
-    def _column(self, column: str) -> dict[str, str]:
+    def _read_column(self, column: str) -> dict[str, str]:
         """Student -> text of a column, where there is one."""
         heads = [head for head in self.header if head.strip().casefold() == column]
         texts = {

@@ -1,4 +1,4 @@
-"""What a class's secret identifies and seals: whose numbers, whose package."""
+"""The secret of a class: it identifies students' numbers and seals their packages."""
 
 import hashlib
 import hmac
@@ -10,7 +10,7 @@ def identify_secret(secret: bytes) -> str:
 
 
 def describe_numbers(secret: bytes | None) -> str:
-    """Whose numbers a class is graded on, in one sentence."""
+    """One sentence about the numbers on which a class is graded."""
     if secret is None:
         return "Graded without a secret, on the numbers of self-study."
     return f"Graded with the secret {identify_secret(secret)}, on each student's numbers from it."

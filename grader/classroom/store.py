@@ -55,7 +55,7 @@ class ResultStore:
     def get(self, student: str, expected: str) -> GradedStudent | None:
         """A student's results, if they are there whole and nothing they depend on has changed."""
         try:
-            kept = json.loads(self._path(student).read_text(encoding="utf-8"))
+            kept = json.loads(self._get_path(student).read_text(encoding="utf-8"))
             grades = tuple(map(_parse_grade, kept["grades"]))
             found = GradedStudent(kept["student"], kept["digest"], grades)
         except (OSError, ValueError, KeyError, TypeError):
@@ -70,7 +70,7 @@ class ResultStore:
         """
         raw = asdict(graded)  # of paths, there are only names of files
         text = json.dumps(raw, ensure_ascii=False, indent=1, allow_nan=False, default=str)
-        write_private_file(self._path(graded.student), text + "\n")
+        write_private_file(self._get_path(graded.student), text + "\n")
 
     def remove_outdated(self, written: Iterable[Path], *, students: Iterable[str]) -> None:
         """Remove the files that the run before this one wrote and this one did not.
@@ -82,7 +82,7 @@ class ResultStore:
         Raises:
             BadRequest: a file cannot be removed, or the list of files cannot be written.
         """
-        files = {*written, *(path for path in map(self._path, students) if path.is_file())}
+        files = {*written, *(path for path in map(self._get_path, students) if path.is_file())}
         now = {path.relative_to(self.folder).as_posix() for path in files}
         kept = self.folder / RESULTS / WRITTEN
         before: set[str] = set()
@@ -98,12 +98,12 @@ class ResultStore:
                     path.parent.rmdir()
         write_private_file(kept, "".join(f"{name}\n" for name in sorted(now)))
 
-    def _path(self, student: str) -> Path:
+    def _get_path(self, student: str) -> Path:
         return self.folder / RESULTS / f"{make_folder_name(student)}.json"
 
 
 def _parse_grade(raw: dict[str, Any]) -> Grade:
-    """A grade from a stored file; whatever does not fit raises."""
+    """A grade from a stored file; raises an error for anything else."""
     checks = tuple(Result(**{**one, "status": Status(one["status"])}) for one in raw["checks"])
     file = Path(raw["file"]) if raw["file"] else None
     return Grade(**{**raw, "checks": checks, "file": file, "warnings": tuple(raw["warnings"])})

@@ -1,4 +1,4 @@
-"""Who handed something in: how learning platforms name files, and who on the roster is meant.
+"""The student of a submission, from the names that learning platforms give to files.
 
     Canvas             doejane_LATE_101_5555_exercises.zip
     Moodle             Jane Doe_4711_assignsubmission_file_exercises.zip, or a folder without file
@@ -130,7 +130,7 @@ class Identities:
 
 
 def _list_names(student: str, cells: Mapping[str, str]) -> Iterator[str]:
-    """What one student may be called, from their row."""
+    """All names of one student, from their row of the roster."""
     yield student
     yield from (cells[column] for column in NAMES if cells.get(column))
     first = next((cells[one] for one in FIRST if cells.get(one)), "")

@@ -1,4 +1,4 @@
-"""What a class handed in: whose each folder and zip file is, and what each student answered.
+"""The submissions of a class: the student of each folder and zip file, and their answers.
 
 Each student's folder or zip file may hold single answers, folders of exercises or the whole course.
 ``submitted_files.py`` reads it, and ``answer_files.py`` selects what is graded.
@@ -123,7 +123,7 @@ def read_submission(
     asked: Sequence[Exercise] | None = None,
     student: str | None = None,
 ) -> Submission:
-    """What one student handed in; files that cannot be read are noted in it.
+    """The submission of one student; unreadable files are noted in it.
 
     Args:
         place: a folder or a zip file.
@@ -158,7 +158,7 @@ def _read(parts: Sequence[_Part], selector: AnswerSelector, *, student: str) -> 
 
 
 def _make_legible(name: str) -> str:
-    """A name to be shown for one that is none: what can be seen of it, and not too long."""
+    """A short printable name to show in place of one that cannot be printed."""
     try:
         return check_student_name(name)
     except Refusal:

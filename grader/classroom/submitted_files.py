@@ -99,7 +99,7 @@ def _list_outer_files(place: Path, name: PurePosixPath) -> Iterator[SubmittedFil
 
 
 def _read_inner_zip(found: SubmittedFile) -> Iterator[SubmittedFile]:
-    """Files of a zip file inside what was handed in."""
+    """Files of a zip file inside a submission."""
     content = found.content(MAX_TOTAL)
     if len(content) > MAX_TOTAL:
         raise ValueError(
@@ -126,7 +126,7 @@ def _open_file(descriptor: int) -> BinaryIO:
     """
     if not stat.S_ISREG(os.fstat(descriptor).st_mode):
         os.close(descriptor)
-        raise ValueError("it holds something that is no file")
+        raise ValueError("it contains something that is not a file")
     return os.fdopen(descriptor, "rb")
 
 
@@ -136,7 +136,7 @@ def _read_file(descriptor: int, size: int) -> bytes:
 
 
 def _read_folder(place: Path) -> Iterator[SubmittedFile]:
-    """Files of a folder; a link is nobody's answer: it may lead anywhere."""
+    """Files of a folder without its links, which may lead anywhere."""
     for top, folders, names, opened in _walk(place):
         folders[:] = sorted((name for name in folders if _is_theirs(name)), key=os.fsencode)
         for name in sorted(names, key=os.fsencode):
@@ -170,7 +170,7 @@ def _walk(place: Path) -> Iterator[tuple[Path, list[str], list[str], int | None]
 
 
 def _is_theirs(folder: str) -> bool:
-    """Whether a folder may hold what a student wrote."""
+    """Whether a folder may hold files that a student wrote."""
     return folder == COURSE_FOLDER or not (folder.startswith(".") or folder in NOT_THEIRS)
 
 

@@ -71,7 +71,7 @@ class ExerciseOrCommand(click.Group):
         return super().parse_args(ctx, args)
 
     def format_help(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """Show grading, what the command is mostly for, and then the rest."""
+        """Show the help: first the options for grading, then the other commands."""
         formatter.write_usage("grade", "[EXERCISE [FILE]] [--student NAME] [--json] [--hint]")
         formatter.write_usage("grade", "start [FOLDER] [--no-lab] [--student NAME]")
         formatter.write_usage(
@@ -218,7 +218,7 @@ def start(folder: Path | None, student: str | None, *, no_lab: bool) -> int:
 
 
 def _ask_name(known: str) -> str:
-    """Who is learning, typed on the terminal; ``known`` where nobody can type."""
+    """The learner's name, typed on the terminal; ``known`` if the input is no terminal."""
     from sim.support.student_names import check_student_name  # noqa: PLC0415 - the same
 
     if not sys.stdin.isatty() or "JPY_PARENT_PID" in os.environ:  # a notebook cell takes no typing
@@ -286,7 +286,7 @@ def grade_file(
 
 
 def _draw_consequence(then: "Consequence | None", picture: Path) -> None:
-    """Write what the answer would do as a picture, and say what became of it.
+    """Write the consequence of an answer as a picture, and print where it is.
 
     Raises:
         BadRequest: the name ends in no kind of picture, or the file cannot be written.

@@ -55,7 +55,7 @@ def grade_folder(  # noqa: PLR0917 - click passes options by name
     run: bool | None,
     again: bool,
 ) -> int:
-    """Grade what a class handed in, as the options of ``grade class`` say; the exit code.
+    """Grade the submissions of a class with the options of ``grade class``; returns the exit code.
 
     Raises:
         Refusal: the folder, or a file that an option names, cannot be used.
@@ -98,7 +98,7 @@ def _find_submissions(
     *,
     student: str | None,
 ) -> tuple[Submission, ...]:
-    """What was handed in: by one student, or by everybody in the folder."""
+    """The submissions of one student, or of all students in the folder."""
     everything = list_exercises(course)
     if student:
         named = folder.resolve()  # whoever names a link means what it leads to
@@ -114,7 +114,7 @@ def _find_submissions(
 
 
 def _tell_problems(there: Sequence[Submission]) -> None:
-    """Say before the grading who is graded otherwise than their folder's name says."""
+    """Print, before the grading, which students do not have the name of their folder."""
     for one in there:
         if one.problem:
             print_error(f"{one.student}: {one.problem}")
@@ -136,7 +136,7 @@ def _tell_problems(there: Sequence[Submission]) -> None:
 
 
 def _decide_running(asked: Sequence[Exercise], run: bool | None, cluster: str | None) -> bool:  # noqa: FBT001 - as the option
-    """Whether students' code is run: as chosen, else where it is safe; prints what that means."""
+    """Whether to run students' code: as the option says, else if it is safe; prints which."""
     if run is False or not any(one.runs_code for one in asked):
         return False
     found = "one of a cluster, and the others are not known" if cluster else find_isolation_level()
@@ -159,7 +159,7 @@ def _decide_running(asked: Sequence[Exercise], run: bool | None, cluster: str | 
 def _run(
     work: GradedClass, out: Path, *, processes: int | None, cluster: str | None, again: bool
 ) -> tuple[GradedStudent, ...] | None:
-    """Grade what is left; None where it was stopped."""
+    """Grade the students without a result; None if the user stopped it."""
     store = ResultStore(out)
     kept, left = plan_grading(work, store, travel=cluster is not None, again=again)
     total = len(kept) + len(left)

@@ -118,7 +118,7 @@ def _write_packages(packages: Sequence[StudentPackage], folder: Path, processes:
 
 
 def _tell_made(output: Path, size: int, students: int, secret: Secret | None) -> None:
-    """Print what was made: size [bytes] of the package for all, and how many students have one."""
+    """Print the size [bytes] of the common package, and the number of student packages."""
     lines = [f"{output / 'course.zip'}: for everybody, {size / 1e6:.1f} MB"]
     if students:
         lines.append(

@@ -79,7 +79,7 @@ def restrict_file_access(
 def _list_permissions(
     readable: Iterable[Path], folder: Path, hidden: Path
 ) -> Iterator[tuple[Path, int]]:
-    """Each path, and what may be done with it and what is beneath."""
+    """Each path, with the operations that are allowed on it and below it."""
     yield folder, FOLDER
     yield Path(os.devnull), DEVICE
     for path in readable:

@@ -102,7 +102,7 @@ def _require_finite(value: float) -> bool:
 
 
 def _describe_kind(value: object) -> str:
-    """What something that is no number is, in words."""
+    """What something that is not a number is, in words."""
     if value is None:
         return "None"
     if isinstance(value, bool):
@@ -111,18 +111,18 @@ def _describe_kind(value: object) -> str:
         return NO_NUMBERS.get(value, "a text")
     if isinstance(value, int | float):
         return "a number" if _require_finite(value) else "infinity"
-    return _describe_type(value) if isinstance(value, dict) else "something that is no number"
+    return _describe_type(value) if isinstance(value, dict) else "something that is not a number"
 
 
 def _describe_type(told: Mapping[str, object]) -> str:
-    """What the child says of the type of something, in words."""
+    """Words for the type that the child reports for a value."""
     name, of = format_one_line(told.get("is")), told.get("of")
     if name == "ndarray":
         return f"an array of shape {format_one_line(of)}"
     if name == "str":
         return f'the text "{format_one_line(of)}"'
     poses = isinstance(of, list) and ("int" in of or "float" in of)
-    return f"a {name}, which only poses as a number" if poses else f"a {name}"
+    return f"a {name}, which only looks like a number" if poses else f"a {name}"
 
 
 def _describe_crash(told: object, file: str) -> str:

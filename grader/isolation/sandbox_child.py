@@ -51,7 +51,7 @@ def main() -> None:
 
 
 def _open_result_stream(nonce: str) -> Callable[[Mapping[str, object]], None]:
-    """Keep what was standard output for what is said; prints go to standard error."""
+    """Keep standard output for the result; prints go to standard error."""
     out = os.dup(1)
     os.dup2(2, 1)
     close_input()
@@ -159,7 +159,7 @@ def _call_function(module: ModuleType, call: Mapping[str, Any]) -> object:
 
 
 def _encode_result(result: object) -> object:
-    """What was returned, as JSON can say it: numbers as numbers, the rest by what it is."""
+    """The returned value as JSON: numbers as numbers, anything else by its type."""
     if type(result) is not dict:
         return _encode_value(result)
     items = list(result.items())[:MOST_NAMES]

@@ -152,7 +152,7 @@ def find_package_paths(packages: Sequence[str]) -> dict[str, str]:
 
 
 def _write_orders(source: Path, calls: Sequence[FunctionCall], given: Path) -> dict[str, object]:
-    """Write what the child is to read; the part of its orders that says where it stands."""
+    """Write the child's orders to a file; the part of them that names the file."""
     copy = given / source.name
     copy.write_bytes(source.read_bytes())
     orders: list[dict[str, object]] = []
@@ -217,7 +217,7 @@ class _Child:
             into.close()
 
     def watch(self, seconds: float) -> str:
-        """Wait for the end, or make one; why it ended if it was not by itself."""
+        """Wait for the child, or end it at the limit; the reason if it ended abnormally."""
         ended = ""
         try:
             self.ready.wait(UNTIL_READY)
@@ -229,7 +229,7 @@ class _Child:
         return ended or _explain_end(self.process.returncode)
 
     def _end(self) -> None:
-        """End it and all that it started, and take what is left in the pipes."""
+        """End the child and all its processes, and read the rest of its pipes."""
         end_session(self.process)
         for pipe in (self.said, self.printed):
             pipe.thread.join(LAST_WORDS)
@@ -251,7 +251,7 @@ def _do_nothing() -> None:
 
 
 def make_child_environment(work: Path) -> dict[str, str]:
-    """The few variables a child gets; what is temporary or at home is in its own folder."""
+    """The few environment variables of a child, whose home is its own folder."""
     kept = {name: os.environ[name] for name in KEPT if name in os.environ}
     own = dict.fromkeys(("HOME", "TMPDIR", "TEMP", "TMP"), str(work))
     return {**kept, **own, **dict.fromkeys(THREADS, "1")}

@@ -1,4 +1,4 @@
-"""From outside: a whole program of ours that runs a learner's code, as confined as ``run`` is."""
+"""The parent of a whole program of ours that runs a learner's code, confined as in ``run``."""
 
 import json
 import subprocess
@@ -23,7 +23,7 @@ def run_program(
     beside: Sequence[Path] = (),
     stdin: str = "",
 ) -> tuple[bool, bytes]:
-    """Run a Python program of ours that may read Python, some packages and what it is given.
+    """Run a Python program of ours that may read Python, some packages and its own files.
 
     Args:
         script: the program; it may import Python's own library and ``packages``.

@@ -1,4 +1,4 @@
-"""Inside the child, for a whole program of ours that runs a learner's code: confine, then run it.
+"""The child for a whole program of ours that runs a learner's code: confine, then run it.
 
 What to do comes as one JSON object on standard input. The program is read before the course's own
 files are out of reach; what it finds out, it leaves in the folder it is started in.

@@ -1,4 +1,4 @@
-"""A temporary folder that can be removed whatever a learner's code made in it."""
+"""A temporary folder that can be removed whatever a learner's code put into it."""
 
 import contextlib
 import os

@@ -1,4 +1,4 @@
-"""Robot code is run, and judged by what the robot did: Java and RobotPy alike.
+"""Robot code is run and judged by the robot's behavior: Java and RobotPy alike.
 
     file ──running──▶ java | python ──on the fakes of library──▶ bench ──▶ facts
 

@@ -1,4 +1,4 @@
-"""What is wrong with a text before anything of it can be run."""
+"""Problems of a program's text that are found before it runs."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""Runs a learner's robot code, and gives the facts: once, or twice where nobody knows a condition.
+"""Runs a learner's robot code and returns facts; twice if a condition is unknown.
 
 What cannot be known (a class in a file that was not handed in, a vendor's class without a fake) is
 assumed once to be false and once to be true. A verdict that is the same both ways stands; else the

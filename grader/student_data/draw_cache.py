@@ -78,7 +78,7 @@ def find_cache_path(exercise: Path, student: str, what: str) -> Path | None:
 
 @cache
 def _fingerprint_code(exercise: Path) -> str:
-    """What decides what is drawn: it does not change while one answer is graded."""
+    """The fingerprint of all code that decides a draw; cached while one answer is graded."""
     return fingerprint_folders(exercise)
 
 

@@ -26,7 +26,7 @@ def fingerprint_packages(tops: Iterable[Path]) -> str:
 
 
 def list_authored_files(top: Path) -> list[Path]:
-    """What an author wrote in a folder, in order."""
+    """The files that an author wrote in a folder, in order."""
     return sorted(
         path
         for path in top.rglob("*")

@@ -1,4 +1,4 @@
-"""What a learner is given to work on, written unless an unchanged copy exists."""
+"""The files that a learner gets, written unless an unchanged copy exists."""
 
 import hashlib
 import json

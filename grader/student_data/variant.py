@@ -1,4 +1,4 @@
-"""Each learner gets numbers of their own, drawn from a seed that is made of who they are.
+"""Each learner's own numbers, drawn from a seed made of their name.
 
     seed = HMAC-SHA256(secret, "student/exercise")
 
@@ -78,7 +78,7 @@ def draw_until(
     *,
     most: int = 2000,
 ) -> Drawn:
-    """The first of many draws that is accepted, such as numbers whose slips can be told apart.
+    """The first draw that is accepted, such as numbers with distinguishable slips.
 
     Args:
         draw: the number of a draw -> what was drawn, or None where that came to nothing.

@@ -86,7 +86,7 @@ class Routine:
         return (1.0 if way == "forward" else -1.0) * self._command_forward(kind, time)
 
     def _command_forward(self, kind: str, time: float) -> float:
-        """[V] of a forward test."""
+        """[V] commanded voltage in a forward test."""
         match kind:
             case "quasistatic":
                 return self.ramp * time

@@ -75,7 +75,7 @@ def simulate(
     runs, coarse = list[Run](), slice(None, None, parts)
     state, start, last, cut, gripped = State(), PAUSE, 0.0, False, False
     for test in routine.tests:
-        time = _loop_times(mechanism, routine, test, period=period, rng=rng)
+        time = _make_loop_times(mechanism, routine, test, period=period, rng=rng)
         voltage = np.array([routine.command_voltage(test, t) for t in time.tolist()])
         cut = cut or _is_cut(state)
         state.clock = float(start + time[0] - runs[0].time[0]) if runs else 0.0  # as in the log
@@ -123,7 +123,7 @@ def _is_cut(state: State) -> bool:
 
 
 def _delay_limits(track: Track, voltage: Array, time: Array, model: Model) -> Track:
-    """The motion with the voltage at the motors as it is logged, a hidden delay before it acts.
+    """The motion with battery and limits acting after a hidden delay, as the motors do.
 
     The delay lies between the log and the motion, so battery and limits reduce the voltage of one
     sample by what the motors lose when it acts, a delay later.
@@ -217,7 +217,7 @@ def move_gains_only(
     return track.position, track.velocity
 
 
-def _loop_times(
+def _make_loop_times(
     mechanism: Mechanism, routine: Routine, test: str, *, period: float, rng: np.random.Generator
 ) -> Array:
     """[s] times of the loops with a voltage, from the second on, with jitter."""

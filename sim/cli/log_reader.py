@@ -126,7 +126,7 @@ def _join_logs(first: Log, other: Log) -> Log:
 
 
 def refuse_duplicates(files: Sequence[Path]) -> None:
-    """Refuse a file that is given twice: its samples would count twice.
+    """Refuse a file that was named twice: its samples would count twice.
 
     Raises:
         BadRequest: two of them are the same file.

@@ -35,7 +35,10 @@ WORDS = {
         "Add --type, so that all are fitted as the same type.",
         "Choose a type above, so that all are fitted as the same type.",
     ),
-    "units": ("If they are others, add --units.", "If they are others, choose them above."),
+    "units": (
+        "If the log has other units, add --units.",
+        "If the log has other units, choose them above.",
+    ),
     "which-units": (
         "Say what they are with --units, one of: {}.",
         "Write its units into the file, one of: {}.",
@@ -50,7 +53,7 @@ WORDS = {
     ),
     "option": (
         "Choose one {}.",
-        "This page cannot choose one. In a terminal, `sysid fit` can, {}.",
+        "This page cannot choose between them. Use `sysid fit` in a terminal, {}.",
     ),
     "entry-type": ("Name an entry of type {} with {}.", "Choose an entry of type {}."),
     "columns": (
@@ -67,7 +70,7 @@ WORDS = {
     ),
     "look-for-cause": (
         "`sysid reconcile` looks for the cause.",
-        "The search for what the model lacks looks for the cause.",
+        "Search for what the model lacks, to find the cause.",
     ),
     "inspect-and-reconcile": (
         "Run `sysid inspect`, then `sysid reconcile` to find the missing effect.",

@@ -91,7 +91,7 @@ def _rebuild(kind: type[Refusal], what: str, where: str, advice: str | Action) -
 
 @contextmanager
 def refusals_at(where: str) -> Iterator[None]:
-    """A context whose refusals name a place, and the place in it if they have one."""
+    """A context in which every refusal names the given place before its own."""
     try:
         yield
     except Refusal as refusal:

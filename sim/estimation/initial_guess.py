@@ -37,7 +37,7 @@ def guess_gains(log: Log, *, type: str) -> dict[str, float]:  # noqa: A002 - the
     """
     top = log.top_speed
     parts = [
-        _integral_rows(run, standing=STANDSTILL * top, type=type)
+        _integrate_rows(run, standing=STANDSTILL * top, type=type)
         for run in log.runs
         if len(run) > 1
     ]
@@ -91,8 +91,8 @@ def _refuse_constant_voltage(integrals: Array, directions: Array, *, where: str)
     left = np.linalg.norm(integrals - volts * directions)
     if left < LEAST_VARIATION * np.linalg.norm(integrals):
         raise NotIdentifiable(
-            f"the voltage is {abs(volts):.3g} V whenever it moves, so friction, speed and inertia "
-            "cannot be told apart",
+            f"the voltage is {abs(volts):.3g} V whenever the mechanism moves, so friction, speed "
+            "and inertia cannot be separated",
             where=where,
             advice="Add a quasistatic test, or a step of another size.",
         )
@@ -115,7 +115,7 @@ def clamp_to_physical(gains: Mapping[str, float], *, period: float = 0.0) -> dic
     }
 
 
-def _integral_rows(run: Run, *, standing: float, type: str) -> Array:  # noqa: A002 - as above
+def _integrate_rows(run: Run, *, standing: float, type: str) -> Array:  # noqa: A002 - as above
     """(rows, 1 + gains): ∫V dt and the regressors, over intervals without a change of direction."""
     dt = np.diff(run.time)
     reach = max(4, round(INTERVAL / float(np.median(dt))))
@@ -132,18 +132,18 @@ def _integral_rows(run: Run, *, standing: float, type: str) -> Array:  # noqa: A
     one_way = moves & (turn_count[end + 1] == turn_count[begin + 1])
     begin, end = begin[one_way], end[one_way]
 
-    def total(values: Array) -> Array:
+    def sum_columns(values: Array) -> Array:
         sums = np.concatenate(([0.0], np.cumsum(values[:-1] * dt)))
         return np.asarray(sums[end] - sums[begin])
 
     columns = [
-        total(run.voltage + 0.5 * run.voltage_slide),
-        total(direction),
+        sum_columns(run.voltage + 0.5 * run.voltage_slide),
+        sum_columns(direction),
         run.position[end] - run.position[begin],
         run.velocity[end] - run.velocity[begin],
     ]
     if type == "elevator":
         columns.append(run.time[end] - run.time[begin])
     elif type == "arm":
-        columns += [total(np.cos(run.position)), total(np.sin(run.position))]
+        columns += [sum_columns(np.cos(run.position)), sum_columns(np.sin(run.position))]
     return np.column_stack(columns)

@@ -156,11 +156,11 @@ def make_steady_state_filter(
         period: [s] time between samples.
     """
     gains = model.gains
-    return _steady_state_filter(gains["kV"], gains["kA"], noise, process_noise, period)
+    return _solve_steady_state_filter(gains["kV"], gains["kA"], noise, process_noise, period)
 
 
 @lru_cache(maxsize=2)  # a search that does not move kV and kA needs the same filter each time
-def _steady_state_filter(
+def _solve_steady_state_filter(
     kv: float, ka: float, noise: SensorNoise, process_noise: float, period: float
 ) -> KalmanFilter:
     rate, dt = kv / ka, period
@@ -171,17 +171,17 @@ def _steady_state_filter(
         [[dt**3 / 3.0, dt**2 / 2.0], [dt**2 / 2.0, dt]]
     )
     variance = np.array([(noise.position / noise.velocity) ** 2, 1.0])
-    voltage_cov = _voltage_covariance(rate, dt) / (kv * noise.velocity) ** 2
+    voltage_cov = _compute_voltage_covariance(rate, dt) / (kv * noise.velocity) ** 2
     if process_noise <= 0.0:
         return replace(
             OPEN_LOOP, measured_var=variance, transition=transition, voltage_cov=voltage_cov
         )
-    predicted = _steady_covariance(transition, process_cov, variance)
+    predicted = _compute_steady_covariance(transition, process_cov, variance)
     steady = np.ascontiguousarray(predicted @ np.linalg.inv(predicted + np.diag(variance)))
     return KalmanFilter(steady, predicted, variance, transition, process_cov, voltage_cov)
 
 
-def _voltage_covariance(rate: float, period: float) -> Array:
+def _compute_voltage_covariance(rate: float, period: float) -> Array:
     """(2, 2) covariance that a voltage variance of 1 V² adds to the state in a period, times kV².
 
     When within the period the voltage was off is unknown, so the voltages of its first and second
@@ -194,7 +194,7 @@ def _voltage_covariance(rate: float, period: float) -> Array:
     return np.asarray(2.0 * (np.outer(early, early) + np.outer(late, late)))
 
 
-def _steady_covariance(transition: Array, process_cov: Array, variance: Array) -> Array:
+def _compute_steady_covariance(transition: Array, process_cov: Array, variance: Array) -> Array:
     """(2, 2) steady-state covariance of the prediction: the solution X of the Riccati equation.
 
     X = A X Aᵀ - A X (X + R)⁻¹ X Aᵀ + Q        the dual of a regulator's

@@ -516,7 +516,9 @@ class PredictionErrorProblem:
         known: Array | None = None,
     ) -> None:  # fmt: skip
         """Write the columns of ``compute_parameter_jacobian`` into ``rows``, (2 n,) each."""
-        sides = [self._difference_point(point, name, back=known is not None) for name in names]
+        sides = [
+            self._compute_difference_step(point, name, back=known is not None) for name in names
+        ]
         tried = [
             (point.structure.model({**point.values, name: value}), point.nuisance)
             for name, value in zip(names, sides, strict=True)
@@ -536,11 +538,11 @@ class PredictionErrorProblem:
 
     def compute_lag_jacobian(self, point: Estimate) -> Array:
         """(2 n, runs) derivatives of the whitened innovations by each run's own lag."""
-        return self._one_column_per_run(self._compute_lag_change(point))
+        return self._split_column_by_run(self._compute_lag_change(point))
 
     def compute_friction_jacobian(self, point: Estimate) -> Array:
         """(2 n, runs) derivatives of the whitened innovations by each run's own friction."""
-        return self._one_column_per_run(self._compute_friction_change(point))
+        return self._split_column_by_run(self._compute_friction_change(point))
 
     def _compute_friction_change(self, point: Estimate) -> Array:
         """(2 n,) derivative of the whitened innovations by the friction of all runs together."""
@@ -571,7 +573,7 @@ class PredictionErrorProblem:
             priors.append((self.lag_sd, point.nuisance.lag_offset))
         return priors
 
-    def _difference_point(self, point: Estimate, name: str, *, back: bool) -> float | None:
+    def _compute_difference_step(self, point: Estimate, name: str, *, back: bool) -> float | None:
         """The value of a parameter at which to simulate for a finite difference.
 
         It is one step up, or down if the parameter is at its upper limit. ``back`` asks for the
@@ -598,7 +600,7 @@ class PredictionErrorProblem:
 
         return (_make_thread_pool().map if len(self.measured) > PARALLEL else map)(one, tried)
 
-    def _one_column_per_run(self, change: Array) -> Array:
+    def _split_column_by_run(self, change: Array) -> Array:
         """(2 n, runs) block-diagonal: each run's part of the changes (2 n,) in its own column."""
         table = np.zeros((len(self.records), change.size))
         self._fill_run_rows(table, change)

@@ -119,7 +119,7 @@ def measure_runs(
     measurements = measure()
     noise = estimate_noise(measurements) if measurements and rest_by_position else None
     speed = LEAST_SPEED * top
-    if noise is None or _rest_noise(runs, speed=speed, noise=noise) <= NOISY * speed:
+    if noise is None or _measure_noise_at_rest(runs, speed=speed, noise=noise) <= NOISY * speed:
         return measurements
     return measure(noise)
 
@@ -329,7 +329,7 @@ def _measure_run(
     )  # fmt: skip
 
 
-def _rest_noise(runs: Sequence[Run], *, speed: float, noise: SensorNoise) -> float:
+def _measure_noise_at_rest(runs: Sequence[Run], *, speed: float, noise: SensorNoise) -> float:
     """[m/s or rad/s] standard deviation of the velocity while the position does not change."""
     thirds = []
     for run in runs:

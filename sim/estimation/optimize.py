@@ -129,7 +129,7 @@ def levenberg_marquardt(
         size = np.sqrt(np.diag(square))
         size[size == 0.0] = 1.0
         slope /= size
-        free = _movable_columns(point, slope)
+        free = _find_movable_columns(point, slope)
         slope, square = slope[free], (square / np.outer(size, size))[np.ix_(free, free)]
         found = point
         for _ in range(TRIES):
@@ -160,7 +160,7 @@ def compute_gradient_and_information(
         return table.T @ white + rows.T @ residuals, table.T @ table + rows.T @ rows
 
 
-def _movable_columns(point: Estimate, slope: Array) -> NDArray[np.bool_]:
+def _find_movable_columns(point: Estimate, slope: Array) -> NDArray[np.bool_]:
     """(k,) whether a step may change it: not if its limit is in the way of a lower cost."""
     free = np.ones(slope.size, dtype=bool)
     structure = point.structure

@@ -198,13 +198,13 @@ def _find_stops(measurements: RunMeasurements) -> tuple[float, float]:
     high = x.max() < measurements.position + near
     if low == high:
         return -np.inf, np.inf
-    rough = SANK * _position_roughness(x, time)
+    rough = SANK * _measure_position_roughness(x, time)
     if low:
-        return _lowest_stop(x, measurements.position, near=near, rough=rough), np.inf
-    return -np.inf, -_lowest_stop(-x, -measurements.position, near=near, rough=rough)
+        return _find_lowest_stop(x, measurements.position, near=near, rough=rough), np.inf
+    return -np.inf, -_find_lowest_stop(-x, -measurements.position, near=near, rough=rough)
 
 
-def _lowest_stop(x: Array, begin: float, *, near: float, rough: float) -> float:
+def _find_lowest_stop(x: Array, begin: float, *, near: float, rough: float) -> float:
     """[unit] The stop below a run's start; minus infinity if the run later goes below it.
 
     Args:
@@ -220,7 +220,7 @@ def _lowest_stop(x: Array, begin: float, *, near: float, rough: float) -> float:
     return sank if sank < begin - rough else begin
 
 
-def _position_roughness(x: Array, time: Array) -> float:
+def _measure_position_roughness(x: Array, time: Array) -> float:
     """[unit] noise of positions, from how far each is off the line between its neighbors."""
     if x.size < 3:  # noqa: PLR2004 - one between two
         return 0.0

@@ -94,7 +94,7 @@ def compute_run_variation_covariance(problem: PredictionErrorProblem, point: Est
     square[free] = _estimate_variances([run.select_parameters(free) for run in runs], guess[free])
     priors = np.diag([1.0 / known.get(name, math.inf) for name in names]) * sizes
     # roots instead of information, so that rounding loses no weak prior
-    roots = np.vstack([*(_marginal_root(run, square) for run in runs), priors[~free]])
+    roots = np.vstack([*(_compute_marginal_root(run, square) for run in runs), priors[~free]])
     covariance = _invert_root(roots) * np.outer(sizes, sizes)
     # how all parameters change with the size of each small effect
     change = np.zeros((sizes.size, np.count_nonzero(~free)))
@@ -177,7 +177,7 @@ def _log_likelihood(runs: list[RunInformation], square: Array) -> Array:
     return np.asarray(0.5 * np.sum(along**2 / (1.0 + values) - np.log1p(values), axis=(1, 2)))
 
 
-def _marginal_root(run: RunInformation, square: Array) -> Array:
+def _compute_marginal_root(run: RunInformation, square: Array) -> Array:
     """(j, k) root of (T + G⁻¹)⁻¹, the information of a run about the common parameters.
 
     Args:
@@ -220,7 +220,7 @@ def _run_information(
         information = free.T @ columns
         score = free.T @ innovations[rows] - shares.T @ own
         time = problem.records[number].measurements.time
-        starts = 2 * _interval_starts(time, INTERVAL)  # two measurements to a sample
+        starts = 2 * _find_interval_starts(time, INTERVAL)  # two measurements to a sample
         scores = np.add.reduceat(free.T * innovations[rows], starts, axis=1).T
         excess = max(_compute_excess_variance(information, scores), 1.0)
         whole = np.vstack([free, np.sqrt(known)[:, None] * shares])
@@ -229,7 +229,7 @@ def _run_information(
     return runs
 
 
-def _interval_starts(time: Array, length: float) -> NDArray[np.intp]:
+def _find_interval_starts(time: Array, length: float) -> NDArray[np.intp]:
     """Index of the first sample in each interval of this length [s] that has samples."""
     return np.flatnonzero(np.diff((time - time[0]) // length, prepend=-1.0))
 

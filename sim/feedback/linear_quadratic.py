@@ -50,7 +50,7 @@ def design_two_state_regulator(
     if not loops:
         return k
     closed = (a[0] - b[0] * k[0], a[1] - b[0] * k[1], a[2] - b[1] * k[0], a[3] - b[1] * k[1])
-    return _row_times_power(k, closed, loops)
+    return _multiply_row_by_power(k, closed, loops)
 
 
 def _discretize(rate: float, push: float, period: float) -> tuple[Matrix, Pair]:
@@ -90,7 +90,7 @@ def solve_riccati(a: Matrix, g: Matrix, h: Matrix) -> Matrix:
     return h
 
 
-def _row_times_power(k: Pair, m: Matrix, power: float) -> Pair:
+def _multiply_row_by_power(k: Pair, m: Matrix, power: float) -> Pair:
     """The row vector k·Mᵖ; the real part, if the power is complex.
 
     Mᵖ = λ₁ᵖ I + (λ₁ᵖ - λ₂ᵖ)/(λ₁ - λ₂) · (M - λ₁ I)

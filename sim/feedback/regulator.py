@@ -121,7 +121,7 @@ def design_velocity_loop(
     rate = -kv / ka
     a = math.exp(rate * preset.period)
     b = math.expm1(rate * preset.period) / -kv if kv else preset.period / ka
-    k, closed = _scalar_regulator(a, b, q=velocity_error**-2, r=volts**-2)
+    k, closed = _design_scalar_regulator(a, b, q=velocity_error**-2, r=volts**-2)
     k *= closed ** (_choose_delay(preset, delay) / preset.period)
     return Feedback(k * preset.output / preset.velocity_time, 0.0)
 
@@ -153,7 +153,7 @@ def design_position_loop(
     _check(kv=kv, ka=ka, errors=(position_error, velocity_error, volts))
     loops = _choose_delay(preset, delay) / preset.period
     if ka < MASSLESS:  # no inertia: the velocity answers at once, so it is the input
-        k, closed = _scalar_regulator(1.0, preset.period, q=position_error**-2, r=volts**-2)
+        k, closed = _design_scalar_regulator(1.0, preset.period, q=position_error**-2, r=volts**-2)
         return Feedback(kv * k * closed**loops * preset.output, 0.0)
     per_position, per_velocity = design_two_state_regulator(
         -kv / ka,
@@ -167,7 +167,7 @@ def design_position_loop(
     return Feedback(per_position * preset.output, per_velocity * preset.output / per_loop)
 
 
-def _scalar_regulator(a: float, b: float, *, q: float, r: float) -> tuple[float, float]:
+def _design_scalar_regulator(a: float, b: float, *, q: float, r: float) -> tuple[float, float]:
     """Gain and closed-loop factor of x⁺ = a·x + b·u, from its Riccati equation's positive root.
 
     b²S² + (r - a²r - b²q)S - qr = 0

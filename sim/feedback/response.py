@@ -132,7 +132,7 @@ def simulate_step_response(
     seen = moving.path if loop == "position" else moving.speed
     first, behind, voltage = seen[0], wait / moving.step, [0.0]
     for _ in range(math.ceil((seconds or _choose_duration(plant, wait, preset)) / preset.period)):
-        volts = controller.volts(_delayed_value(seen, behind), position=moving.path[-1])
+        volts = controller.volts(_get_delayed_value(seen, behind), position=moving.path[-1])
         for _ in range(points):
             moving.apply_voltage(volts)
         voltage += [volts] * points
@@ -208,7 +208,7 @@ class _Controller:
         return friction + gains["kV"] * self.target + self.plant.compute_gravity_voltage(position)
 
 
-def _delayed_value(values: Sequence[float], behind: float) -> float:
+def _get_delayed_value(values: Sequence[float], behind: float) -> float:
     """The interpolated value ``behind`` points ago; before the first point, the first value."""
     place = len(values) - 1 - behind
     if place <= 0.0:

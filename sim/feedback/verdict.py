@@ -50,13 +50,13 @@ class Verdict:
                     f", goes {self.overshoot:.0%} past the target" if self.overshoot > BAND else ""
                 )
                 return (
-                    f"reaches 90% of the target after {_to_text(self.reached)}{past} and settles "
-                    f"after {_to_text(self.settled)}"
+                    f"reaches 90% of the target after {_format_time(self.reached)}{past} and "
+                    f"settles after {_format_time(self.settled)}"
                 )
             case "oscillates":
                 return (
                     f"oscillates and does not settle: it still swings by {self.swing:.0%} of "
-                    f"the step after {_to_text(self.duration)}"
+                    f"the step after {_format_time(self.duration)}"
                 )
             case "stays-short":
                 return f"stops {self.left:.0%} of the step before the target"
@@ -65,7 +65,7 @@ class Verdict:
             case _:
                 return (
                     f"is slow: still {abs(self.left):.0%} of the step from the target after "
-                    f"{_to_text(self.duration)}"
+                    f"{_format_time(self.duration)}"
                 )
 
     def to_json(self) -> dict[str, object]:
@@ -120,7 +120,7 @@ def _count_turns(values: list[float]) -> int:
     return sum(1 for before, after in pairwise(ways) if before * after < 0.0)
 
 
-def _to_text(seconds: float | None) -> str:
+def _format_time(seconds: float | None) -> str:
     if seconds is None:
         return "more than was watched"
     return f"{seconds * 1000:.0f} ms" if seconds < 1.0 else f"{seconds:.2g} s"

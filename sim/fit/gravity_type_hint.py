@@ -37,7 +37,7 @@ def hint_gravity_type(
         return None
     angular = find_unit(log.units).angular
     left = {
-        name: _typical_velocity_error(log, problem, name)
+        name: _measure_typical_velocity_error(log, problem, name)
         for name in GRAVITY
         if angular or name != "arm"
     }
@@ -47,7 +47,7 @@ def hint_gravity_type(
     return Action("gravity-type", best)
 
 
-def _typical_velocity_error(log: Log, problem: PredictionErrorProblem, type: str) -> float:  # noqa: A002 - the field's own word
+def _measure_typical_velocity_error(log: Log, problem: PredictionErrorProblem, type: str) -> float:  # noqa: A002 - the field's own word
     """[unit/s] typical velocity error of a quick fit as another type."""
     try:
         log, guess, _ = orient_forward(log, type=type)  # gravity may hide the sign of kV

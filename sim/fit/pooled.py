@@ -105,7 +105,7 @@ def pool_values(values: list[float], errors: list[float]) -> tuple[float, float]
 
 
 def merge_doubts(fits: Mapping[str, Fit]) -> tuple[Doubt, ...]:
-    """The doubts of all parts; one that several parts have is given once, with their names.
+    """The doubts of all parts; a doubt of several parts is listed once, with their names.
 
     Args:
         fits: the name of each part -> its fit.
@@ -133,7 +133,7 @@ def _merge_doubts(several: Mapping[str, list[Doubt]], *, whole: int) -> list[Dou
 
 
 def _orient_alike(fits: list[Fit]) -> list[Fit]:
-    """The fits with negative gains inverted, unless those of all parts are negative.
+    """The fits, with negative gains inverted unless all parts have negative gains.
 
     A part whose voltage was logged with the wrong sign has negative gains, and a warning.
     """

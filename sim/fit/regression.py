@@ -51,7 +51,7 @@ def regress_acceleration(rows: Mapping[str, Rows], *, type: str) -> Regression: 
     stacked = [rows[test] for test in FOUR_TESTS]
     columns = np.concatenate([_list_regressors(part, type=type) for part in stacked], axis=1)
     acceleration = np.concatenate([part.acceleration for part in stacked])
-    beta, inverse = _least_squares(columns, acceleration)
+    beta, inverse = _solve_least_squares(columns, acceleration)
     if not beta[1]:
         raise NotIdentifiable(
             "the voltage has no effect on the motion", advice="Check what the log calls voltage."
@@ -85,7 +85,7 @@ def _list_regressors(rows: Rows, *, type: str) -> Array:  # noqa: A002 - SysId's
     return np.asarray(np.stack(columns))
 
 
-def _least_squares(columns: Array, y: Array) -> tuple[Array, Array]:
+def _solve_least_squares(columns: Array, y: Array) -> tuple[Array, Array]:
     """Coefficients (k,) of the regressors (k, n), and (k, k) the inverse of XᵀX.
 
     Raises:
@@ -114,13 +114,13 @@ def _convert_to_gains(beta: Array, *, type: str) -> tuple[dict[str, float], dict
     alpha, per_volt, gamma = beta[:3]
     unit = np.eye(beta.size)
 
-    def ratio(index: int) -> Array:
+    def compute_ratio(index: int) -> Array:
         return np.asarray(-unit[index] / per_volt + unit[1] * beta[index] / per_volt**2)
 
     gains = {"kS": -gamma / per_volt, "kV": -alpha / per_volt, "kA": 1.0 / per_volt}
-    slopes = {"kS": ratio(2), "kV": ratio(0), "kA": -unit[1] / per_volt**2}
+    slopes = {"kS": compute_ratio(2), "kV": compute_ratio(0), "kA": -unit[1] / per_volt**2}
     if type == "elevator":
-        gains["kG"], slopes["kG"] = -beta[3] / per_volt, ratio(3)
+        gains["kG"], slopes["kG"] = -beta[3] / per_volt, compute_ratio(3)
     elif type == "arm":
         cosine, sine = beta[3], beta[4]
         swing = math.hypot(cosine, sine)

@@ -82,11 +82,11 @@ def replay_fit(found: Fit, log: Log) -> tuple[RunReplay, ...]:
         )
         for part in measured
     ]  # fmt: skip
-    position_noise = _position_noise(measured, tracks)
+    position_noise = _measure_position_noise(measured, tracks)
     velocity_noise = estimate_noise(measured).velocity
     return tuple(
         RunReplay(
-            _last_samples(run, part.time.size),
+            _take_last_samples(run, part.time.size),
             track.position,
             track.seen,
             part.moving,
@@ -114,13 +114,13 @@ def make_fit_model(found: Fit) -> tuple[float, Model]:
             f"kA = {found.gains['kA']:.3g}",
             advice="First find out why a gain is negative.",
         )
-    return sign, Model(found.type, gains, (*_sensor_lags(found), *found.parts))
+    return sign, Model(found.type, gains, (*_list_sensor_lags(found), *found.parts))
 
 
 SENSOR_LAGS = frozenset({"velocity-filter", "delay"})  # effects that every fit estimates
 
 
-def _sensor_lags(found: Fit) -> list[Part]:
+def _list_sensor_lags(found: Fit) -> list[Part]:
     """The lag and the averaging of the velocity that an output-error fit found."""
     if found.method != "output-error":
         return []
@@ -134,7 +134,7 @@ def _sensor_lags(found: Fit) -> list[Part]:
     ]
 
 
-def _position_noise(measured: Sequence[RunMeasurements], tracks: Sequence[Track]) -> float:
+def _measure_position_noise(measured: Sequence[RunMeasurements], tracks: Sequence[Track]) -> float:
     """[m or rad] position noise, from third differences of the residual.
 
     They hardly depend on errors of the model. Those of the position itself would be large wherever
@@ -147,6 +147,6 @@ def _position_noise(measured: Sequence[RunMeasurements], tracks: Sequence[Track]
     return compute_noise_deviation([third[~np.isnan(third)] for third in thirds])
 
 
-def _last_samples(run: Run, count: int) -> Run:
+def _take_last_samples(run: Run, count: int) -> Run:
     """The last samples of a run."""
     return run.select(slice(len(run) - count, None))

@@ -106,7 +106,7 @@ class Fit:
         position_delay: float = 0.0,
         velocity_delay: float = 0.0,
     ) -> "Fit":
-        """Gains that no log gave, such as those of theory; what only a log tells is nan."""
+        """Gains that come from no log, such as those of theory; measured quantities are nan."""
         return cls(
             type, "none", units, units, gains, errors={}, samples_used={},
             acceleration_r2=math.nan, acceleration_rmse=math.nan, simulated_velocity_r2=math.nan,

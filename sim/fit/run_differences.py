@@ -125,7 +125,7 @@ def _fit_rival(problem: PredictionErrorProblem, common: Estimate, period: float)
     """
     begin = _evaluate_anew(problem, common)
     if problem.lag_sd:
-        begin = _with_shared_lag(problem, common, least=0.5 * period)
+        begin = _add_shared_lag(problem, common, least=0.5 * period)
     found = levenberg_marquardt(problem, begin, steps=2 * STEPS, enough=ROUGHLY)
     if problem.lag_sd:
         lags = found.values["delay.lag"] + found.nuisance.lag_offset
@@ -154,7 +154,7 @@ def _compute_occam_factor(problem: PredictionErrorProblem, point: Estimate) -> f
     return -float(np.linalg.slogdet(posterior)[1])
 
 
-def _with_shared_lag(problem: PredictionErrorProblem, point: Estimate, *, least: float) -> Estimate:
+def _add_shared_lag(problem: PredictionErrorProblem, point: Estimate, *, least: float) -> Estimate:
     """The estimate in a model with a common lag of ``least`` [s] or more."""
     structure = point.structure
     if SHARED not in structure.effects:
@@ -170,10 +170,10 @@ def _correct_jitter(problem: PredictionErrorProblem, point: Estimate) -> Predict
     The jitter is the deviation of the sample times from even ones; a reading is corrected by the
     jitter times the slope that the model has there.
     """
-    jitter = [_deviation_from_even(record.measurements.time) for record in problem.records]
+    jitter = [_compute_deviation_from_even(record.measurements.time) for record in problem.records]
     if max(float(np.abs(one).max()) for one in jitter) > 0.5 * problem.lag_sd * UNIFORM:
         return problem
-    slopes = _reading_slopes(problem, point)
+    slopes = _compute_reading_slopes(problem, point)
     records = []
     for record, own, first in zip(problem.records, jitter, problem.run_edges, strict=False):
         run = record.measurements
@@ -184,7 +184,7 @@ def _correct_jitter(problem: PredictionErrorProblem, point: Estimate) -> Predict
     return replace(problem, records=tuple(records))
 
 
-def _reading_slopes(problem: PredictionErrorProblem, point: Estimate) -> Array:
+def _compute_reading_slopes(problem: PredictionErrorProblem, point: Estimate) -> Array:
     """(n, 2) derivative of the simulated readings by time [unit/s, unit/s²]."""
     model = point.structure.model(point.values)
     base = problem.initial_nuisance.add_lag(point.nuisance.lag_offset)
@@ -196,7 +196,7 @@ def _reading_slopes(problem: PredictionErrorProblem, point: Estimate) -> Array:
     return np.asarray((early - late) / (2.0 * SLOPE_STEP))
 
 
-def _deviation_from_even(time: Array) -> Array:
+def _compute_deviation_from_even(time: Array) -> Array:
     """(n,) [s] times minus evenly spaced ones."""
     steps = np.diff(time)
     index = np.concatenate(([0.0], np.cumsum(np.round(steps / np.median(steps)))))

@@ -75,13 +75,13 @@ def fit_open_loop(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
     less likely, the noise is reduced in steps as long as the likelihood grows.
     """
     size = problem.noise.velocity**2
-    open_loop = refine(problem, _with_noise(problem, point, OPEN_LOOP * size))
+    open_loop = refine(problem, _set_process_noise(problem, point, OPEN_LOOP * size))
     if open_loop.cost < point.cost:
-        others = [_with_noise(problem, open_loop, q * size) for q in BETWEEN]
+        others = [_set_process_noise(problem, open_loop, q * size) for q in BETWEEN]
         best = tune_process_noise(problem, min(open_loop, *others, key=lambda one: one.cost))
         return best if best is open_loop else refine(problem, best)
     for _ in range(MOST_ROUNDS):
-        other = _with_noise(problem, point, point.process_noise / COARSE)
+        other = _set_process_noise(problem, point, point.process_noise / COARSE)
         other = levenberg_marquardt(problem, other, steps=1)
         if not other.cost < point.cost - 0.5:
             break
@@ -150,6 +150,6 @@ def drop_outliers(problem: PredictionErrorProblem, point: Estimate) -> Predictio
     return problem if same else replace(problem, records=tuple(kept))
 
 
-def _with_noise(problem: PredictionErrorProblem, point: Estimate, q: float) -> Estimate:
+def _set_process_noise(problem: PredictionErrorProblem, point: Estimate, q: float) -> Estimate:
     """The estimate with another process noise [unit²/s³]."""
     return problem.evaluate(point.structure, point.values, point.nuisance, q)

@@ -68,7 +68,7 @@ def _doubt_stale_velocities(log: Log) -> list[Doubt]:
     repeated).
     """
     steps = [
-        _rise_changes(log.list_runs_of_test(test)[0])
+        _measure_rise_changes(log.list_runs_of_test(test)[0])
         for test in FOUR_TESTS
         if test.startswith("dynamic")
     ]
@@ -89,7 +89,7 @@ def _doubt_stale_velocities(log: Log) -> list[Doubt]:
     ]
 
 
-def _rise_changes(run: Run) -> Array:
+def _measure_rise_changes(run: Run) -> Array:
     """The changes of velocity from the first motion until near the top speed."""
     speed = np.abs(run.velocity)
     moving = int(np.argmax(speed > 0.0))

@@ -92,7 +92,7 @@ def prepare_rows(log: Log, *, median: int = 1) -> PreparedRows:
             f"a median window of {median} samples is not possible",
             advice=f"Choose {MEDIAN_WINDOWS[0]} (no filter) to {MEDIAN_WINDOWS[-1]}.",
         )
-    raw = {test: _rows_of_run(run) for test, run in _first_runs(log).items()}
+    raw = {test: _make_rows(run) for test, run in _take_first_runs(log).items()}
     threshold = min(
         estimate_noise_floor(raw[t].velocity) for t in FOUR_TESTS if t.startswith("quasi")
     )
@@ -213,7 +213,7 @@ def trim_step(
     )
 
 
-def _first_runs(log: Log) -> dict[str, Run]:
+def _take_first_runs(log: Log) -> dict[str, Run]:
     """The first run of each of the four tests."""
     missing = [test for test in FOUR_TESTS if not log.list_runs_of_test(test)]
     if missing:
@@ -226,7 +226,7 @@ def _first_runs(log: Log) -> dict[str, Run]:
     return {test: log.list_runs_of_test(test)[0] for test in FOUR_TESTS}
 
 
-def _rows_of_run(run: Run) -> Rows:
+def _make_rows(run: Run) -> Rows:
     """The rows of a run: samples with the time to the next one, so without the last."""
     if len(run) <= NOISE_WINDOW:
         raise NotIdentifiable(

@@ -21,7 +21,7 @@ INTERVALS, LEAST = 60, 5  # at most; samples of each, at least
 MOSTLY, HARDLY = 0.7, 0.3  # [1] shares above which residuals repeat, and below which they do not
 LOUD = 3.0  # [standard errors] by which residuals exceed noise, at least
 AGAIN, PARTLY = "comes again", "comes again in part"
-CHANGES, NOISE = "changes from run to run", "is no more than noise"
+CHANGES, NOISE = "changes from run to run", "is only noise"
 
 
 @dataclass(frozen=True)
@@ -78,14 +78,16 @@ def _compare_pair(
     ends = np.linspace(
         0.0, min(one.run_time[n - 1], other.run_time[n - 1]), min(INTERVALS, n // LEAST) + 1
     )
-    (a, count_a), (b, count_b) = (_interval_means(run, ends, noise=noise) for run in (one, other))
+    (a, count_a), (b, count_b) = (
+        _average_over_intervals(run, ends, noise=noise) for run in (one, other)
+    )
     both = (count_a >= LEAST - 1) & (count_b >= LEAST - 1)
     a, b, counts = a[both], b[both], np.minimum(count_a, count_b)[both]
     if a.size < LEAST:
         return
     size = math.sqrt(float(a @ a) * float(b @ b))
     correlation = float(a @ b) / size if size > 0.0 else 0.0
-    rho = _lag_one_correlation(a) * _lag_one_correlation(b)
+    rho = _compute_lag_one_correlation(a) * _compute_lag_one_correlation(b)
     sure = correlation * math.sqrt(a.size * (1.0 - rho) / (1.0 + rho))
     excess = float(np.mean(counts * (a**2 + b**2))) / 2.0
     share = float(np.mean(counts * a * b)) / max(excess - 1.0, 1e-9)
@@ -96,7 +98,7 @@ def _compare_pair(
     yield Repeat(one.test, pair, sure, excess, share, verdict)
 
 
-def _interval_means(run: Residuals, ends: Array, *, noise: float) -> tuple[Array, Array]:
+def _average_over_intervals(run: Residuals, ends: Array, *, noise: float) -> tuple[Array, Array]:
     """[noise] mean velocity residual in each interval, and its number of samples."""
     residual = run.error[:, 1] / noise
     there = ~np.isnan(residual) & (run.run_time < ends[-1])
@@ -106,7 +108,7 @@ def _interval_means(run: Residuals, ends: Array, *, noise: float) -> tuple[Array
     return total / np.maximum(count, 1.0), count
 
 
-def _lag_one_correlation(values: Array) -> float:
+def _compute_lag_one_correlation(values: Array) -> float:
     """[1] lag-one autocorrelation, clamped to 0 and 0.95."""
     square = float(values @ values)
     return min(max(float(values[1:] @ values[:-1]) / square, 0.0), 0.95) if square > 0.0 else 0.0

@@ -58,16 +58,16 @@ class Anomaly:
             margin: [samples] largest distance from its first and last sample.
         """
         stride = max(1, margin // 3)
-        return self._span_grid(self.first, self.last + 1, reach=margin, stride=stride)
+        return self._list_spans(self.first, self.last + 1, reach=margin, stride=stride)
 
     def refine_spans(self, span: tuple[int, int], *, margin: int) -> list[tuple[int, int]]:
         """Candidate spans at sample resolution around the best of ``list_candidate_spans``."""
         first, last = span
-        return self._span_grid(
+        return self._list_spans(
             self.begin + first, self.begin + last, reach=max(1, margin // 3) - 1, stride=1
         )
 
-    def _span_grid(
+    def _list_spans(
         self, first: int, last: int, *, reach: int, stride: int
     ) -> list[tuple[int, int]]:
         return [
@@ -145,8 +145,8 @@ def find_anomalies(
         late = LATE * np.abs(np.gradient(expected[index], run.time))
         within = (WITHIN + early) / baseline.kv + SHARE * np.abs(expected[index]) + late + sigma
         residual = run.velocity - expected[index]
-        residual -= _ordinary_residual(residual, within)
-        anomalous = np.abs(_running_mean(residual, wide)) > within
+        residual -= _measure_ordinary_residual(residual, within)
+        anomalous = np.abs(_compute_running_mean(residual, wide)) > within
         anomalous[:begin] = False
         longest = LONGEST * (len(run) - begin)
         for first, last in _find_intervals(anomalous, join=round(JOIN / period)):
@@ -176,7 +176,7 @@ def _recur(one: Anomaly, other: Anomaly, runs: Sequence[Run], *, still: float) -
         return False
     mine, others = runs[one.run], runs[other.run]
 
-    def shared(a: Array, b: Array) -> bool:
+    def have_common_span(a: Array, b: Array) -> bool:
         together = min(a.max(), b.max()) - max(a.min(), b.min())
         return bool(together >= ALIKE * min(np.ptp(a), np.ptp(b)))
 
@@ -185,16 +185,16 @@ def _recur(one: Anomaly, other: Anomaly, runs: Sequence[Run], *, still: float) -
         for run, s in ((mine, one), (others, other))
     ]
     place = [run.position[s.first : s.last + 1] for run, s in ((mine, one), (others, other))]
-    return (mine.kind == others.kind and shared(*since)) or shared(*place)
+    return (mine.kind == others.kind and have_common_span(*since)) or have_common_span(*place)
 
 
-def _ordinary_residual(residual: Array, within: Array) -> Array:
+def _measure_ordinary_residual(residual: Array, within: Array) -> Array:
     """(n,) the usual residual of a run: the median of samples without an anomaly."""
     usual = np.abs(residual) <= 2.0 * within
     return np.full(residual.size, np.median(residual[usual]) if usual.any() else 0.0)
 
 
-def _running_mean(values: Array, wide: int) -> Array:
+def _compute_running_mean(values: Array, wide: int) -> Array:
     """(n,) centered running mean; beyond the ends the values are repeated."""
     padded = np.pad(values, (wide // 2, wide - 1 - wide // 2), mode="edge")
     return np.asarray(np.convolve(padded, np.full(wide, 1.0 / wide), mode="valid"))

@@ -103,22 +103,22 @@ def fit_baseline(runs: Sequence[Run], *, still: float, period: float) -> Baselin
         The model; None if there is too little motion, or if kV or kA is not positive, as with
         opposed signs.
     """
-    parts = [_rows(run, still=still, period=period) for run in runs]
+    parts = [_make_rows(run, still=still, period=period) for run in runs]
     rows = np.concatenate([part for part in parts if part.size] or [np.zeros((0, 8))])
     part = np.repeat(np.arange(len(parts)), [len(one) for one in parts])
     if len(rows) < FEWEST:
         return None
     volts, terms, start = rows[:, 0], rows[:, 1:7], rows[:, 7]
     scale = np.maximum(np.sqrt(np.mean(terms**2, axis=0)), 1e-300)
-    gains = _robust(terms / scale, volts) / scale
+    gains = _regress_robustly(terms / scale, volts) / scale
     for _ in range(2):  # kA from the starts of steps alone, then the other gains
-        gains[1] = _acceleration(
+        gains[1] = _fit_acceleration(
             volts - np.delete(terms, 1, 1) @ np.delete(gains, 1), terms, start, part
         )
         if not np.isfinite(gains[1]):
             return None
         rest = np.delete(terms / scale, 1, 1)
-        others = _robust(rest, volts - gains[1] * terms[:, 1])
+        others = _regress_robustly(rest, volts - gains[1] * terms[:, 1])
         gains = np.insert(others / np.delete(scale, 1), 1, gains[1])
     kv, ka = float(gains[0]), float(gains[1])
     if not (kv > 0.0 and ka > 0.0):
@@ -129,7 +129,7 @@ def fit_baseline(runs: Sequence[Run], *, still: float, period: float) -> Baselin
     return BaselineModel(kv, ka, max(float(gains[2]), 0.0), gains[3:], spread)
 
 
-def _rows(run: Run, *, still: float, period: float) -> Array:
+def _make_rows(run: Run, *, still: float, period: float) -> Array:
     """(m, 8): mean voltage, the six regressors, and the weight of a row for kA."""
     wide = max(3, round(WINDOW / period)) if period > 0.0 else 3
     last = len(run) - wide
@@ -158,7 +158,7 @@ def _rows(run: Run, *, still: float, period: float) -> Array:
             np.ones(first.size),
             mean(np.cos(place)),
             mean(np.sin(place)),
-            _after_step(run)[first],
+            _find_samples_after_step(run)[first],
         ),
         axis=1,
     )
@@ -167,7 +167,7 @@ def _rows(run: Run, *, still: float, period: float) -> Array:
     return np.asarray(rows[keep])
 
 
-def _after_step(run: Run) -> Array:
+def _find_samples_after_step(run: Run) -> Array:
     """(n,) weight of a sample for kA: 1 just after a voltage step, decaying to 0."""
     size = float(np.max(np.abs(run.voltage), initial=0.0))
     jump = np.abs(run.voltage - np.concatenate(([0.0, 0.0], run.voltage[:-2])))[: len(run)]
@@ -181,7 +181,7 @@ def _after_step(run: Run) -> Array:
     return after
 
 
-def _acceleration(left: Array, terms: Array, start: Array, part: NDArray[np.int_]) -> float:
+def _fit_acceleration(left: Array, terms: Array, start: Array, part: NDArray[np.int_]) -> float:
     """Robust kA [V·s²/unit] from rows after a voltage step.
 
     Each run gives a weighted median; the result is that with the smallest loss over all rows.
@@ -194,7 +194,7 @@ def _acceleration(left: Array, terms: Array, start: Array, part: NDArray[np.int_
         start = np.ones(start.size)
     left, change, start, part = left[driven], change[driven], start[driven], part[driven]
     candidates = [
-        _weighted_median(left[mine] / change[mine], np.abs(change[mine]) * start[mine])
+        _compute_weighted_median(left[mine] / change[mine], np.abs(change[mine]) * start[mine])
         for mine in (part == one for one in np.unique(part))
     ]
     return min(
@@ -204,14 +204,14 @@ def _acceleration(left: Array, terms: Array, start: Array, part: NDArray[np.int_
     )
 
 
-def _weighted_median(values: Array, weights: Array) -> float:
+def _compute_weighted_median(values: Array, weights: Array) -> float:
     """The median of values (n,) with weights (n,)."""
     order = np.argsort(values)
     share = np.cumsum(weights[order])
     return float(values[order][np.searchsorted(share, 0.5 * share[-1])])
 
 
-def _robust(terms: Array, volts: Array) -> Array:
+def _regress_robustly(terms: Array, volts: Array) -> Array:
     """(k,) least-squares coefficients, iteratively reweighted (Huber, then Tukey's biweight)."""
     weight: Array = np.ones(volts.size)
     ridge = RIDGE * np.eye(terms.shape[1])

@@ -57,8 +57,10 @@ class Inspection:
         kinds: dict[str, list[Damage]] = {}
         for damage in self.faults:
             kinds.setdefault(damage.fault, []).append(damage)
-        sorted_within = (tuple(sorted(kind, key=_harm, reverse=True)) for kind in kinds.values())
-        return tuple(sorted(sorted_within, key=lambda kind: -sum(map(_harm, kind))))
+        sorted_within = (
+            tuple(sorted(kind, key=_rate_harm, reverse=True)) for kind in kinds.values()
+        )
+        return tuple(sorted(sorted_within, key=lambda kind: -sum(map(_rate_harm, kind))))
 
     def to_json(self) -> dict[str, Any]:
         """The inspection as data for JSON, as ``sysid inspect --json`` prints it."""
@@ -145,7 +147,9 @@ def inspect_together(logs: Sequence[Log]) -> Inspection:
         runs = range(offset, offset + len(log.runs))
         if log.has_ramps_and_steps:
             alone = inspect(log)
-            damages += [_of_file(one, log, offset) for one in alone.damages if not _is_absence(one)]
+            damages += [
+                _renumber_run(one, log, offset) for one in alone.damages if not _is_absence(one)
+            ]
             for doubt in alone.doubts:
                 message = doubt.message.removeprefix(f"{log.source}: ")
                 doubts.setdefault(replace(doubt, message=message), []).append(log.source)
@@ -173,7 +177,7 @@ def _is_absence(damage: Damage) -> bool:
     return damage.where.run is None and bool(damage.where.test)
 
 
-def _of_file(damage: Damage, log: Log, offset: int) -> Damage:
+def _renumber_run(damage: Damage, log: Log, offset: int) -> Damage:
     """A damage of one log of several, with the run index among the runs of all logs."""
     if damage.where.run is None:
         evidence = f"{log.source}: {damage.evidence}" if log.source else damage.evidence
@@ -212,13 +216,13 @@ def _drop_explained(found: Iterable[Damage]) -> list[Damage]:
     Faults of whole runs, and those of time, do not compete with faults of the motion.
     """
     kept: list[Damage] = []
-    for damage in sorted(found, key=_evidence_weight, reverse=True):
+    for damage in sorted(found, key=_weigh_evidence, reverse=True):
         if not any(_are_rivals(damage, other) for other in kept):
             kept.append(damage)
     return kept
 
 
-def _evidence_weight(damage: Damage) -> float:
+def _weigh_evidence(damage: Damage) -> float:
     """Weight of a damage, like a log likelihood: its length [s] times -log(1 - confidence)."""
     left = max(1.0 - damage.confidence, CERTAIN)
     return (damage.where.end - damage.where.start) * -math.log(left)
@@ -233,7 +237,7 @@ def _are_rivals(one: Damage, other: Damage) -> bool:
     return one.where.run == other.where.run and shared > 0.0
 
 
-def _harm(damage: Damage) -> float:
+def _rate_harm(damage: Damage) -> float:
     """[s] length of a damage times its confidence; infinite for the whole log."""
     if damage.where.run is None:
         return math.inf

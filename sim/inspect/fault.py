@@ -147,7 +147,10 @@ class Fault:
             "strikes no kind of test": bool(self.kinds),
             f"strikes types {self.types}, which are not all types": {*self.types} <= {*TYPES},
             f"is about {self.about!r}, which is neither motion nor time": self.about in ABOUT,
-            f"may start at {self.when}, which are no shares in order": 0 <= earliest <= latest <= 1,
+            f"may start at {self.when}, which are not two shares in rising order": 0
+            <= earliest
+            <= latest
+            <= 1,
         }
         return [rule for rule, kept in rules.items() if not kept]
 

@@ -53,11 +53,16 @@ def find_launch_event(run: Run) -> LaunchEvent | None:
     if len(run) <= first + 2 * STAYS or since[-1] < LAUNCH + REST:
         return None
     period = float(np.median(np.diff(run.time)))
-    top = float(np.percentile(_position_slope(run, half=max(HALF, period))[since > 0.0], 90))
+    top = float(
+        np.percentile(_compute_position_slope(run, half=max(HALF, period))[since > 0.0], 90)
+    )
     if not top > 0.0:
         return None
-    for find, half, wait in ((_largest_fall, HALF, 0.0), (_largest_climb, WAIT_HALF, LASTS)):
-        speed = _position_slope(run, half=max(half, period))
+    for find, half, wait in (
+        (_find_largest_fall, HALF, 0.0),
+        (_find_largest_climb, WAIT_HALF, LASTS),
+    ):
+        speed = _compute_position_slope(run, half=max(half, period))
         event = find(since, speed, (0.0, LAUNCH), top=top)
         later = find(since, speed, (LAUNCH + wait, float(since[-1]) - 2.0 * WAIT_HALF), top=top)
         if (
@@ -79,7 +84,7 @@ def find_step_start(run: Run) -> int:
     return int(np.argmax(stays)) if stays.any() else int(np.argmax(on))
 
 
-def _position_slope(run: Run, *, half: float) -> Array:
+def _compute_position_slope(run: Run, *, half: float) -> Array:
     """(n,) [m/s or rad/s] slope of the position over twice ``half`` [s], positive on the way."""
     early = np.clip(run.time - half, run.time[0], run.time[-1])
     late = np.clip(run.time + half, run.time[0], run.time[-1])
@@ -94,11 +99,11 @@ def _position_slope(run: Run, *, half: float) -> Array:
     return np.asarray(speed)
 
 
-def _largest_fall(
+def _find_largest_fall(
     since: Array, speed: Array, within: tuple[float, float], *, top: float
 ) -> LaunchEvent | None:
     """The largest fall below an earlier speed that the run reaches again."""
-    at = _between(since, within)
+    at = _find_samples_within(since, within)
     if not at.size:
         return None
     inside = speed[at]
@@ -111,13 +116,13 @@ def _largest_fall(
     return LaunchEvent(float(fall[low]), int(at[begin]), int(at[low]), float(peak[low]), "fall")
 
 
-def _largest_climb(
+def _find_largest_climb(
     since: Array, speed: Array, within: tuple[float, float], *, top: float
 ) -> LaunchEvent | None:
     """The largest rise after an interval of ``LASTS`` in which the speed hardly rose."""
     best = None
     at_end = since > since[-1] - REST  # a rise until the end is a load that changes
-    for k in _between(since, (within[0], within[1] - LASTS)).tolist():
+    for k in _find_samples_within(since, (within[0], within[1] - LASTS)).tolist():
         ends = int(np.searchsorted(since, since[k] + LASTS))
         behind = int(np.searchsorted(since, min(since[k] + LAUNCH, within[1] + LASTS)))
         if behind <= ends:
@@ -131,7 +136,7 @@ def _largest_climb(
     return best
 
 
-def _between(since: Array, within: tuple[float, float]) -> NDArray[np.intp]:
+def _find_samples_within(since: Array, within: tuple[float, float]) -> NDArray[np.intp]:
     """Indices of the samples within an interval [s]."""
     return np.flatnonzero((since >= within[0]) & (since <= within[1]))
 

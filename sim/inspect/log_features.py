@@ -58,12 +58,12 @@ class LogFeatures:
     @cached_property
     def position_step(self) -> float:
         """[m or rad] the smallest change of a position in the log; inf if none ever changes."""
-        return _smallest_step([run.position for run in self.log.runs])
+        return _find_smallest_step([run.position for run in self.log.runs])
 
     @cached_property
     def velocity_step(self) -> float:
         """[m/s or rad/s] the smallest change of a velocity in the log; inf if none changes."""
-        return _smallest_step([run.velocity for run in self.log.runs])
+        return _find_smallest_step([run.velocity for run in self.log.runs])
 
     @cached_property
     def recognized_tests(self) -> tuple[str, ...]:
@@ -77,7 +77,7 @@ class LogFeatures:
     @cached_property
     def rest_lengths(self) -> tuple[int, ...]:
         """Per run, number of samples before its position first changes; 0 if it never does."""
-        return tuple(_rest_length(run, step=self.position_step) for run in self.log.runs)
+        return tuple(_measure_rest_length(run, step=self.position_step) for run in self.log.runs)
 
     @cached_property
     def distance_ratios(self) -> tuple[float, ...]:
@@ -85,7 +85,7 @@ class LogFeatures:
 
         1 if a run moves too little.
         """
-        return tuple(_distance_ratio(run) for run in self.log.runs)
+        return tuple(_measure_distance_ratio(run) for run in self.log.runs)
 
     @cached_property
     def usual_distance_ratio(self) -> float:
@@ -189,14 +189,14 @@ def _recognize_test(run: Run) -> str:
     return f"{kind}-{'forward' if pushed > 0 else 'reverse'}"
 
 
-def _rest_length(run: Run, *, step: float) -> int:
+def _measure_rest_length(run: Run, *, step: float) -> int:
     """Number of samples before the position leaves its first value."""
     band = max(STEPS * step, CREEP * float(np.ptp(run.position))) if len(run) else 0.0
     away = np.abs(run.position - run.position[:1]) > band
     return int(np.argmax(away)) if away.any() else 0
 
 
-def _distance_ratio(run: Run) -> float:
+def _measure_distance_ratio(run: Run) -> float:
     """[1] integral of velocity over change of position, the median of parts of the motion."""
     motion = np.flatnonzero(run.moving)
     parts = min(PARTS, motion.size // LEAST)
@@ -226,7 +226,7 @@ def _copy_factor(run: Run) -> float:
     return factor if left < COPIED else 0.0
 
 
-def _smallest_step(signals: list[Array]) -> float:
+def _find_smallest_step(signals: list[Array]) -> float:
     """The smallest change between two samples of any signal; inf if none changes."""
     steps = np.concatenate([np.abs(np.diff(values)) for values in signals] or [np.zeros(0)])
     steps = steps[steps > 0.0]

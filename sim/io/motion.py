@@ -115,7 +115,10 @@ def _replace_motion(log: Log) -> Log:
         return replace(log, runs=tuple(summed), computed="position").add_doubts(still)
     if moves and not turns:
         code, what = "velocity-still", f"the velocity is {velocity[0]:.4g} from beginning to end"
-    elif _linear_residual(velocity, position) < SAME and _linear_residual(velocity, slope) > UNLIKE:
+    elif (
+        _measure_linear_residual(velocity, position) < SAME
+        and _measure_linear_residual(velocity, slope) > UNLIKE
+    ):
         code, what = COPIED, "the log has the position in place of the velocity"
     elif step := find_truncation(log):
         return _refine_truncated(log, step)
@@ -223,7 +226,7 @@ def find_landing(run: Run) -> int:
     return after + int(rests[0]) if rests.size else 0
 
 
-def _linear_residual(values: Array, line: Array) -> float:
+def _measure_linear_residual(values: Array, line: Array) -> float:
     """RMS distance of values from the best linear function of ``line``, relative to spread."""
     spread = float(np.linalg.norm(values - values.mean()))
     centered = line - line.mean()

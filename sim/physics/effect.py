@@ -248,7 +248,7 @@ class Effect:
                 if name not in known
             )
         if "transform_voltage" in self.hooks and not self.order:
-            found.append("order is 0; say where on the path from command to motor it stands")
+            found.append("order is 0; say where it acts on the path from command to motor")
         return found
 
 

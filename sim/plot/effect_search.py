@@ -69,7 +69,7 @@ class EffectSearch:
     # -- what a student does ---------------------------------------------------------------------
 
     def add(self, effect: str) -> str:
-        """Add an effect and fit it; returns what became of the gap on the validation log.
+        """Add an effect and fit it; returns how the gap on the validation log changed.
 
         Raises:
             BadRequest: the effect is unknown or in the model, or the held-out log is open.
@@ -205,7 +205,7 @@ class EffectSearch:
         return self._tried[effects]
 
     def compare_with(self, parts: Sequence[Part], name: str) -> Table:
-        """The parameters of the chosen effects beside those of another model.
+        """The parameters of the chosen effects next to those of another model.
 
         Args:
             parts: the effects of the other model.

@@ -1,4 +1,4 @@
-"""Tables of gains: as they are, or as a fit found them, over the true ones."""
+"""Tables of gains: the true ones, and the fitted ones relative to them."""
 
 from collections.abc import Mapping, Sequence
 

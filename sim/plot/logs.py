@@ -64,7 +64,7 @@ def plot_time_series(
         BadRequest: the log has none of the four tests.
     """
     per = find_unit(log.units)
-    runs = _first_runs(log)
+    runs = _take_first_runs(log)
     figure, (upper, lower) = make_panels(2, 2, height=4.4, shared=True)
     labels = tuple(f"log, {way}" for way in DIRECTIONS)
     drawn: dict[int, list[tuple[Axes, Array]]] = {}
@@ -83,7 +83,7 @@ def plot_time_series(
         "tests on the left and the dynamic tests on the right. A solid line with circles is a "
         "forward test. A dashed line with squares is a reverse test."
     )
-    return Picture(figure, " ".join([alt, *sentences]), _tests_table(runs, per))
+    return Picture(figure, " ".join([alt, *sentences]), _tabulate_tests(runs, per))
 
 
 def _mark_damage(
@@ -104,7 +104,7 @@ def _mark_damage(
     return f"Hatching marks {damage.fault} in {where.test}, from {start:.2f} to {end:.2f} s."
 
 
-def _first_runs(log: Log) -> dict[int, Run]:
+def _take_first_runs(log: Log) -> dict[int, Run]:
     """Index in the log -> run, for the first run with samples of each of the four tests."""
     found: dict[str, int] = {}
     for index, run in enumerate(log.runs):
@@ -153,7 +153,7 @@ def _draw(
     return drawn
 
 
-def _tests_table(runs: Mapping[int, Run], per: Unit) -> Table:
+def _tabulate_tests(runs: Mapping[int, Run], per: Unit) -> Table:
     rows = tuple(
         (
             run.test,

@@ -14,7 +14,7 @@ __all__ = ["make_findings_table", "plot_remaining_gap"]
 
 
 def plot_remaining_gap(story: Story) -> list[Picture]:
-    """What the base model and the last model leave of the shown log, seen from five sides.
+    """The gap that the base model and the last model leave on the shown log, in five views.
 
     Raises:
         BadRequest: there is nothing to compare, or a simulation diverged.

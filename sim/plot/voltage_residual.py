@@ -100,7 +100,7 @@ class ResidualViews:
 
     @property
     def clearest(self) -> str:
-        """The variable that explains the largest share."""
+        """The variable that explains the largest share of the residual."""
         return max(self.views, key=lambda name: self.views[name].explains)
 
     @property
@@ -179,7 +179,7 @@ def make_residual_views(
         bus = np.full(len(run), np.nan) if run.bus_voltage is None else run.bus_voltage
         samples = (
             np.abs(velocity), since, ahead, upward, np.sign(run.voltage), missing, bus,
-            run.position, _noise_of_missing(run, gains),
+            run.position, _measure_residual_noise(run, gains),
         )  # fmt: skip
         for name, values in zip(columns, samples, strict=True):
             columns[name].append(values[inside])
@@ -206,12 +206,12 @@ def _make_views(joined: Mapping[str, Array], variance: Array, log: Log) -> Resid
         place %= turn
     speed = joined["speed"] / per.si
     sides = {
-        SPEED: (speed, joined["ahead"], _equal_edges(speed, BINS)),
+        SPEED: (speed, joined["ahead"], _make_edges(speed, BINS)),
         SINCE: (joined["since"], joined["upward"], np.array(CLOSE)),
-        POSITION: (place, np.ones_like(place), _equal_edges(place, PLACES)),
+        POSITION: (place, np.ones_like(place), _make_edges(place, PLACES)),
     }
     if np.isfinite(bus).all() and np.ptp(bus) > 0.0:
-        sides[BATTERY] = (bus, joined["driven"], _equal_edges(bus, BINS))
+        sides[BATTERY] = (bus, joined["driven"], _make_edges(bus, BINS))
     sides[DIRECTION] = (joined["ahead"], joined["ahead"], np.array([-2.0, 0.0, 2.0]))
     views = {}
     columns = []
@@ -231,7 +231,7 @@ def _make_views(joined: Mapping[str, Array], variance: Array, log: Log) -> Resid
 
 
 def _make_columns(view: ResidualView) -> Array:
-    """(n, bins) regressors whose combinations are what the means of the bins explain."""
+    """(n, bins) regressors that explain the residual by its mean in each bin."""
     known = np.isfinite(view.mean)[view.cell] & (view.cell >= 0)
     table = np.zeros((view.at.size, view.mean.size))
     table[known, view.cell[known]] = view.way[known]
@@ -249,7 +249,7 @@ def _compute_share(table: Array, missing: Array, variance: Array, *, beyond: flo
     return min(max(explained / beyond, 0.0), 1.0)
 
 
-def _noise_of_missing(run: Run, gains: Mapping[str, float]) -> Array:
+def _measure_residual_noise(run: Run, gains: Mapping[str, float]) -> Array:
     """(n,) [V²] variance of the voltage residual where that of the velocity is 1."""
     kept = np.exp(-gains["kV"] / gains["kA"] * np.diff(run.time))
     return np.append(gains["kV"] ** 2 * (1.0 + kept**2) / (1.0 - kept) ** 2, np.nan)
@@ -344,7 +344,7 @@ def _find_last_jump(run: Run) -> tuple[Array, Array]:
     return since, np.sign(change[there])
 
 
-def _equal_edges(at: Array, bins: int) -> Array:
+def _make_edges(at: Array, bins: int) -> Array:
     """Edges of bins of equal width."""
     low, high = float(at.min()), float(at.max())
     return np.linspace(low, high if high > low else low + 1.0, bins + 1)

@@ -172,7 +172,7 @@ def _is_moving(one: _Ramps, *, top: float) -> np.ndarray[tuple[int], np.dtype[np
     return np.asarray(sign * one.velocity > MOVING * top)
 
 
-def _rms_from_line(one: _Ramps, *, top: float) -> float | None:
+def _measure_rms_from_line(one: _Ramps, *, top: float) -> float | None:
     """RMS distance [V] of moving samples from their best straight line; None if undefined."""
     moving = _is_moving(one, top=top)
     velocity, voltage = one.velocity[moving], one.voltage[moving]
@@ -197,7 +197,7 @@ def _tabulate(
             one.velocity.size,
             float(one.voltage[np.argmax(np.abs(one.voltage))]),
             float(one.velocity[np.argmax(np.abs(one.velocity))]),
-            "–" if (stray := _rms_from_line(one, top=top)) is None else stray,
+            "–" if (stray := _measure_rms_from_line(one, top=top)) is None else stray,
         )
         for one in ramps
     )

@@ -40,11 +40,11 @@ def estimate_backlash_phase(
             for by in (-PHASE_STEP, PHASE_STEP)
         ]
     model = point.structure.model(point.values)
-    costs = [_costs_by_run(problem, point, point.innovations, old)]
+    costs = [_compute_costs_by_run(problem, point, point.innovations, old)]
     for each in others:
         other = old.with_backlash_phase(each)
         innovations = problem.predict_errors(model, other, point.kalman_filter)
-        costs.append(_costs_by_run(problem, point, innovations, other))
+        costs.append(_compute_costs_by_run(problem, point, innovations, other))
     tried, chosen = np.stack([before, *others]), np.argmin(np.stack(costs), axis=0)
     if not chosen.any():
         return point
@@ -54,14 +54,14 @@ def estimate_backlash_phase(
 
 
 def halve_backlash(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
-    """The estimate with half the backlash, and the phase of each run estimated anew."""
+    """The estimate with half the backlash, and new estimates of each run's phase."""
     halves = {name: 0.5 * point.values[name] for name in point.structure.backlash_names}
     values, nuisance = {**point.values, **halves}, point.nuisance.without_backlash_phase
     start = problem.evaluate(point.structure, values, nuisance, point.process_noise)
     return estimate_backlash_phase(problem, start)
 
 
-def _costs_by_run(
+def _compute_costs_by_run(
     problem: PredictionErrorProblem, point: Estimate, innovations: Array, nuisance: RunNuisance
 ) -> Array:
     """(runs,) -2 log L of each run's innovations, with the prior of its backlash phase."""

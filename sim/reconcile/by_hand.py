@@ -116,7 +116,7 @@ class HandSearch:
         return self._evaluate_model(ModelStructure(model.type, names), {**model.gains, **parts})
 
     def fit_near(self, model: Model) -> Estimate:
-        """All parameters, searched for a few steps from those of a model: quicker than ``fit``."""
+        """The fit after a few search steps from a model's parameters: quicker than ``fit``."""
         return levenberg_marquardt(self._problem, self.evaluate_model(model), steps=STEPS)
 
     def _evaluate_model(self, structure: ModelStructure, values: dict[str, float]) -> Estimate:

@@ -97,26 +97,28 @@ def rank_candidates(
     effects = [EFFECTS[name] for name in names]
     calmer = _find_calmer_estimate(problem, point)
     usual = effects if calmer is None else [one for one in effects if not one.is_joint]
-    rated = _best_starts(problem, point, usual, residual, seeds)[:TRIED]
+    rated = _choose_best_starts(problem, point, usual, residual, seeds)[:TRIED]
     descended = [
         descend_candidate(problem, refine_onset(problem, one))
         for starts in rated
         for _, one in starts
         if not stop()
     ]
-    best = _best_of_each_effect(descended)[:KEPT]
+    best = _choose_best_of_each_effect(descended)[:KEPT]
     if calmer is not None:
-        rated = _best_starts(problem, calmer, effects, residual, seeds, heavy=True)
+        rated = _choose_best_starts(problem, calmer, effects, residual, seeds, heavy=True)
         joints = [one for one in rated[TRIED_CALM:] if _ends_with_joint(one[0][1])]
         rated = [*rated[:TRIED_CALM], *joints]
         calm = [
             descend_candidate(problem, one) for starts in rated for _, one in starts if not stop()
         ]
-        best = _best_of_each_effect([*descended, *calm])[:KEPT]
-        best += _best_of_each_effect(calm)[:1]  # less noise starts farther from the minimum
+        best = _choose_best_of_each_effect([*descended, *calm])[:KEPT]
+        best += _choose_best_of_each_effect(calm)[:1]  # less noise starts farther from the minimum
     minima = [_minimize_nested(problem, point, one) for one in dict.fromkeys(best) if not stop()]
     simpler = [simplify_effect(problem, one, names, residual) for one in minima if not stop()]
-    minima = _best_of_each_effect([*minima, *(minimize(problem, one) for one in simpler if one)])
+    minima = _choose_best_of_each_effect(
+        [*minima, *(minimize(problem, one) for one in simpler if one)]
+    )
     found = [score_estimate(problem, one, one.structure.effects[-1]) for one in minima]
     return sorted(found, key=lambda one: one.bic)
 
@@ -251,7 +253,7 @@ def simplify_effect(
     return problem.evaluate(structure, {**kept, **added}, point.nuisance, point.process_noise)
 
 
-def _best_of_each_effect(points: Iterable[Estimate]) -> list[Estimate]:
+def _choose_best_of_each_effect(points: Iterable[Estimate]) -> list[Estimate]:
     """The best point of each effect, the likeliest first."""
     best: dict[str, Estimate] = {}
     for one in sorted(points, key=lambda one: one.cost):
@@ -259,7 +261,7 @@ def _best_of_each_effect(points: Iterable[Estimate]) -> list[Estimate]:
     return list(best.values())
 
 
-def _best_starts(
+def _choose_best_starts(
     problem: PredictionErrorProblem, point: Estimate, effects: Iterable[Effect],
     residual: VoltageResidual, seeds: Seeds, *, heavy: bool = False,
 ) -> list[list[RatedStart]]:  # fmt: skip

@@ -153,22 +153,22 @@ def _with_run_friction(
     deviation = get_friction_sd(point.values)
     model, runs = point.structure.model(point.values), len(problem.records)
 
-    def errors_with(frictions: Array) -> Array:
+    def compute_errors(frictions: Array) -> Array:
         other = (
             problem.simulate(model, nuisance.add_friction(frictions)) if frictions.any() else track
         )
         return _open_loop_errors(problem, other)
 
     errors = np.stack(
-        [errors_with(np.full(runs, share * deviation)) for share in FRICTION_DEVIATIONS]
+        [compute_errors(np.full(runs, share * deviation)) for share in FRICTION_DEVIATIONS]
     )  # (shares, n, 2)
-    costs = _costs_by_share(problem, errors, compared)
+    costs = _compute_costs_by_share(problem, errors, compared)
     best = np.clip(np.argmin(costs, axis=0), 1, len(FRICTION_DEVIATIONS) - 2)
     less, here, more = (costs[best + way, np.arange(runs)] for way in (-1, 0, 1))
     offset = find_parabola_minima(less, here, more)
-    between = errors_with((np.array(FRICTION_DEVIATIONS)[best] + offset) * deviation)
+    between = compute_errors((np.array(FRICTION_DEVIATIONS)[best] + offset) * deviation)
     errors = np.concatenate([errors, between[None]])
-    best = np.argmin(_costs_by_share(problem, errors, compared), axis=0)
+    best = np.argmin(_compute_costs_by_share(problem, errors, compared), axis=0)
     return np.asarray(errors[np.repeat(best, np.diff(problem.run_edges)), np.arange(len(compared))])
 
 
@@ -179,7 +179,7 @@ def find_parabola_minima(less: Array, here: Array, more: Array) -> Array:
     return np.asarray(np.clip(np.nan_to_num(minima, posinf=0.0, neginf=0.0), -1.0, 1.0))
 
 
-def _costs_by_share(
+def _compute_costs_by_share(
     problem: PredictionErrorProblem, errors: Array, compared: NDArray[np.bool_]
 ) -> Array:
     """(shares, runs) squared errors over their mean without friction, position plus velocity."""

@@ -132,7 +132,7 @@ def _classify_size(
     ]
     closed = rounds[-1].gap.velocity <= least * rounds[0].gap.velocity
     if closed and not incomplete and all(one.size != "major" for one in found):
-        ratios = [_gap_ratio(before.gap, one.gap) for before, one in pairwise(rounds)]
+        ratios = [_compute_gap_ratio(before.gap, one.gap) for before, one in pairwise(rounds)]
         if ratios:
             most = ratios.index(min(ratios))
             found[most] = replace(found[most], size="major")
@@ -144,7 +144,7 @@ def _demote_if_not_narrower(one: Finding) -> Finding:
     return one if one.gap_after <= NARROWER * one.gap_before else replace(one, size="minor")
 
 
-def _gap_ratio(before: Gap, after: Gap) -> float:
+def _compute_gap_ratio(before: Gap, after: Gap) -> float:
     """[1] velocity gap after a round over that before it; inf if there was none."""
     return after.velocity / before.velocity if before.velocity > 0.0 else math.inf
 
@@ -166,7 +166,7 @@ def _make_fault_finding(one: DamagedInterval, gap: float) -> Finding:
 def make_suspicions(
     suspected: Sequence[DamagedInterval], findings: Sequence[Finding], gap: float
 ) -> tuple[Finding, ...]:
-    """Minor findings of faults that may be what no effect explains, and have no finding yet.
+    """Minor findings of faults that could be an unexplained effect and have no finding yet.
 
     Args:
         suspected: faults that look like missing physics.

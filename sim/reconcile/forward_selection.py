@@ -63,7 +63,7 @@ def add_pair(data: SelectionData, rounds: list[SelectionRound]) -> list[Selectio
     blocked = list_blocked_candidates(now.candidates)
     if not blocked or len(rounds) >= MOST_EFFECTS or not math.isfinite(blocked[0].gap.velocity):
         return rounds
-    path = _add_effects(data, [*rounds, _next_round(now, blocked[0])])
+    path = _add_effects(data, [*rounds, _make_next_round(now, blocked[0])])
     closes = path[-1].gap.velocity <= MAJOR * now.gap.velocity
     return path if closes and not is_wider(path[-1].gap, now.gap) else rounds
 
@@ -107,7 +107,7 @@ def find_alternative(rounds: Sequence[SelectionRound], *, by_gap: bool) -> list[
         if near:
             likeliest = max(near, key=lambda other: other.report.improvement)
             nearest = min(near, key=lambda other: other.report.gap_ratio)
-            return [*rounds[: place + 1], _next_round(one, nearest if by_gap else likeliest)]
+            return [*rounds[: place + 1], _make_next_round(one, nearest if by_gap else likeliest)]
     return []
 
 
@@ -130,11 +130,11 @@ def _add_effects(data: SelectionData, rounds: list[SelectionRound]) -> list[Sele
         if best is not chosen:
             near = [one for one in near if _is_close(_finish_search(data, one), best)]
         rivals = tuple(one.candidate.effect for one in near)
-        rounds.append(replace(_next_round(now, best), rivals=rivals))
+        rounds.append(replace(_make_next_round(now, best), rivals=rivals))
     return rounds
 
 
-def _next_round(now: SelectionRound, added: WeighedCandidate) -> SelectionRound:
+def _make_next_round(now: SelectionRound, added: WeighedCandidate) -> SelectionRound:
     """The round after ``now``, whose model is a candidate of ``now``."""
     return SelectionRound(added.candidate, added.gap, now.candidate, now.gap, seeds=now.seeds)
 

@@ -35,8 +35,7 @@ LOG_USES: Mapping[str, str] = {
     "from the others. The gap is shown on the fitted runs themselves.",
 }
 PHASE_NOTE = (
-    "Where in its free play each run began is estimated from that run itself, because no log "
-    "contains it."
+    "No log contains where in its free play a run began. So this was estimated from the run itself."
 )
 REPEAT_WARNINGS: Mapping[str, str] = {
     "log": "The log contains a run twice. Its copy is predicted well by any model.",

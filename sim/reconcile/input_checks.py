@@ -47,7 +47,7 @@ def check_logs(recordings: Recordings, *, travel: float | None) -> None:
             continue
         _check_units(log, other)
         _check_voltage(other)
-        _check_moves(other, than=_top_speed(log))
+        _check_moves(other, than=_find_top_speed(log))
         if _follows_voltage(log, guess, type=base):
             _check_same(log, other, guess, type=base)
     if travel is not None:
@@ -111,7 +111,7 @@ def _check_units(log: Log, other: Log) -> None:
 
 
 def _check_moves(log: Log, *, than: float) -> None:
-    if not _top_speed(log) > STANDSTILL * than:
+    if not _find_top_speed(log) > STANDSTILL * than:
         raise NotIdentifiable(
             "the mechanism hardly moves in this log",
             where=log.source,
@@ -119,13 +119,13 @@ def _check_moves(log: Log, *, than: float) -> None:
         )
 
 
-def _top_speed(log: Log) -> float:
+def _find_top_speed(log: Log) -> float:
     """[m/s or rad/s] top speed of the fastest run that is long enough."""
     return max((run.top_speed for run in log.runs if len(run) >= MIN_SAMPLES), default=0.0)
 
 
 def _check_same(log: Log, other: Log, guess: Mapping[str, float], *, type: str) -> None:  # noqa: A002 - field's word
-    residual = _base_residual(other, guess, type=type)
+    residual = _compute_base_residual(other, guess, type=type)
     square = float(residual.velocity @ residual.velocity)
     if square == 0.0:
         raise NotIdentifiable(
@@ -153,14 +153,14 @@ def _describe_difference(factor: float, first: str) -> str:
 
 def _follows_voltage(log: Log, guess: Mapping[str, float], *, type: str) -> bool:  # noqa: A002 - field's word
     """Whether physical gains explain most of the voltage of a log."""
-    residual = _base_residual(log, guess, type=type)
+    residual = _compute_base_residual(log, guess, type=type)
     if guess["kV"] <= 0.0 or guess["kA"] <= 0.0 or guess["kS"] < 0.0:
         return False
     missing, voltage = residual.missing, residual.voltage
     return float(missing @ missing) < LOST**2 * float(voltage @ voltage)
 
 
-def _base_residual(log: Log, guess: Mapping[str, float], *, type: str) -> VoltageResidual:  # noqa: A002 - field's word
+def _compute_base_residual(log: Log, guess: Mapping[str, float], *, type: str) -> VoltageResidual:  # noqa: A002 - field's word
     return compute_voltage_residual(log, dict(ModelStructure(type).model(guess).gains), type=type)
 
 

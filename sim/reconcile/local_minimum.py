@@ -67,7 +67,7 @@ def minimize_fully(problem: PredictionErrorProblem, point: Estimate) -> Estimate
 
 
 def _tighten_backlash(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
-    """The smallest of about equally likely backlashes: one that no run crosses has no bound."""
+    """The smallest of about equally likely backlashes; if no run crosses it, any size fits."""
     best = point
     for _ in range(BACKLASH_HALVINGS):
         less = minimize(problem, halve_backlash(problem, point))
@@ -157,12 +157,12 @@ def _may_have_size(structure: ModelStructure, share: float) -> bool:
     """Whether to try this share of a start's size: a smaller one, or one of the opposite sign."""
     if share > 0.0:
         return LEAST_SHARE < share < MOST_SHARE
-    sizes = _size_parameters(structure)
+    sizes = _list_size_parameters(structure)
     signed = bool(sizes) and all(structure.parameters[name].least < 0.0 for name in sizes)
     return signed and LEAST_SHARE < -share < MOST_OPPOSITE_SHARE
 
 
-def _size_parameters(structure: ModelStructure) -> list[str]:
+def _list_size_parameters(structure: ModelStructure) -> list[str]:
     """The searched parameters of the last effect that are 0 without it."""
     own = f"{structure.effects[-1]}."
     return [
@@ -176,7 +176,7 @@ def _scale_start(
     structure: ModelStructure, one: Mapping[str, float], share: float
 ) -> dict[str, float]:
     """A start at a share of its size."""
-    sizes = _size_parameters(structure)
+    sizes = _list_size_parameters(structure)
     return {
         name: structure.clamp_value(name, value * share) if name in sizes else value
         for name, value in one.items()

@@ -205,7 +205,7 @@ class _Scan:
             if shares_momentum:
                 sums += [
                     (one, self._sum_effect(kind, one, (run,))[0])
-                    for one in self._velocity_losses(run)
+                    for one in self._compute_velocity_losses(run)
                 ]
             for after in (None, later) if run < every[-1] else (None,):
                 tried = (
@@ -234,13 +234,13 @@ class _Scan:
         """Values of all parameters of the effect with this onset."""
         start = self.problem.records[one.run].clock
         return {
-            **self._size_parameters(one.best[1]),
+            **self._make_size_parameters(one.best[1]),
             **one.kind,
             ONSET: start + one.share * self.durations[one.run],
             UNTIL: LATER if one.later else start + self.durations[one.run] + MOMENT,
         }
 
-    def _velocity_losses(self, run: int) -> list[float]:
+    def _compute_velocity_losses(self, run: int) -> list[float]:
         """Shares of a run's duration around its sharpest loss of speed, which a grid would miss.
 
         The innovations are correlated with the response to a loss of speed (a matched filter).
@@ -273,7 +273,7 @@ class _Scan:
             error = step @ error
         return self.problem.whiten(self.point, np.array(errors)).reshape(-1, 2)
 
-    def _size_parameters(self, size: float) -> dict[str, float]:
+    def _make_size_parameters(self, size: float) -> dict[str, float]:
         return {one.name: size for one in self.effect.parameters if one.searched}
 
     def _sum_effect(
@@ -284,7 +284,7 @@ class _Scan:
         onset = max(self.durations)  # the same in all runs, whose clocks are shifted to it
         clocks = onset - share * np.array([self.durations[run] for run in runs])
         size = PROBE * self.ka
-        given = {**self._size_parameters(size), **kind, ONSET: onset, UNTIL: LATER}
+        given = {**self._make_size_parameters(size), **kind, ONSET: onset, UNTIL: LATER}
         model = self.point.structure.model(self.point.values)
         with np.errstate(over="ignore", invalid="ignore"):  # a diverged simulation explains nothing
             model += Part(self.effect.name, given)

@@ -1,4 +1,4 @@
-"""How far and how finely searches go: larger values take longer and change few results."""
+"""Limits of the searches: larger values take longer and change few results."""
 
 STEPS = 8
 """Levenberg-Marquardt steps of a search."""

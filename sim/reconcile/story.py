@@ -161,12 +161,12 @@ class Story:
         """The result as ``sysid reconcile --json`` prints it."""
         return {
             "verdict": self.verdict,
-            "findings": [_finding_to_json(one) for one in self.findings],
+            "findings": [_convert_finding_to_json(one) for one in self.findings],
             "remainder": self.remainder,
             "complete": self.complete,
             "units": self.shown.units,
-            **_gains_to_json(self.gains),
-            "without_effects": _gains_to_json(self.gains_without),
+            **_convert_gains_to_json(self.gains),
+            "without_effects": _convert_gains_to_json(self.gains_without),
             "noise_floor": self.noise_floor,
             "gap_before": finite_or_none(self.gap_before),
             "gap_after": finite_or_none(self.gap_after),
@@ -185,7 +185,7 @@ class Story:
         }
 
 
-def _gains_to_json(gains: Mapping[str, ParameterEstimate]) -> dict[str, Any]:
+def _convert_gains_to_json(gains: Mapping[str, ParameterEstimate]) -> dict[str, Any]:
     """Gains and standard errors, with the keys of ``sysid fit --json``."""
     return {
         "gains": {name: one.value for name, one in gains.items()},
@@ -193,7 +193,7 @@ def _gains_to_json(gains: Mapping[str, ParameterEstimate]) -> dict[str, Any]:
     }
 
 
-def _finding_to_json(one: Finding) -> dict[str, Any]:
+def _convert_finding_to_json(one: Finding) -> dict[str, Any]:
     return {
         "effect": one.effect,
         "kind": one.kind,

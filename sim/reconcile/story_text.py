@@ -48,7 +48,7 @@ def _write_verdict(story: Story) -> str:
         guess = "" if all(one.probability >= PROBABLE for one in majors) else "probably "
         said = [f"The model is {guess}missing {missing}{doubt}.", _write_gaps(story)]
     elif story.verdict == NOTHING_MISSING or not faults:
-        return _nothing_missing(story)
+        return _describe_complete_model(story)
     else:
         rest = "nothing big is missing"
         if story.remainder:
@@ -204,7 +204,7 @@ def list_remarks(story: Story) -> tuple[str, ...]:
     return (*((story.remains,) if story.remains else ()), *story.notes)
 
 
-def _nothing_missing(story: Story) -> str:
+def _describe_complete_model(story: Story) -> str:
     minor = list_effect_names(story, MINOR)
     little = f", only a little {join_names(minor)}" if minor else ""
     last = story.gap_after / story.noise_floor if story.noise_floor > 0.0 else math.inf

@@ -64,10 +64,10 @@ class TwoBodyStarts:
         if heavy:
             tried += [{**one, "kA": HEAVIER * self.point.values["kA"]} for one in starts]
         rated = rate_starts(self.problem, self.point, structure, tried, jacobian=self.jacobian)
-        optimized = self._take_steps(_best_of_each(rated, effect))
+        optimized = self._take_steps(_choose_best_of_effect(rated, effect))
         for most in FURTHER:
-            optimized = self._take_steps(_one_per_minimum(optimized, names)[:most])
-        best = _one_per_minimum(optimized, names)
+            optimized = self._take_steps(_keep_distinct_minima(optimized, names)[:most])
+        best = _keep_distinct_minima(optimized, names)
         if not best:
             return []
         least = max(NEAR * self._compute_improvement(best[0]), LEAST_SCORE)
@@ -81,7 +81,7 @@ class TwoBodyStarts:
         return self.point.cost - point.cost
 
 
-def _best_of_each(rated: Iterable[RatedStart], effect: str) -> list[Estimate]:
+def _choose_best_of_effect(rated: Iterable[RatedStart], effect: str) -> list[Estimate]:
     """The best ``MOST`` of the starts that differ only in size, not in the motor's share."""
     kinds: dict[tuple[float, ...], list[Estimate]] = {}
     fixed = [f"{effect}.{one.name}" for one in EFFECTS[effect].parameters if one.neutral]
@@ -90,7 +90,7 @@ def _best_of_each(rated: Iterable[RatedStart], effect: str) -> list[Estimate]:
     return [one for kind in kinds.values() for one in kind[:MOST]]
 
 
-def _one_per_minimum(points: Iterable[Estimate], names: Sequence[str]) -> list[Estimate]:
+def _keep_distinct_minima(points: Iterable[Estimate], names: Sequence[str]) -> list[Estimate]:
     """The likeliest estimate near each local minimum, the likeliest first."""
     found: list[Estimate] = []
     for one in sorted(points, key=lambda one: one.cost):

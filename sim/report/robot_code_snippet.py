@@ -303,7 +303,7 @@ def _refuse_impossible_gains(found: Fit) -> None:
     for doubt in found.doubts:
         if doubt.grave:
             raise BadRequest(
-                f"no code is printed, because the gains cannot be right: {doubt.text}",
+                f"no code is printed, because the gains are wrong: {doubt.text}",
                 advice="Fix this first, then fit again.",
             )
     for gain, value in found.gains.items():

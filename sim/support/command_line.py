@@ -112,7 +112,7 @@ def _describe_error(error: Exception, *, name: str) -> str:
 
 
 def _find_similar_command(said: str, asked: click.Context | None) -> str:
-    """The command whose name is like the one that a message says is missing; empty if none is."""
+    """The known command most like the unknown one in a message; empty if none is like it."""
     wrong = re.fullmatch(r"No such command '(.+)'", said)
     if wrong is None or asked is None or not isinstance(asked.command, click.Group):
         return ""

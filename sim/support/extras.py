@@ -1,4 +1,4 @@
-"""The command that installs what an extra of the course needs, wherever the course came from."""
+"""The command that installs the packages of an extra, for each way to install the course."""
 
 import re
 from importlib.metadata import PackageNotFoundError, requires

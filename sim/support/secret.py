@@ -134,6 +134,7 @@ def read_secret(path: Path) -> bytes:
         raise BadRequest(
             "this file holds no secret: a secret is one line without commas",
             where=str(path),
-            advice="Name the file with the secret, or, to get a new one, a file that is not there.",
+            advice="Name the file with the secret. To get a new secret, name a file that does not "
+            "exist.",
         )
     return kept

@@ -1,4 +1,4 @@
-"""What a lesson's code must not show: questions with their answers, and what its robots hide.
+"""Answers that a lesson's code must not show: those of its questions, and the hidden effects.
 
 They stand in ``lesson_answers.toml`` by names like ``lesson9.ka``, and a cell holds only the name.
 """

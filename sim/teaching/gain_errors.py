@@ -1,4 +1,4 @@
-"""How far the noise of a sensor scatters the gains that some tests of a mechanism give."""
+"""The scatter of gains that sensor noise causes in some tests of a mechanism."""
 
 from collections.abc import Mapping
 from dataclasses import replace

@@ -313,8 +313,8 @@ def check_loop(mine: Callable[..., object]) -> CheckedLoop:
     Args:
         mine: the student's function of feedforward, PID controller and ``LoopInput``; returns [V].
     """
-    wanted = compute_loop_voltage(*_controllers(), EXAMPLE)
-    said = judge_gap(lambda: mine(*_controllers(), EXAMPLE), wanted, _choose_hint)
+    wanted = compute_loop_voltage(*_make_controllers(), EXAMPLE)
+    said = judge_gap(lambda: mine(*_make_controllers(), EXAMPLE), wanted, _choose_hint)
     if said == RIGHT:
         return CheckedLoop(mine, f"Your loop: {said}")  # type: ignore[arg-type]  # judged to answer with a number
     return CheckedLoop(compute_loop_voltage, fill(f"Your loop: {said} {OURS}", WIDTH))
@@ -323,19 +323,19 @@ def check_loop(mine: Callable[..., object]) -> CheckedLoop:
 def _choose_hint(found: float) -> str:
     """The hint for a wrong output [V]."""
     return next(
-        (says for value, says in _wrong_loops() if math.isclose(found, value, rel_tol=CLOSE)),
+        (says for value, says in _list_wrong_loops() if math.isclose(found, value, rel_tol=CLOSE)),
         "Add two things: ff.calculateWithVelocities(…) and pid.calculate(…).",
     )
 
 
-def _controllers() -> tuple[ElevatorFeedforward, PIDController]:
+def _make_controllers() -> tuple[ElevatorFeedforward, PIDController]:
     """A new feedforward and a new PID controller, which stores the last error."""
     return ElevatorFeedforward(0.25, 2.0, 4.5, 0.2), PIDController(7.0)
 
 
-def _wrong_loops() -> list[tuple[float, str]]:
+def _list_wrong_loops() -> list[tuple[float, str]]:
     """Outputs [V] of common wrong loops, each with its hint."""
-    ff, pid = _controllers()
+    ff, pid = _make_controllers()
     now, after, measured = EXAMPLE.now, EXAMPLE.after, EXAMPLE.position
     forward = ff.calculateWithVelocities(now.velocity, after.velocity)
     feedback = pid.calculate(measured, now.position)
@@ -346,8 +346,8 @@ def _wrong_loops() -> list[tuple[float, str]]:
         (
             forward - feedback,
             (
-                "pid.calculate takes the measurement first, then what is wanted. Turned around, "
-                "it pushes away from the target."
+                "pid.calculate takes the measurement first, then the target. In the other "
+                "order, it pushes away from the target."
             ),
         ),
         (

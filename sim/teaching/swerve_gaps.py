@@ -73,7 +73,7 @@ def check_formulas(*, radius: Formula, inertia: Formula, grip: Formula) -> Fille
             inertia,
             compute_inertia,
             TURNS,
-            "kA of turning belongs on top, and the unit has to be kg·m².",
+            "kA of turning belongs above the fraction bar, and the unit must be kg·m².",
         ),
         Gap(
             grip,

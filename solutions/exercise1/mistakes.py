@@ -13,7 +13,7 @@ ROW = re.compile(
 Terms = Callable[[float, float, float, float], float]
 
 
-def volts(name: str, wrong: Terms) -> Callable[[str], str]:
+def write_term(name: str, wrong: Terms) -> Callable[[str], str]:
     """Make a wrong voltage of its three terms and of the size of the dashboard's unit."""
 
     def edit_text(text: str) -> str:
@@ -24,13 +24,13 @@ def volts(name: str, wrong: Terms) -> Callable[[str], str]:
     return edit_text
 
 
-def pushed(text: str) -> float:
+def compute_push(text: str) -> float:
     """The acceleration's volts while it speeds up [V]."""
     (row,) = (row for row in ROW.finditer(text) if row["name"] == "accelerating")
     return float(row[5])
 
 
-def swapped(one: str, other: str) -> Callable[[str], str]:
+def swap_values(one: str, other: str) -> Callable[[str], str]:
     """Exchange two names."""
 
     def edit_text(text: str) -> str:
@@ -40,66 +40,68 @@ def swapped(one: str, other: str) -> Callable[[str], str]:
     return edit_text
 
 
-def other_term(text: str) -> str:
+def choose_other_term(text: str) -> str:
     """The speed's term for the acceleration's, or the other way round."""
     right, wrong = ("kV", "kA") if 'largest = "kV"' in text else ("kA", "kV")
     return text.replace(f'largest = "{right}"', f'largest = "{wrong}"')
 
 
-def unit(text: str) -> Callable[[str], str]:
+def write_unit(text: str) -> Callable[[str], str]:
     """Make another unit of kV."""
     return lambda right: re.sub(r'kV_unit = "[^"]*"', f'kV_unit = "{text}"', right)
 
 
 MISTAKES = (
-    Mistake("sgn of the acceleration", ANSWERS, volts("braking", lambda s, v, a, _: v + a - s),
+    Mistake("sgn of the acceleration", ANSWERS, write_term("braking", lambda s, v, a, _: v + a - s),
         "braking", "did you use sgn(a)? It must be"),
     Mistake("no friction while it speeds up", ANSWERS,
-        volts("accelerating", lambda _s, v, a, _: v + a), "accelerating", "kS is missing"),
-    Mistake("no friction at a steady speed", ANSWERS, volts("forward", lambda _s, v, _a, _: v),
+        write_term("accelerating", lambda _s, v, a, _: v + a), "accelerating", "kS is missing"),
+    Mistake("no friction at a steady speed", ANSWERS, write_term("forward", lambda _s, v, _a, _: v),
         "forward", "kS is missing"),
-    Mistake("the dashboard's unit", ANSWERS, volts("forward", lambda s, v, _, size: s + v / size),
-        "forward", "Convert it first", "M-UNITS"),
+    Mistake("the dashboard's unit", ANSWERS, write_term("forward", lambda s, v, _,
+        size: s + v / size), "forward", "Convert it first", "M-UNITS"),
     Mistake("converted the wrong way", ANSWERS,
-        volts("forward", lambda s, v, _, size: s + v / size**2), "forward",
+        write_term("forward", lambda s, v, _, size: s + v / size**2), "forward",
         "multiply where you have to divide", "M-UNITS"),
     Mistake("a speed converted that was right", ANSWERS,
-        volts("accelerating", lambda s, v, a, size: s + v / size + a), "accelerating",
+        write_term("accelerating", lambda s, v, a, size: s + v / size + a), "accelerating",
         "the unit of your kV. Did you", "M-UNITS"),
     Mistake("speed and acceleration converted that were right", ANSWERS,
-        volts("braking", lambda s, v, a, size: s + (v + a) / size), "braking",
+        write_term("braking", lambda s, v, a, size: s + (v + a) / size), "braking",
         "the unit of your kV. Did you", "M-UNITS"),
-    Mistake("backward without a sign", ANSWERS, volts("backward", lambda s, v, _a, _: -s - v),
+    Mistake("backward without a sign", ANSWERS, write_term("backward", lambda s, v, _a, _: -s - v),
         "backward", "Moving backward, v is negative"),
-    Mistake("friction that helps, backward", ANSWERS, volts("backward", lambda s, v, _a, _: v - s),
-        "backward", "friction opposes the motion"),
-    Mistake("no acceleration while it brakes", ANSWERS, volts("braking", lambda s, v, _a, _: s + v),
-        "braking", "kA·a is missing"),
-    Mistake("braking as if it sped up", ANSWERS, volts("braking", lambda s, v, a, _: s + v - a),
-        "braking", "slower, so a is negative"),
+    Mistake("friction that helps, backward", ANSWERS, write_term("backward", lambda s, v, _a,
+        _: v - s), "backward", "friction opposes the motion"),
+    Mistake("no acceleration while it brakes", ANSWERS, write_term("braking", lambda s, v, _a,
+        _: s + v), "braking", "kA·a is missing"),
+    Mistake("braking as if it sped up", ANSWERS, write_term("braking", lambda s, v, a,
+        _: s + v - a), "braking", "slower, so a is negative"),
     Mistake("neither friction nor acceleration while it brakes", ANSWERS,
-        volts("braking", lambda _s, v, _a, _: v), "braking", "maybe there are two mistakes"),
+        write_term("braking", lambda _s, v, _a, _: v), "braking", "maybe there are two mistakes"),
     Mistake("an acceleration at a steady speed", ANSWERS,
-        lambda text: volts("backward", lambda s, v, _a, _: s + v + pushed(text))(text), "backward",
-        "the term kA·a is too much here"),
+        lambda text: write_term("backward", lambda s, v, _a, _: s + v + compute_push(text))(text),
+        "backward", "the term kA·a is too much here"),
     Mistake("an output between -1 and 1", ANSWERS,
-        volts("backward", lambda s, v, a, _: (s + v + a) / 12), "backward", "not an output between",
-        "M-DUTY"),
-    Mistake("two rows exchanged", ANSWERS, swapped("braking", "accelerating"), "accelerating",
+        write_term("backward", lambda s, v, a, _: (s + v + a) / 12), "backward",
+        "not an output between", "M-DUTY"),
+    Mistake("two rows exchanged", ANSWERS, swap_values("braking", "accelerating"), "accelerating",
         "Did you swap two answers?"),
-    Mistake("a number from nowhere", ANSWERS, volts("forward", lambda s, v, _a, _: 1.08 * (s + v)),
-        "forward", "outside the accepted ±2 %"),
+    Mistake("a number from nowhere", ANSWERS, write_term("forward", lambda s, v, _a,
+        _: 1.08 * (s + v)), "forward", "outside the accepted ±2 %"),
     Mistake("nothing", ANSWERS, replace_text(("forward = ", 'forward = "" # ')), "forward",
         "nothing"),
     Mistake("kA's unit", ANSWERS, replace_text(("V·s/", "V·s²/")), "kv-unit", "to kA", "M-UNITS"),
-    Mistake("kS's unit", ANSWERS, unit("V"), "kv-unit", "to kS", "M-UNITS"),
+    Mistake("kS's unit", ANSWERS, write_unit("V"), "kv-unit", "to kS", "M-UNITS"),
     Mistake("no parentheses", ANSWERS, replace_text(("V·s/", "V/s/")), "kv-unit", "parentheses",
         "M-UNITS"),
-    Mistake("another length", ANSWERS, unit("V·s/in"), "kv-unit", "the right kind of unit",
+    Mistake("another length", ANSWERS, write_unit("V·s/in"), "kv-unit", "the right kind of unit",
         "M-UNITS"),
-    Mistake("not a unit", ANSWERS, unit("volt per banana"), "kv-unit", "'banana' is not known"),
-    Mistake("the other term", ANSWERS, other_term, "largest", "in volts, and compare their sizes"),
-    Mistake("a word that is no term", ANSWERS,
-        replace_text(("largest = ", 'largest = "torque" # ')), "largest",
+    Mistake("not a unit", ANSWERS, write_unit("volt per banana"), "kv-unit",
+        "'banana' is not known"),
+    Mistake("the other term", ANSWERS, choose_other_term, "largest",
+        "in volts, and compare their sizes"),
+    Mistake("a word that is no term",
+        ANSWERS, replace_text(("largest = ", 'largest = "torque" # ')), "largest",
         "Choose one of: kS, kV, kA."),
 )  # fmt: skip

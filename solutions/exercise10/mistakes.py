@@ -22,12 +22,12 @@ def changed(pattern: str, new: str | Callable[[re.Match[str]], str]) -> Callable
     return edit_text
 
 
-def valued(gain: str, change: Callable[[str], str]) -> Callable[[str], str]:
+def change_gain(gain: str, change: Callable[[str], str]) -> Callable[[str], str]:
     """Make a wrong text by writing another value beside a gain's name."""
     return changed(rf"(\b{gain} = )([^;#\n]*[^;#\s])", lambda one: one[1] + change(one[2]))
 
 
-def other_class(text: str) -> str:
+def use_other_class(text: str) -> str:
     """Take a class that is made for another mechanism."""
     made = "Elevator" if "new Arm" in text else "Arm"
     right = re.search(rf"new {CLASS}", text)
@@ -36,23 +36,25 @@ def other_class(text: str) -> str:
     return re.sub(rf"(private final |new ){CLASS}", rf"\g<1>{made}Feedforward", text)
 
 
-def by_the_alphabet(text: str) -> str:
+def sort_gains_by_name(text: str) -> str:
     """Hand the gains over by the alphabet."""
-    return re.sub(r"(Feedforward\w*)\((.*)\)", lambda one: f"{one[1]}({_sorted(one[2])})", text)
+    return re.sub(
+        r"(Feedforward\w*)\((.*)\)", lambda one: f"{one[1]}({_sort_arguments(one[2])})", text
+    )
 
 
-def _sorted(arguments: str) -> str:
+def _sort_arguments(arguments: str) -> str:
     return ", ".join(sorted(arguments.split(", ")))
 
 
-def other_output(text: str) -> str:
+def use_other_output(text: str) -> str:
     """Take volts for a duty cycle, or the other way round."""
     if "CONVERSION / 12" in text:
         return text.replace("CONVERSION / 12", "CONVERSION")
     return re.sub(r"(kP = \S+ \* CONVERSION)", r"\1 / 12", text)
 
 
-def in_slot0(scale: str, *, sign: str = "UseVelocitySign") -> Callable[[str], str]:
+def write_slot0(scale: str, *, sign: str = "UseVelocitySign") -> Callable[[str], str]:
     """Put the gains into Phoenix 6's Slot0Configs, kV and kA times a scale, in Java or Python.
 
     Args:
@@ -68,7 +70,7 @@ def in_slot0(scale: str, *, sign: str = "UseVelocitySign") -> Callable[[str], st
             raise ValueError("the solution no longer says what Slot0Configs would take")
         times = scale.replace("TURN", note[1]).replace("GEARS", note[2])
         settings = [
-            f"{_with(gain, java=java)}({HELD}{gain}{_scaled(gain, times)})"
+            f"{_write_gain_setter(gain, java=java)}({HELD}{gain}{_scale_gain(gain, times)})"
             for gain in re.findall(rf"{re.escape(HELD)}(k\w)", text)
         ]
         gravity = "Arm_Cosine" if arm else "Elevator_Static"
@@ -76,17 +78,19 @@ def in_slot0(scale: str, *, sign: str = "UseVelocitySign") -> Callable[[str], st
             settings.append(
                 f"with{name}({name}Value.{value})"
                 if java
-                else f"with_{_snake(name)}({name}Value.{_snake(value).upper()})"
+                else f"with_{_to_snake_case(name)}({name}Value.{_to_snake_case(value).upper()})"
             )
         made = f"{'new ' * java}Slot0Configs()." + ".".join(settings)
-        return bring(_instead(text, made), "ctre.phoenix6.configs", "ctre.phoenix6.signals")
+        return add_imports(
+            _replace_line(text, made), "ctre.phoenix6.configs", "ctre.phoenix6.signals"
+        )
 
     return edit_text
 
 
-def also_in_slot0(text: str) -> str:
+def repeat_in_slot0(text: str) -> str:
     """Put the gains into Phoenix 6's Slot0Configs, and keep WPILib's feedforward."""
-    inside = in_slot0("TURN")(text)
+    inside = write_slot0("TURN")(text)
     chain = re.search(r"(?:new )?Slot0Configs\(\)\S*(?: \S+)*?(?=;|$)", inside, re.MULTILINE)
     if chain is None:
         raise ValueError("no Slot0Configs was made")
@@ -96,7 +100,7 @@ def also_in_slot0(text: str) -> str:
         if java
         else f"self.gains = {chain[0]}"
     )
-    text = bring(text, "ctre.phoenix6.configs", "ctre.phoenix6.signals")
+    text = add_imports(text, "ctre.phoenix6.configs", "ctre.phoenix6.signals")
     if java:
         return re.sub(
             r"^(?=  private final \w+Feedforward)", lambda _: line, text, flags=re.MULTILINE
@@ -105,7 +109,7 @@ def also_in_slot0(text: str) -> str:
     return re.sub(before, lambda _: f"        {line}\n", text, flags=re.MULTILINE)
 
 
-def in_spark(order: dict[str, str]) -> Callable[[str], str]:
+def write_spark_config(order: dict[str, str]) -> Callable[[str], str]:
     """Put the gains into REVLib's FeedForwardConfig.
 
     Args:
@@ -115,12 +119,12 @@ def in_spark(order: dict[str, str]) -> Callable[[str], str]:
     def edit_text(text: str) -> str:
         chain = ".".join(f"{name}({HELD}{gain})" for name, gain in order.items())
         made = f"{'new ' * ('new ' in text)}FeedForwardConfig().{chain}"
-        return bring(_instead(text, made), "revrobotics.spark.config")
+        return add_imports(_replace_line(text, made), "revrobotics.spark.config")
 
     return edit_text
 
 
-def bring(text: str, *packages: str) -> str:
+def add_imports(text: str, *packages: str) -> str:
     """Add the imports of a vendor's packages, as Java names them without ``com``."""
     if "package " in text:
         lines = "".join(f"import com.{one}.*;\n" for one in packages)
@@ -135,19 +139,19 @@ def bring(text: str, *packages: str) -> str:
 HELD = "CharacterizationConstants."
 
 
-def _with(gain: str, *, java: bool) -> str:
+def _write_gain_setter(gain: str, *, java: bool) -> str:
     return f"withK{gain[1]}" if java else f"with_k_{gain[1].lower()}"
 
 
-def _scaled(gain: str, scale: str) -> str:
+def _scale_gain(gain: str, scale: str) -> str:
     return f" / {HELD}CONVERSION * {scale}" if gain in {"kV", "kA"} else ""
 
 
-def _snake(name: str) -> str:
+def _to_snake_case(name: str) -> str:
     return re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name).lower()
 
 
-def _instead(text: str, made: str) -> str:
+def _replace_line(text: str, made: str) -> str:
     """The text with something else in place of WPILib's feedforward."""
     found = re.search(rf"(new )?{CLASS}\w*\((?=Char)[^)]*\)", text)
     if found is None:
@@ -159,26 +163,27 @@ SWAPPED = replace_text((".kV, CharacterizationConstants.kA", ".kA, Characterizat
 
 MISTAKES = (
     Mistake("gains as the analyzer shows them", JAVA,
-        valued("kV", lambda value: value.removesuffix(CONVERTED)), "conversion",
+        change_gain("kV", lambda value: value.removesuffix(CONVERTED)), "conversion",
         "as the analyzer shows it", "M-UNITS"),
     Mistake("a unit in the comment that is not the number's", JAVA,
-        valued("kA", lambda value: value.removesuffix(CONVERTED)), "units",
+        change_gain("kA", lambda value: value.removesuffix(CONVERTED)), "units",
         "This is the right kind of unit", "M-UNITS"),
     Mistake("converted in the wrong direction: a larger", PYTHON,
-        valued("kV", lambda value: value.replace("*", "/")), "kv",
+        change_gain("kV", lambda value: value.replace("*", "/")), "kv",
         "converted in the wrong direction: a larger", "M-UNITS"),
     Mistake("the seconds' square on the unit of length", JAVA,
-        valued("kA", lambda value: value + CONVERTED), "ka", "converted twice", "M-UNITS"),
+        change_gain("kA", lambda value: value + CONVERTED), "ka", "converted twice", "M-UNITS"),
     Mistake("converted in the constant and once more where it is used", PYTHON,
         changed(r"Constants\.kV", "Constants.kV * CharacterizationConstants.CONVERSION"),
         "conversion", "converted twice, in the constant", "M-UNITS"),
-    Mistake("kS converted as well", PYTHON, valued("kS", lambda value: value + CONVERTED), "volts",
-        "volts stay volts", "M-UNITS"),
-    Mistake("kV as a share of the battery", JAVA, valued("kV", lambda value: value + " / 12"), "kv",
-        "wrong by a factor of 12. A", "M-DUTY"),
+    Mistake("kS converted as well", PYTHON, change_gain("kS", lambda value: value + CONVERTED),
+        "volts", "volts stay volts", "M-UNITS"),
+    Mistake("kV as a share of the battery", JAVA, change_gain("kV",
+        lambda value: value + " / 12"), "kv", "wrong by a factor of 12. A", "M-DUTY"),
     Mistake("kV and kA exchanged", JAVA, SWAPPED, "order", "kA is where", "M-ARGORDER"),
     Mistake("kV and kA exchanged, Python", PYTHON, SWAPPED, "order", "expects kV", "M-ARGORDER"),
-    Mistake("gains by the alphabet", JAVA, by_the_alphabet, "order", "kA is where", "M-ARGORDER"),
+    Mistake("gains by the alphabet", JAVA, sort_gains_by_name, "order", "kA is where",
+        "M-ARGORDER"),
     Mistake("kP as the time step", JAVA,
         changed(r"(Feedforward\(Char[^)]*)", rf"\1, {HELD}kP"), "order", "kP does not belong here",
         "M-ARGORDER"),
@@ -187,40 +192,40 @@ MISTAKES = (
         "M-ARGORDER"),
     Mistake("no kA", PYTHON, changed(r", CharacterizationConstants\.kA\)", ")"), "order",
         "A missing argument counts as 0"),
-    Mistake("another mechanism's class", JAVA, other_class, "feedforward",
+    Mistake("another mechanism's class", JAVA, use_other_class, "feedforward",
         "Which analysis type did the analyzer use?"),
     Mistake("no feedforward", PYTHON, changed(r"^.*self\.feedforward = .*\n", "        pass\n"),
         "feedforward", "no feedforward is made"),
-    Mistake("Slot0Configs with gains per rotation of the rotor", JAVA, in_slot0("TURN / GEARS"),
+    Mistake("Slot0Configs with gains per rotation of the rotor", JAVA, write_slot0("TURN / GEARS"),
         "conversion", "per rotation of the motor's rotor", "M-GEARING"),
-    Mistake("Slot0Configs with gains per radian", PYTHON, in_slot0("TURN / (2 * 3.14159265)"),
+    Mistake("Slot0Configs with gains per radian", PYTHON, write_slot0("TURN / (2 * 3.14159265)"),
         "conversion", "Slot0Configs counts rotations of the mechanism", "M-UNITS"),
-    Mistake("kS by the sign of the error", JAVA, in_slot0("TURN", sign="UseClosedLoopSign"),
+    Mistake("kS by the sign of the error", JAVA, write_slot0("TURN", sign="UseClosedLoopSign"),
         "feedforward", "Then kS follows the sign of the error"),
-    Mistake("gains in the code and in the motor controller", JAVA, also_in_slot0, "feedforward",
+    Mistake("gains in the code and in the motor controller", JAVA, repeat_in_slot0, "feedforward",
         "This is a double feedforward"),
-    Mistake("gains in the code and in the motor controller, Python", PYTHON, also_in_slot0,
+    Mistake("gains in the code and in the motor controller, Python", PYTHON, repeat_in_slot0,
         "feedforward", "This is a double feedforward"),
     Mistake("kV and kA exchanged in a Spark", PYTHON,
-        in_spark({"kS": "kS", "kV": "kA", "kA": "kV"}), "order",
+        write_spark_config({"kS": "kS", "kV": "kA", "kA": "kV"}), "order",
         "kA is where FeedForwardConfig expects kV", "M-ARGORDER"),
     Mistake("kV in volts", JAVA, changed(r"(?<=// V)·s/.*$", ""), "units",
         "a unit of something else than kV", "M-UNITS"),
     Mistake("no units", JAVA, changed(r" // V.*$", ""), "units", "no unit of kS"),
     Mistake("no units, Python", PYTHON, changed(r"  # V·s/.*$", ""), "units", "no unit of kV"),
-    Mistake("kP as it was suggested", JAVA, valued("kP", lambda value: value.split(" ")[0]), "kp",
-        "as the analyzer shows it", "M-UNITS"),
-    Mistake("kP for another output", PYTHON, other_output, "kp", "the output is not", "M-DUTY"),
+    Mistake("kP as it was suggested", JAVA, change_gain("kP", lambda value: value.split(" ")[0]),
+        "kp", "as the analyzer shows it", "M-UNITS"),
+    Mistake("kP for another output", PYTHON, use_other_output, "kp", "the output is not", "M-DUTY"),
     Mistake("kP as the last word", JAVA,
         replace_text(("the analyzer's suggestion: start here, then tune", "proportional gain")),
         "kp", "The number is right. Write in a comment"),
     Mistake("a kP that only running the code can tell", PYTHON,
-        valued("kP", lambda _: "max(77.0, 99.0)"), "kp", "not the suggested kP"),
+        change_gain("kP", lambda _: "max(77.0, 99.0)"), "kp", "not the suggested kP"),
     Mistake("a kP out of a function that is not there", PYTHON,
-        valued("kP", lambda _: "load_gain()"), "named",
+        change_gain("kP", lambda _: "load_gain()"), "named",
         "the program stops when the robot's program starts"),
     Mistake("no kA anywhere", PYTHON, changed(r"^    kA = .*\n", ""), "named", "no kA"),
-    Mistake("half by dividing whole numbers", JAVA, valued("kS", lambda _: "1 / 4"), "volts",
+    Mistake("half by dividing whole numbers", JAVA, change_gain("kS", lambda _: "1 / 4"), "volts",
         "Whole numbers divide"),
     Mistake("a class of another name", PYTHON, replace_text(("CharacterizationConstants", "Gains")),
         "named", "is not in CharacterizationConstants"),

@@ -55,15 +55,15 @@ def solve(exercise: Path, data: Path) -> dict[str, str]:
     java = (exercise / "ExampleMechanism.java").read_text(encoding="utf-8")
     python = (exercise / "example_mechanism.py").read_text(encoding="utf-8")
     return {
-        "ExampleMechanism.java": in_java(java, rows, made, gains, note=note),
-        "example_mechanism.py": in_python(python, rows, made, gains, note=note),
+        "ExampleMechanism.java": write_java(java, rows, made, gains, note=note),
+        "example_mechanism.py": write_python(python, rows, made, gains, note=note),
     }
 
 
 Row = tuple[str, str, str]  # name, value, comment
 
 
-def in_java(text: str, rows: list[Row], made: str, gains: tuple[str, ...], *, note: str) -> str:
+def write_java(text: str, rows: list[Row], made: str, gains: tuple[str, ...], *, note: str) -> str:
     """Fill in the Java file."""
     constants = f"    // {note}\n" + "".join(
         f"    public static final double {name} = {value}; // {said}\n"
@@ -71,10 +71,12 @@ def in_java(text: str, rows: list[Row], made: str, gains: tuple[str, ...], *, no
     )
     arguments = ", ".join(f"CharacterizationConstants.{gain}" for gain in gains)
     field = f"  private final {made} m_feedforward =\n      new {made}({arguments});\n"
-    return _filled(text, constants, field, mark="//")
+    return _fill_in(text, constants, field, mark="//")
 
 
-def in_python(text: str, rows: list[Row], made: str, gains: tuple[str, ...], *, note: str) -> str:
+def write_python(
+    text: str, rows: list[Row], made: str, gains: tuple[str, ...], *, note: str
+) -> str:
     """Fill in the Python file."""
     constants = f"    # {note}\n" + "".join(
         f"    {name} = {value}  # {said}\n" for name, value, said in rows
@@ -84,10 +86,10 @@ def in_python(text: str, rows: list[Row], made: str, gains: tuple[str, ...], *, 
     if "V·s/m" in constants and made.startswith("Simple"):
         kind = f"{made}Meters"
     field = f"        self.feedforward = {kind}({arguments})\n"
-    return _filled(text, f"from wpimath.controller import {kind}\n", constants, field, mark="#")
+    return _fill_in(text, f"from wpimath.controller import {kind}\n", constants, field, mark="#")
 
 
-def _filled(text: str, *parts: str, mark: str) -> str:
+def _fill_in(text: str, *parts: str, mark: str) -> str:
     """Put each part where a TODO stands."""
     lines: list[str] = []
     left = list(parts)

@@ -46,23 +46,23 @@ def solve(exercise: Path, data: Path) -> dict[str, str]:
     """
     questions = (data / "questions.md").read_text(encoding="utf-8")
     parts = dict(re.findall(r"^### (\w+)\n(.*?)(?=^##|\Z)", questions, re.MULTILINE | re.DOTALL))
-    answers = {name: _letter(parts[name], begins) for name, begins in CHOICES.items()}
+    answers = {name: _find_letter(parts[name], begins) for name, begins in CHOICES.items()}
     for name, (decision, begins) in ROWS.items():
-        answers |= {name: decision, f"{name}_reason": _letter(parts["Reasons"], begins)}
+        answers |= {name: decision, f"{name}_reason": _find_letter(parts["Reasons"], begins)}
     text = (exercise / "answers.toml").read_text(encoding="utf-8")
-    text = text.replace('KC2_volts = ""', f"KC2_volts = {_volts(questions):.4g}")
+    text = text.replace('KC2_volts = ""', f"KC2_volts = {_read_volts(questions):.4g}")
     for name, word in answers.items():
         text = text.replace(f'{name} = ""', f'{name} = "{word}"')
     return {"answers.toml": text}
 
 
-def _letter(part: str, begins: str) -> str:
+def _find_letter(part: str, begins: str) -> str:
     """The letter under which an option stands."""
     (found,) = re.findall(rf"^- \*\*(\w)\*\* {re.escape(begins)}", part, re.MULTILINE)
     return str(found)
 
 
-def _volts(questions: str) -> float:
+def _read_volts(questions: str) -> float:
     """What kS and kV·v come to, with v in rotations per second."""
     (ks,), (kv,), (rpm,) = (
         re.findall(sign, questions, re.DOTALL)

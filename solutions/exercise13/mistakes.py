@@ -15,7 +15,7 @@ ANSWERS = "answers.toml"
 MODULES = ("front-left", "front-right", "back-left", "back-right")
 
 
-def another_module(text: str) -> str:
+def name_another_module(text: str) -> str:
     """The module after the right one."""
     right = next(name for name in MODULES if f'worn = "{name}"' in text)
     return make_wrong_answer("worn", f'"{MODULES[MODULES.index(right) - 1]}"')(text)
@@ -33,9 +33,10 @@ MISTAKES = (
         change_number("kS", lambda right: right["kS"] / 12.0), "ks", "12 V is a full battery",
         "M-DUTY"),
     Mistake("kS and kV swapped", ANSWERS, exchange_numbers("kS", "kV"), "kv", "did you swap them?"),
-    Mistake("another module", ANSWERS, another_module, "worn", "turns more often over the same"),
+    Mistake("another module", ANSWERS, name_another_module, "worn",
+        "turns more often over the same"),
     Mistake("a module there is not", ANSWERS, make_wrong_answer("worn", '"middle"'), "worn",
-        "none of them"),
+        "not one of the choices"),
     Mistake("a diameter", ANSWERS, scale_numbers(2.0, "worn_radius"), "worn-radius", "a diameter",
         "M-GEARING"),
     Mistake("the gyro's degrees", ANSWERS, scale_numbers(180.0 / math.pi, "worn_radius"),

@@ -35,7 +35,7 @@ def solve(exercise: Path, data: Path) -> dict[str, str]:
     turning = fit(read(data / "turning.wpilog", entries=ENTRIES)).in_units("radians").gains
     lever = robot["trackwidth"] / math.sqrt(2.0)
     wheel_turns = spin["motor_turns"][worn] / robot["ratio"]
-    slip = _slip_current(data / "push.csv")
+    slip = _measure_slip_current(data / "push.csv")
     numbers = {
         "kS": straight["kS"],
         "kV": straight["kV"],
@@ -56,7 +56,7 @@ def solve(exercise: Path, data: Path) -> dict[str, str]:
     return {"answers.toml": text}
 
 
-def _slip_current(path: Path) -> float:
+def _measure_slip_current(path: Path) -> float:
     """[A] in the last row before the wheels turn."""
     with path.open(encoding="utf-8", newline="") as lines:
         rows = list(csv.DictReader(lines))

@@ -15,7 +15,7 @@ def read_ratio(right: str) -> float:
     return 1.0 + float(found[1] if found else "nan") / 100.0
 
 
-def verdict(text: str) -> str:
+def choose_wrong_verdict(text: str) -> str:
     """A verdict of another bucket: ok, or what a low kV is called."""
     return make_wrong_answer("verdict", '"ok"' if '"ok"' not in text else '"inspect"')(text)
 
@@ -25,16 +25,16 @@ def flag(text: str) -> str:
     return make_wrong_answer("ks_flag", '"stop"' if '"stop"' not in text else '"fine"')(text)
 
 
-def wires_first(text: str) -> str:
+def put_wires_first(text: str) -> str:
     """A wrench in hand before the numbers were checked, on a sound mechanism or not."""
     sound = 'verdict = "ok"' in text
     found = re.search(r'^inspection = .*?"(.+?)"', text, re.MULTILINE)
     first = found[1] if found else ""
     words = ("dragging-belt", "gear-ratio") if sound else ("velocity-unit", first, "motor-type")
-    return causes(*words)(text)
+    return write_causes(*words)(text)
 
 
-def causes(*words: str) -> Callable[[str], str]:
+def write_causes(*words: str) -> Callable[[str], str]:
     """Make another list of causes."""
     return make_wrong_answer("inspection", "[" + ", ".join(f'"{one}"' for one in words) + "]")
 
@@ -73,19 +73,20 @@ MISTAKES = (
         "outside the accepted ±1 %"),
     Mistake("a word that is none", ANSWERS, make_wrong_answer("verdict", '"great"'), "verdict",
         "Choose one of: bookkeeping, ok, watch, inspect"),
-    Mistake("mass", ANSWERS, causes("gear-ratio", "logged-voltage", "mass"), "inspection",
+    Mistake("mass", ANSWERS, write_causes("gear-ratio", "logged-voltage", "mass"), "inspection",
         "does a heavier robot need more volts", "M-KV-MASS"),
-    Mistake("friction that is kS's", ANSWERS, causes("gear-ratio", "constant-friction"),
+    Mistake("friction that is kS's", ANSWERS, write_causes("gear-ratio", "constant-friction"),
         "inspection", "friction that needs the same voltage at"),
-    Mistake("noise", ANSWERS, causes("sensor-noise", "gear-ratio", "logged-voltage"), "inspection",
-        "noise goes to both sides; it does"),
-    Mistake("wires before numbers", ANSWERS, wires_first, "inspection", "Check the easiest first"),
-    Mistake("one cause only", ANSWERS, causes("motor-type"), "inspection",
+    Mistake("noise", ANSWERS, write_causes("sensor-noise", "gear-ratio", "logged-voltage"),
+        "inspection", "noise goes to both sides; it does"),
+    Mistake("wires before numbers", ANSWERS, put_wires_first, "inspection",
+        "Check the easiest first"),
+    Mistake("one cause only", ANSWERS, write_causes("motor-type"), "inspection",
         "name at least 2 causes"),
     Mistake("no list", ANSWERS, make_wrong_answer("inspection", "[]"), "inspection",
         "Choose from: constant-friction"),
-    Mistake("a cause that there is not", ANSWERS, causes("gear-ratio", "gremlins"), "inspection",
-        "none of them"),
-    Mistake("another verdict", ANSWERS, verdict, "verdict", "difference"),
+    Mistake("a cause that there is not", ANSWERS, write_causes("gear-ratio", "gremlins"),
+        "inspection", "not one of the choices"),
+    Mistake("another verdict", ANSWERS, choose_wrong_verdict, "verdict", "difference"),
     Mistake("another flag", ANSWERS, flag, "ks-flag", "kV times the typical speed"),
 )  # fmt: skip

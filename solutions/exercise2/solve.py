@@ -22,7 +22,7 @@ def solve(exercise: Path, data: Path) -> dict[str, str]:
     given = tomllib.loads((data / "given.toml").read_text(encoding="utf-8"))
     parts, log = given["parts"], given["log"]
     turns = parts["free_speed"] / 60.0 / parts["ratio"]
-    theory = 12.0 / (turns * math.pi * _diameter(parts, 1.0 / math.pi))
+    theory = 12.0 / (turns * math.pi * _read_diameter(parts, 1.0 / math.pi))
     percent = 100.0 * (log["kV"] / theory - 1.0)
     answers = {
         "kV_theory": f"{theory:.5g}",
@@ -33,11 +33,11 @@ def solve(exercise: Path, data: Path) -> dict[str, str]:
     text = (exercise / "answers.toml").read_text(encoding="utf-8")
     for name, value in answers.items():
         text = text.replace(f'{name} = ""', f"{name} = {value}")
-    listed = ", ".join(f'"{one}"' for one in _causes(given, below=percent < 0.0))
+    listed = ", ".join(f'"{one}"' for one in _list_causes(given, below=percent < 0.0))
     return {"answers.toml": text.replace("inspection = []", f"inspection = [{listed}]")}
 
 
-def _diameter(parts: Mapping[str, Any], otherwise: float) -> float:
+def _read_diameter(parts: Mapping[str, Any], otherwise: float) -> float:
     return float(parts.get("wheel_diameter", parts.get("drum_diameter", otherwise)))
 
 
@@ -47,13 +47,13 @@ def _flag(log: Mapping[str, float]) -> str:
     return "watch" if log["kS"] > 0.5 else "fine"
 
 
-def _causes(given: Mapping[str, Any], *, below: bool) -> list[str]:
+def _list_causes(given: Mapping[str, Any], *, below: bool) -> list[str]:
     """What the file shows first, then what else is possible and not ruled out by the file."""
     parts, code, mechanic = given["parts"], given["code"], given["noticed"]["mechanic"]
     radius = code.get("radius", 0.0)
     if code["ratio"] != parts["ratio"]:
         return ["gear-ratio", "motor-type"]
-    if not math.isclose(2.0 * radius, _diameter(parts, 0.0), rel_tol=0.01, abs_tol=1e-9):
+    if not math.isclose(2.0 * radius, _read_diameter(parts, 0.0), rel_tol=0.01, abs_tol=1e-9):
         return ["wheel-size", "motor-type"]
     if "commanded" in code["logged_voltage"]:
         return ["logged-voltage", "motor-type"]

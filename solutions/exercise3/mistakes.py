@@ -7,7 +7,7 @@ from grader.mistake import Mistake, Numbers, change_number, exchange_numbers, re
 ANSWERS = "answers.toml"
 
 
-def in_degrees(right: Numbers) -> float:
+def convert_to_degrees(right: Numbers) -> float:
     """The arm's kG from the row where the encoder reads 0, by a cosine that counts in radians."""
     offset = right["arm_offset"]
     return right["arm_kG"] * math.cos(math.radians(offset)) / math.cos(offset)
@@ -49,7 +49,7 @@ MISTAKES = (
             "arm_kG",
             lambda right: right["arm_kG"] * math.cos(math.radians(right["arm_offset"])),
         ), "arm-kg", "where the encoder reads 0"),
-    Mistake("degrees in the cosine", ANSWERS, change_number("arm_kG", in_degrees), "arm-kg",
+    Mistake("degrees in the cosine", ANSWERS, change_number("arm_kG", convert_to_degrees), "arm-kg",
         "it looks as if you put degrees", UNITS),
     Mistake("the offset turned around", ANSWERS,
         change_number("arm_offset", lambda right: -right["arm_offset"]), "arm-offset",

@@ -13,7 +13,7 @@ FACTORY = (
 )
 
 
-def without(pattern: str) -> Callable[[str], str]:
+def remove_pattern(pattern: str) -> Callable[[str], str]:
     """Make a wrong text by leaving out every line that a pattern finds."""
 
     def edit_text(text: str) -> str:
@@ -92,7 +92,8 @@ MISTAKES = (
     Mistake("a routine's dynamic method that runs the quasistatic test", JAVA,
         replace_text(("m_routine.dynamic(", "m_routine.quasistatic(")), "factories",
         "no method makes dynamic forward and dynamic reverse"),
-    Mistake("no reverse runs", PYTHON, without(r"reverse: k|\.[by]\(\)|kReverse\)\n        "),
+    Mistake("no reverse runs", PYTHON,
+        remove_pattern(r"reverse: k|\.[by]\(\)|kReverse\)\n        "),
         "each-once", "You need the reverse runs", "M-REVERSE-WASTE"),
     Mistake("methods that others may not call", JAVA,
         replace_text(("public Command sysId", "private Command sysId")), "factories",
@@ -119,7 +120,8 @@ MISTAKES = (
     Mistake("kA from the slow ramp", PYTHON,
         replace_text(("which measures kS and kV", "which measures kA")), "comments",
         "test measures. What does the"),
-    Mistake("no comment", JAVA, without("Dynamic, forward"), "comments", "no comment next to"),
+    Mistake("no comment", JAVA, remove_pattern("Dynamic, forward"), "comments",
+        "no comment next to"),
     Mistake("no guard", JAVA, replace_text((GUARD, "")), "guard",
         "Use something that never happens in a"),
     Mistake("no guard, Python", PYTHON, replace_text((GUARD_PYTHON, "")), "guard",

@@ -15,7 +15,7 @@ ANSWERS = "answers.toml"
 BIG, SLOW = "M-BIG-STEP", "M-SLOW-SAFE"
 
 
-def puts(**values: str) -> Callable[[str], str]:
+def set_values(**values: str) -> Callable[[str], str]:
     """Give several lines other values, as TOML."""
 
     def edit_text(text: str) -> str:
@@ -45,10 +45,10 @@ MISTAKES = (
     Mistake("nothing for the ramp", ANSWERS, make_wrong_answer("drivetrain_ramp", '""'),
         "drivetrain", "drivetrain_ramp: nothing yet"),
     Mistake("a slow ramp, to be safe", ANSWERS,
-        puts(drivetrain_ramp="0.1", drivetrain_timeout="10"), "drivetrain",
+        set_values(drivetrain_ramp="0.1", drivetrain_timeout="10"), "drivetrain",
         "To reach that, your ramp needs", SLOW),
     Mistake("the numbers of a lesson, and no thumb", ANSWERS,
-        puts(turret_ramp="0.5", turret_timeout="10", turret_release='"timeout"'), "turret",
+        set_values(turret_ramp="0.5", turret_timeout="10", turret_release='"timeout"'), "turret",
         "It hits the end at"),
     Mistake("a mark in degrees", ANSWERS, scale_numbers(360.0, "turret_release"), "turret",
         "Is your number in degrees?", "M-UNITS"),
@@ -75,7 +75,7 @@ MISTAKES = (
         "elevator", "below kS + kG"),
     Mistake("a timeout that saves nobody", ANSWERS, make_wrong_answer("shooter_timeout", "30"),
         "shooter", "no test may be longer"),
-    Mistake("more volts than there are", ANSWERS, puts(shooter_ramp="5", shooter_timeout="9"),
+    Mistake("more volts than there are", ANSWERS, set_values(shooter_ramp="5", shooter_timeout="9"),
         "shooter", "the battery has 12 V"),
     Mistake("a step turned around", ANSWERS, scale_numbers(-1.0, "turret_step"), "turret",
         "Choose a number above 0"),
@@ -84,10 +84,10 @@ MISTAKES = (
     Mistake("a mark that is none", ANSWERS, make_wrong_answer("elevator_release", '"at the top"'),
         "elevator", "if nobody lets go before it"),
     Mistake("everything is a go", ANSWERS,
-        puts(**dict.fromkeys((f"check_{item}" for item in MORNING), '"go"')), "checklist",
+        set_values(**dict.fromkeys((f"check_{item}" for item in MORNING), '"go"')), "checklist",
         "Read that line of your morning once more"),
     Mistake("nothing is a go", ANSWERS,
-        puts(**dict.fromkeys((f"check_{item}" for item in MORNING), '"no-go"')), "checklist",
+        set_values(**dict.fromkeys((f"check_{item}" for item in MORNING), '"no-go"')), "checklist",
         "Read that line of your morning once more"),
     Mistake("room without a look at brake or coast", ANSWERS, turn_around("travel"), "checklist",
         "In coast mode the robot rolls on"),
@@ -105,7 +105,7 @@ MISTAKES = (
         "your program is there, but not its"),
     Mistake("last year's controller", ANSWERS, make_wrong_answer("log_2027", '"/home/lvuser/logs"'),
         "log-2027", "a Systemcore has another user name than"),
-    Mistake("every limit bypassed", ANSWERS, puts(limit_a='"bypassed"', limit_b='"bypassed"'),
+    Mistake("every limit bypassed", ANSWERS, set_values(limit_a='"bypassed"', limit_b='"bypassed"'),
         "limits", "where is this limit set? Does that", "M-LIMITS-BYPASSED"),
     Mistake("in the pit", ANSWERS, make_wrong_answer("schedule", '"first-regional"'), "schedule",
         "there are eight minutes between matches, and"),

@@ -36,7 +36,7 @@ def solve(exercise: Path, data: Path) -> dict[str, str]:
         answers |= {f"{kind}_{name}": round(value, 4) for name, value in plan.items()}
         if "travel" not in given[kind]:
             answers[f"{kind}_release"] = "timeout"
-    answers |= _morning(given["morning"])
+    answers |= _plan_morning(given["morning"])
     robot = given["robot"]
     answers["log_2026"] = "/home/lvuser/logs" if robot["usb"].startswith("no") else "/u/logs"
     answers["log_2027"] = "/home/systemcore/logs"
@@ -69,7 +69,7 @@ def _plan(at: Mapping[str, float]) -> dict[str, float]:
     }
 
 
-def _morning(seen: Mapping[str, str]) -> dict[str, object]:
+def _plan_morning(seen: Mapping[str, str]) -> dict[str, object]:
     """Go or no-go, for each line."""
     return {
         f"check_{item}": "no-go" if any(word in seen[item] for word in words) else "go"

@@ -47,7 +47,7 @@ def name_whole_dip(text: str) -> str:
     return wrong
 
 
-def milli(seconds: str) -> str:
+def convert_to_milliseconds(seconds: str) -> str:
     """A time in milliseconds."""
     return f"{1000 * float(seconds):.0f}"
 
@@ -64,8 +64,8 @@ MISTAKES = (
         "the place"),
     Mistake("the whole dip of a brownout", ANSWERS, name_whole_dip, "log*",
         "from the moment when the velocity begins to fall until it begins to rise"),
-    Mistake("milliseconds", ANSWERS, first(WHOLE, begin=milli, end=milli), "log01",
-        "Are your times in milliseconds?"),
+    Mistake("milliseconds", ANSWERS, first(WHOLE, begin=convert_to_milliseconds,
+        end=convert_to_milliseconds), "log01", "Are your times in milliseconds?"),
     Mistake("no place", ANSWERS, first("{fault}, {action}"), "log01", "Where is it?"),
     Mistake("no action", ANSWERS, first("{fault}, {kind}-{way}, {begin} to {end}"), "log01",
         "What should you do? Add one of"),

@@ -30,11 +30,11 @@ def solve(exercise: Path, data: Path) -> dict[str, str]:
     """
     text = (exercise / "answers.toml").read_text(encoding="utf-8")
     for path in sorted(data.glob("*.wpilog")):
-        text = text.replace(f'{path.stem} = ""', f'{path.stem} = "{_line(path)}"')
+        text = text.replace(f'{path.stem} = ""', f'{path.stem} = "{_write_line(path)}"')
     return {"answers.toml": text}
 
 
-def _line(path: Path) -> str:
+def _write_line(path: Path) -> str:
     """What is wrong with one log, in the words of the exercise."""
     log = read(path)
     said = []
@@ -45,19 +45,19 @@ def _line(path: Path) -> str:
         if not FAULTS[name].whole:
             (part,) = where
             said.append(
-                f"{name}, {part.test}, {_since(log, part.run, part.start):.2f} to "
-                f"{_since(log, part.run, part.end):.2f}, {help_with}"
+                f"{name}, {part.test}, {_measure_time_since(log, part.run, part.start):.2f} to "
+                f"{_measure_time_since(log, part.run, part.end):.2f}, {help_with}"
             )
             continue
-        said.append(f"{name}, {_tests([part.test for part in where])}, {help_with}")
+        said.append(f"{name}, {_format_tests([part.test for part in where])}, {help_with}")
     return " + ".join(said) or "clean"
 
 
-def _since(log: Log, run: int | None, moment: float) -> float:
+def _measure_time_since(log: Log, run: int | None, moment: float) -> float:
     """[s] since the test began."""
     return moment - float(log.runs[run or 0].time[0])
 
 
-def _tests(names: list[str]) -> str:
+def _format_tests(names: list[str]) -> str:
     """All of them by one word, or each by its name."""
     return "whole" if len(names) == 4 else ", ".join(names)

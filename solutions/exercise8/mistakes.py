@@ -9,7 +9,7 @@ RAMPS = ("quasistatic_forward", "quasistatic_reverse")
 STEPS = ("dynamic_forward", "dynamic_reverse")
 
 
-def windows(span: str, *names: str) -> Callable[[str], str]:
+def set_windows(span: str, *names: str) -> Callable[[str], str]:
     """Keep the same of some tests."""
 
     def edit_text(text: str) -> str:
@@ -20,7 +20,7 @@ def windows(span: str, *names: str) -> Callable[[str], str]:
     return edit_text
 
 
-def both(*changes: Callable[[str], str]) -> Callable[[str], str]:
+def apply_both(*changes: Callable[[str], str]) -> Callable[[str], str]:
     """Make several changes."""
 
     def edit_text(text: str) -> str:
@@ -33,12 +33,12 @@ def both(*changes: Callable[[str], str]) -> Callable[[str], str]:
 
 MISTAKES = (
     Mistake("nothing is done", ANSWERS,
-        both(
-            windows("all", *RAMPS, *STEPS),
+        apply_both(
+            set_windows("all", *RAMPS, *STEPS),
             make_wrong_answer("threshold", "0"),
             make_wrong_answer("median", "1"),
         ), "ka", "comes out"),
-    Mistake("the stops are kept", ANSWERS, windows("all", *RAMPS, *STEPS), "ka",
+    Mistake("the stops are kept", ANSWERS, set_windows("all", *RAMPS, *STEPS), "ka",
         "you keep samples in which a hard"),
     Mistake("a filter for a picture", ANSWERS, make_wrong_answer("median", "15"), "ka",
         "A median of so many samples flattens", "M-FILTER-FREE"),
@@ -46,13 +46,13 @@ MISTAKES = (
         "Single readings are far off"),
     Mistake("no threshold", ANSWERS, make_wrong_answer("threshold", "0"), "ks",
         "You keep samples from before the mechanism"),
-    Mistake("the rise of the steps is cut away", ANSWERS, windows("0.3 to 0.6", *STEPS), "reach",
-        "A step contains kA only in its", "M-TRIM-PRETTY"),
-    Mistake("the fast half of the ramps is cut away", ANSWERS, windows("0 to 2.5", *RAMPS), "reach",
-        "The fast samples of a ramp determine", "M-TRIM-PRETTY"),
+    Mistake("the rise of the steps is cut away", ANSWERS, set_windows("0.3 to 0.6", *STEPS),
+        "reach", "A step contains kA only in its", "M-TRIM-PRETTY"),
+    Mistake("the fast half of the ramps is cut away", ANSWERS, set_windows("0 to 2.5", *RAMPS),
+        "reach", "The fast samples of a ramp determine", "M-TRIM-PRETTY"),
     Mistake("a threshold that drops the slow half", ANSWERS, scale_numbers(4, "threshold"), "kept",
         "too little is left", "M-TRIM-PRETTY"),
-    Mistake("hardly anything is left", ANSWERS, windows("2 to 2.1", *RAMPS), "kv",
+    Mistake("hardly anything is left", ANSWERS, set_windows("2 to 2.1", *RAMPS), "kv",
         "You cut away too much", "M-TRIM-PRETTY"),
     Mistake("nothing yet", ANSWERS, make_wrong_answer("threshold", '""'), "kept",
         "threshold: nothing yet"),
@@ -60,6 +60,7 @@ MISTAKES = (
         "is not a unit of", "M-UNITS"),
     Mistake("half a sample", ANSWERS, make_wrong_answer("median", "2.5"), "kept",
         "whole number of samples"),
-    Mistake("it ends before it begins", ANSWERS, windows("3 to 1", *RAMPS), "kept", "ends before"),
-    Mistake("no times", ANSWERS, windows("most of it", *STEPS), "kept", "two times are needed"),
+    Mistake("it ends before it begins", ANSWERS, set_windows("3 to 1", *RAMPS), "kept",
+        "ends before"),
+    Mistake("no times", ANSWERS, set_windows("most of it", *STEPS), "kept", "two times are needed"),
 )  # fmt: skip

@@ -29,7 +29,7 @@ def solve(exercise: Path, data: Path) -> dict[str, str]:
     log = read(data / "log.wpilog")
     text = (exercise / "answers.toml").read_text(encoding="utf-8")
     lines = {run.test.replace("-", "_"): f'"{_keep(run)}"' for run in log.runs}
-    lines |= {"threshold": f"{_threshold(log) / find_unit(log.units).si:.4g}", "median": "3"}
+    lines |= {"threshold": f"{_choose_threshold(log) / find_unit(log.units).si:.4g}", "median": "3"}
     for name, value in lines.items():
         text = text.replace(f'{name} = ""', f"{name} = {value}")
     return {"answers.toml": text}
@@ -45,7 +45,7 @@ def _keep(run: Run) -> str:
     return f"0 to {stops - BEFORE:.2f}"
 
 
-def _threshold(log: Log) -> float:
+def _choose_threshold(log: Log) -> float:
     """More than the velocity trembles by before a ramp moves."""
     rests = []
     for run in log.runs:

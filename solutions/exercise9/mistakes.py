@@ -18,7 +18,7 @@ R2 = "simulated_velocity_r2"
 RAMP, PERIOD = 0.5, 0.02  # [V/s], [s] of the learner's log
 
 
-def fitting(code: str) -> Callable[[str], str]:
+def replace_fit(code: str) -> Callable[[str], str]:
     """Make a wrong text by putting other lines in the place of the function's answer."""
     lines = "".join(f"    {line}\n" for line in code.strip().splitlines())
 
@@ -177,7 +177,7 @@ MISTAKES = (
     Mistake(
         "a line through the ramps",
         FUNCTION,
-        fitting(LINE_THROUGH_THE_RAMPS),
+        replace_fit(LINE_THROUGH_THE_RAMPS),
         "function",
         "crosses v = 0",
         "M-KS-INTERCEPT",
@@ -229,26 +229,26 @@ MISTAKES = (
     Mistake(
         "numbers in place of a fit",
         FUNCTION,
-        fitting("ks, kv, ka = 0.15, 2.5, 0.19"),
+        replace_fit("ks, kv, ka = 0.15, 2.5, 0.19"),
         "function",
         "0 of 5 logs right; ",
     ),
     Mistake(
         "a number that calls itself right",
         FUNCTION,
-        fitting("""
+        replace_fit("""
 class Right(float):
     __le__ = __lt__ = __ge__ = __gt__ = __eq__ = lambda self, other: True
     __sub__ = __rsub__ = __abs__ = lambda self, *other: Right(0)
 ks = kv = ka = Right(0)
 """),
         "function",
-        "a Right, which only poses as a number",
+        "a Right, which only looks like a number",
     ),
     Mistake(
         "the examiner asked for the answer",
         FUNCTION,
-        fitting("from grader.student_data.variant import make_student_rng"),
+        replace_fit("from grader.student_data.variant import make_student_rng"),
         "function",
         "No module named 'grader'",
     ),

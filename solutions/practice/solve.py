@@ -59,7 +59,7 @@ def fill_in_code(exercise: Path, gains: dict[str, float], symbol: str) -> dict[s
     Returns:
         File name -> its text.
     """
-    routine, buttons, routine_python, buttons_python = (_answers(*one) for one in LINES)
+    routine, buttons, routine_python, buttons_python = (_solve_exercise(*one) for one in LINES)
     units = {
         "kS": "V",
         "kV": f"V·s/{symbol}",
@@ -91,7 +91,7 @@ def fill_in_code(exercise: Path, gains: dict[str, float], symbol: str) -> dict[s
             buttons_python[1],
         ),
     }
-    filled = {name: _filled(exercise / name, several) for name, several in parts.items()}
+    filled = {name: _fill_in(exercise / name, several) for name, several in parts.items()}
     brought = (
         "from commands2.button import CommandXboxController\n"  # what the bindings need beside it
     )
@@ -100,18 +100,18 @@ def fill_in_code(exercise: Path, gains: dict[str, float], symbol: str) -> dict[s
     return filled
 
 
-def _answers(folder: str, name: str) -> list[str]:
+def _solve_exercise(folder: str, name: str) -> list[str]:
     """The lines between the fences of an authored answer, in the order of their numbers."""
     text = (HERE / "solutions" / folder / name).read_text(encoding="utf-8")
-    found = {one["task"][0]: "".join(_bare(one[0])) for one in ANSWER.finditer(text)}
+    found = {one["task"][0]: "".join(_remove_comments(one[0])) for one in ANSWER.finditer(text)}
     return [found[number] for number in sorted(found)]
 
 
-def _bare(block: str) -> list[str]:
+def _remove_comments(block: str) -> list[str]:
     return [line for line in block.splitlines(keepends=True) if " ---" not in line]
 
 
-def _filled(path: Path, parts: tuple[str, ...]) -> str:
+def _fill_in(path: Path, parts: tuple[str, ...]) -> str:
     """Put each part where the TODO of its number stands."""
     text = path.read_text(encoding="utf-8")
     for number, part in enumerate(parts, start=1):

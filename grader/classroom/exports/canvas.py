@@ -36,7 +36,7 @@ def write(results: ClassResults, folder: Path) -> tuple[Path, ...]:
 
 
 def warn(results: ClassResults) -> str:
-    """Whose points are left out, in one line; empty if there are all."""
+    """One line about the students whose points are left out; empty if there are none."""
     names = [one.student for one in results.students if list_ungraded(one, results)]
     if not names:
         return ""

@@ -29,18 +29,19 @@ def write(results: ClassResults, folder: Path) -> tuple[Path, ...]:
     """
     return tuple(
         write_private_file(
-            folder / "github" / f"{make_folder_name(one.student)}.txt", _line(one, results)
+            folder / "github" / f"{make_folder_name(one.student)}.txt",
+            _format_student(one, results),
         )
         for one in results.students
     )
 
 
-def _line(one: GradedStudent, results: ClassResults) -> str:
-    text = json.dumps(_result(one, results)).encode("ascii")
+def _format_student(one: GradedStudent, results: ClassResults) -> str:
+    text = json.dumps(_make_result(one, results)).encode("ascii")
     return f"result={base64.b64encode(text).decode('ascii')}\n"
 
 
-def _result(one: GradedStudent, results: ClassResults) -> dict[str, Any]:
+def _make_result(one: GradedStudent, results: ClassResults) -> dict[str, Any]:
     unused = results.remarks.get(one.student, ())
     tests = [_test(number, grade) for number, grade in enumerate(one.grades)]
     told = {test["status"] for test in tests}

@@ -26,15 +26,15 @@ def write(results: ClassResults, folder: Path) -> tuple[Path, ...]:
     return tuple(
         write_private_file(
             folder / "gradescope" / make_folder_name(one.student) / "results.json",
-            json.dumps(_result(one, results), ensure_ascii=False, indent=1) + "\n",
+            json.dumps(_make_result(one, results), ensure_ascii=False, indent=1) + "\n",
         )
         for one in results.students
     )
 
 
-def _result(one: GradedStudent, results: ClassResults) -> dict[str, Any]:
+def _make_result(one: GradedStudent, results: ClassResults) -> dict[str, Any]:
     warnings = [
-        f"{grade.exercise} was not graded, so its 0 points are no mark: {grade.reason}"
+        f"{grade.exercise} was not graded, so its 0 points are not a mark: {grade.reason}"
         for grade in one.grades
         if grade.status == "ungradable"
     ]

@@ -24,22 +24,22 @@ def write(results: ClassResults, folder: Path) -> tuple[Path, ...]:
     Raises:
         BadRequest: it cannot be written.
     """
-    top = ET.Element("testsuites", name=_plain(results.name))
+    top = ET.Element("testsuites", name=_format_plainly(results.name))
     for one in results.students:
-        top.append(_suite(one, results.remarks.get(one.student, ())))
+        top.append(_make_suite(one, results.remarks.get(one.student, ())))
     ET.indent(top)
     text = ET.tostring(top, encoding="unicode")
     head = '<?xml version="1.0" encoding="utf-8"?>\n'
     return (write_private_file(folder / "junit.xml", f"{head}{text}\n"),)
 
 
-def _suite(one: GradedStudent, unused: Sequence[str]) -> ET.Element:
-    cases = [_case(grade, check) for grade in one.grades for check in grade.checks]
-    cases += [_unused_case(text) for text in unused]
+def _make_suite(one: GradedStudent, unused: Sequence[str]) -> ET.Element:
+    cases = [_make_case(grade, check) for grade in one.grades for check in grade.checks]
+    cases += [_make_unused_case(text) for text in unused]
     count = {tag: sum(case.find(tag) is not None for case in cases) for tag in _KINDS}
     suite = ET.Element(
         "testsuite",
-        name=_plain(one.student),
+        name=_format_plainly(one.student),
         tests=str(len(cases)),
         failures=str(count["failure"]),
         errors=str(count["error"]),
@@ -49,22 +49,26 @@ def _suite(one: GradedStudent, unused: Sequence[str]) -> ET.Element:
     return suite
 
 
-def _unused_case(text: str) -> ET.Element:
+def _make_unused_case(text: str) -> ET.Element:
     """A file that may be an answer and was not graded."""
     case = ET.Element("testcase", classname="files", name="not graded")
-    ET.SubElement(case, "error", message=_plain(text))
+    ET.SubElement(case, "error", message=_format_plainly(text))
     return case
 
 
 _KINDS = ("failure", "error", "skipped")
 
 
-def _case(grade: Grade, check: Result) -> ET.Element:
-    case = ET.Element("testcase", classname=_plain(grade.exercise), name=_plain(check.description))
+def _make_case(grade: Grade, check: Result) -> ET.Element:
+    case = ET.Element(
+        "testcase",
+        classname=_format_plainly(grade.exercise),
+        name=_format_plainly(check.description),
+    )
     points = ET.SubElement(case, "properties")
     for name in ("points", "max_points", "misconception"):
-        ET.SubElement(points, "property", name=name, value=_plain(getattr(check, name)))
-    said = _plain(compose_feedback(check))
+        ET.SubElement(points, "property", name=name, value=_format_plainly(getattr(check, name)))
+    said = _format_plainly(compose_feedback(check))
     if check.status == "failed":
         ET.SubElement(case, "failure", message=said)
     elif grade.status == "ungradable" or check.status == "error":
@@ -74,7 +78,7 @@ def _case(grade: Grade, check: Result) -> ET.Element:
     return case
 
 
-def _plain(value: object) -> str:
+def _format_plainly(value: object) -> str:
     """Without what XML cannot hold."""
     text = f"{value:g}" if isinstance(value, float) else str(value)
     return NOT_XML.sub("", text)

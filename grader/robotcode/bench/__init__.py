@@ -1,4 +1,4 @@
-"""Robot programs on a simulated robot: what they did, as facts.
+"""Robot programs on a simulated robot, and facts about their behavior.
 
 ``simulation`` turns the motors' shafts and runs the loop; ``routine_run`` runs the tests of a
 SysIdRoutine, ``button_run`` presses the buttons, ``gains_run`` looks at gains. A program is a

@@ -1,4 +1,4 @@
-"""Presses what a driver would, in every mode of a match and out of it, and tells which tests ran.
+"""Presses buttons as a driver would, in and out of each match mode, and lists the tests that ran.
 
 A test of SysId that a program makes is known from its SysIdRoutine. Each input is pressed alone,
 then with a second one held, then with a switch on the dashboard turned; what starts a test is held
@@ -56,7 +56,7 @@ class Factory:
 
 @dataclass(frozen=True)
 class Press:
-    """What a driver does to run a test, and what comes of it.
+    """A driver's action that runs a test, and its result.
 
     Args:
         test: by its name.
@@ -100,7 +100,7 @@ class Press:
 
 @dataclass(frozen=True)
 class ButtonFacts(ProgramFacts):
-    """What the buttons of a program do.
+    """Facts about the buttons of a program.
 
     Args:
         routines: how many SysIdRoutines there are.
@@ -163,13 +163,13 @@ class ButtonBench(Bench):
         WORLD.joysticks = {port: Joystick() for port in ports if isinstance(port, int)}
         return {
             "factories": tuple(factories),
-            "made": tuple((test, self._asked_at(lines)) for test, _, lines in made),
+            "made": tuple((test, self._find_requested_line(lines)) for test, _, lines in made),
             "elsewhere": tuple(self._find_elsewhere()),
             "shared": tuple(shared),
         }
 
     def look_last(self, facts: dict[str, Any]) -> None:
-        """What was bound and made meanwhile."""
+        """Record the bindings and commands that were made meanwhile."""
         facts |= {
             "routines": len(WORLD.singletons.get("routines", [])),
             "released": tuple(self.released.items()),
@@ -180,7 +180,7 @@ class ButtonBench(Bench):
             ),
         }
 
-    def _asked_at(self, lines: list[int]) -> int:
+    def _find_requested_line(self, lines: list[int]) -> int:
         """The line of the container that asked for a test: the first out of the routine's class."""
         if not lines:
             return 0
@@ -196,17 +196,17 @@ class ButtonBench(Bench):
         """Tests that a click on a dashboard, or autonomous, starts."""
         for one in WORLD.singletons.get("sendables", []):
             for test in find_tests(one):
-                yield f"a dashboard starts {test.replace('-', ' ')}", _line_of(one)
+                yield f"a dashboard starts {test.replace('-', ' ')}", _get_line(one)
         for one in WORLD.singletons.get("choosers", []):
             for option in one._options.values():
                 for test in find_tests(option):
-                    yield f"a chooser offers {test.replace('-', ' ')}", _line_of(one)
+                    yield f"a chooser offers {test.replace('-', ' ')}", _get_line(one)
         for kind, one, _, line in self.scheduler._events:
             for test in find_tests(one) if kind == "ask" else ():
                 yield f"the program starts {test.replace('-', ' ')} by itself", int(line)
         command = self.guard(self.subject.autonomous)
         for test in find_tests(command) if command is not None else ():
-            yield f"autonomous runs {test.replace('-', ' ')}", _line_of(command)
+            yield f"autonomous runs {test.replace('-', ' ')}", _get_line(command)
 
     # -- pressing ---------------------------------------------------------------------------
 
@@ -220,7 +220,7 @@ class ButtonBench(Bench):
             if hasattr(one, "_value") and isinstance(one._value, bool):
                 one._value = sensors
         self._turn_switch(None)
-        self._loops(2)
+        self._run_loops(2)
 
     def _turn_switch(self, switch: tuple[str, Any] | None) -> None:
         """Turn a switch on the dashboard; the one before goes back."""
@@ -245,7 +245,7 @@ class ButtonBench(Bench):
             else:
                 stick.axes[number] = 1.0 if on else 0.0
 
-    def _loop(self) -> frozenset[str]:
+    def _run_loop(self) -> frozenset[str]:
         """One loop; the tests that ran in it."""
         WORLD.singletons["running"] = {}
         self.where = "periodic"
@@ -253,30 +253,32 @@ class ButtonBench(Bench):
         states = WORLD.singletons["running"].values()
         return frozenset(state for state in states if state != "none")
 
-    def _loops(self, count: int) -> frozenset[str]:
-        return frozenset().union(*(self._loop() for _ in range(count)))
+    def _run_loops(self, count: int) -> frozenset[str]:
+        return frozenset().union(*(self._run_loop() for _ in range(count)))
 
     def _watch_alone(self, mode: str) -> tuple[str, ...]:
-        """The tests that run in a mode although nobody presses anything."""
+        """The tests that run in a mode without any button pressed."""
         self._set_mode(mode)
         if mode == "autonomous":
             command = self.guard(self.subject.autonomous)
             if command is not None and not isinstance(command, Unknown):
                 self.guard(lambda: self.scheduler.schedule(command))
         count = ALONE if mode == "teleop" else ALONE // 3
-        return tuple(sorted(self._loops(count)))
+        return tuple(sorted(self._run_loops(count)))
 
     def _press(self, inputs: tuple[Input, ...]) -> frozenset[str]:
         """Hold some inputs for a moment; the tests that ran meanwhile."""
-        before = set(self._running())
+        before = set(self._list_running_commands())
         seen = len(self.scheduler._events)
         for one in inputs:
             self._hold([one], on=True)
-            self._loops(1)
+            self._run_loops(1)
         found: frozenset[str] = frozenset()
         for count in range(LONGEST):
-            found |= self._loop()
-            waits = any(find_tests(one) for one in self._running() if one not in before)
+            found |= self._run_loop()
+            waits = any(
+                find_tests(one) for one in self._list_running_commands() if one not in before
+            )
             if found or (count > SHORTEST and not waits):
                 break
         events = self.scheduler._events[seen:]
@@ -285,12 +287,12 @@ class ButtonBench(Bench):
         started = {
             test for kind, one, *_ in events if kind == "schedule" for test in find_tests(one)
         }
-        self._let_go(inputs)
+        self._release_inputs(inputs)
         return found | started if len(started) > 1 else found
 
-    def _let_go(self, inputs: tuple[Input, ...]) -> None:
+    def _release_inputs(self, inputs: tuple[Input, ...]) -> None:
         self._hold(inputs, on=False)
-        for test in self._loops(2) & self._loops(2):
+        for test in self._run_loops(2) & self._run_loops(2):
             line = next(
                 (
                     int(b.line)
@@ -301,13 +303,13 @@ class ButtonBench(Bench):
             )
             self.released.setdefault(test, line)
         self.guard(self.scheduler.cancelAll)
-        self._loops(1)
+        self._run_loops(1)
 
-    def _running(self) -> list[Any]:
+    def _list_running_commands(self) -> list[Any]:
         return list(getattr(self.scheduler, "_scheduled", ()))
 
-    def _inputs(self) -> list[Input]:
-        """What a program looks at, else what every controller has."""
+    def _list_inputs(self) -> list[Input]:
+        """The inputs that a program reads; if it reads none, those of every controller."""
         found = [
             (one._port, kind, number)
             for one in WORLD.singletons.get("controllers", [])
@@ -319,8 +321,8 @@ class ButtonBench(Bench):
         every = [(port, *one) for port in WORLD.joysticks for one in EVERY]
         return list(dict.fromkeys(found)) or every
 
-    def _switches(self) -> list[tuple[str, Any]]:
-        """What a person can turn on a dashboard."""
+    def _list_switches(self) -> list[tuple[str, Any]]:
+        """The dashboard entries that a person can turn on."""
         found: list[tuple[str, Any]] = []
         for path, one in WORLD.singletons.get("switches", {}).items():
             now = WORLD.network.get(path, next(iter(one.defaults), False))
@@ -335,7 +337,7 @@ class ButtonBench(Bench):
         found: dict[str, tuple[tuple[Input, ...], tuple[str, Any] | None, str, frozenset[str]]] = {}
         for mode in ("test", "teleop"):
             self._search(mode, None, found)
-            for switch in self._switches():  # those that were asked for meanwhile
+            for switch in self._list_switches():  # those that were asked for meanwhile
                 self._search(mode, switch, found)
         for test in TESTS:
             if test in found:
@@ -347,7 +349,7 @@ class ButtonBench(Bench):
             return
         self._set_mode(mode)
         self._turn_switch(switch)
-        inputs = self._inputs()
+        inputs = self._list_inputs()
         singles: list[Input] = []
         for count in (1, 2):
             for pressed in itertools.combinations(inputs, count):
@@ -369,27 +371,27 @@ class ButtonBench(Bench):
         mode: str,
         tests: frozenset[str],
     ) -> Press:
-        """Hold what starts a test to its end, let it go in the middle, and try it in a match."""
+        """Hold the button of a test to its end, release it halfway, and try it in a match."""
         self._set_mode(mode)
         self._turn_switch(switch)
         self._hold(inputs, on=True)
         ran, driven = [], []
         for _ in range(HELD):
-            ran.append(test in self._loop())
+            ran.append(test in self._run_loop())
             driven.append(self._is_driven())
         line, how = self._find_binding(test)
         first = ran.index(True) if True in ran else HELD
         end = next((k for k in range(first, HELD) if not ran[k]), HELD)
         self._hold(inputs, on=False)
-        self._loops(AFTER)
+        self._run_loops(AFTER)
         moves = self._is_driven() or (not any(ran[end:]) and any(driven[end + AFTER :]))
         self.guard(self.scheduler.cancelAll)
-        self._loops(2)
+        self._run_loops(2)
         stayed, stopped, moved = self._release(inputs, test)
         opened = tuple(self._try_match(test, inputs))
         asked = next(
             (
-                self._asked_at(lines)
+                self._find_requested_line(lines)
                 for t, _, lines in WORLD.singletons.get("tests", [])
                 if t == test
             ),
@@ -404,7 +406,7 @@ class ButtonBench(Bench):
             line,
             how,
             self.subject.text_at(line),
-            self._comment(asked, line),
+            self._find_comment(asked, line),
             delay=first * PERIOD,
             lasted=(end - first) * PERIOD if end < HELD else math.inf,
             restarted=any(ran[end:]),
@@ -419,17 +421,17 @@ class ButtonBench(Bench):
     def _release(self, inputs: tuple[Input, ...], test: str) -> tuple[bool, bool, bool]:
         """Whether a test goes on when its input is let go, ends by a second press, moves motors."""
         self._hold(inputs, on=True)
-        self._loops(SHORTEST if test in self._loops(SHORTEST) else LONGEST)
+        self._run_loops(SHORTEST if test in self._run_loops(SHORTEST) else LONGEST)
         self._hold(inputs, on=False)
-        self._loops(2)
-        stayed = test in self._loops(AFTER)
+        self._run_loops(2)
+        stayed = test in self._run_loops(AFTER)
         moves = not stayed and self._is_driven()
         stopped = False
         if stayed:
             self._hold(inputs, on=True)
-            self._loops(AFTER)
+            self._run_loops(AFTER)
             self._hold(inputs, on=False)
-            stopped = test not in self._loops(AFTER)
+            stopped = test not in self._run_loops(AFTER)
         self.guard(self.scheduler.cancelAll)
         return stayed, stopped, moves
 
@@ -448,8 +450,8 @@ class ButtonBench(Bench):
                     break
 
     def _find_binding(self, test: str) -> tuple[int, str]:
-        """The line and the method that bound a test to what is held."""
-        running = [one for one in self._running() if test in find_tests(one)]
+        """The line and the method that bound a test to the pressed button."""
+        running = [one for one in self._list_running_commands() if test in find_tests(one)]
         line = int(running[0]._scheduled_line) if running else 0
         bindings = WORLD.singletons.get("bindings", [])
         exact = [b for b in bindings if test in find_tests(b.command)]
@@ -460,7 +462,7 @@ class ButtonBench(Bench):
         )
         return (int(near[0].line), near[0].how) if near else (line, "")
 
-    def _comment(self, asked: int, line: int) -> str:
+    def _find_comment(self, asked: int, line: int) -> str:
         return str(self.subject.comment_at(asked) or self.subject.comment_at(line))
 
     def _is_apart(self, inputs: tuple[Input, ...]) -> bool:
@@ -483,7 +485,7 @@ class ButtonBench(Bench):
 
 
 def find_tests(command: Any) -> list[str]:
-    """The tests of SysId that a command runs, itself or in what it is made of."""
+    """The tests of SysId that a command runs, itself or in its parts."""
     made = {id(one): test for test, one, _ in WORLD.singletons.get("tests", [])}
     if id(command) in made:
         return [made[id(command)]]
@@ -491,6 +493,6 @@ def find_tests(command: Any) -> list[str]:
     return [made[id(one)] for _, _, one in parts if id(one) in made]
 
 
-def _line_of(thing: Any) -> int:
+def _get_line(thing: Any) -> int:
     line = getattr(thing, "_line", 0)
     return int(line) if isinstance(line, int) else 0

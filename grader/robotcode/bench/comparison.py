@@ -1,4 +1,4 @@
-"""Holds what a motor got against what was asked, and what was logged against what was true."""
+"""Compares applied with requested voltages, and logged with true values."""
 
 import math
 from collections.abc import Sequence
@@ -55,7 +55,7 @@ def compare_motor(name: str, rows: Sequence["Row"], sent: tuple[Sent, ...]) -> D
 
 
 def _find_cut(name: str, rows: Sequence["Row"], off: list[int], got: list[float]) -> float | None:
-    """The position from which on a motor got nothing."""
+    """The position beyond which a motor got no voltage; None if there is none."""
     if not off or len(off) <= ENDS or name not in rows[off[0]].truth:
         return None
     tail = off == list(range(off[0], len(rows))) and all(abs(got[k]) < CLOSE for k in off)
@@ -155,7 +155,7 @@ def _compare_motion(
 def _pair_with_truth(
     pairs: list[tuple[int, float]], rows: Sequence["Row"], motor: str, part: int, lag: int
 ) -> list[tuple[Any, float]]:
-    """What was true of a motor, in the same loop or the one before, with what was logged."""
+    """Pairs of logged and true values of a motor, from the same loop or the one before."""
     return [
         (rows[k - lag].truth[motor][part], v) for k, v in pairs if k >= lag and rows[k - lag].truth
     ]

@@ -20,8 +20,8 @@ Holder = tuple[str, str, tuple[int, int], list[Field]]  # class, text of its fil
 def list_java_holders(bench: Bench) -> Iterator[Holder]:
     """The classes of a Java program that were used, or are in its main file, with their fields."""
     subject = bench.subject
-    objects = subject._instances()
-    for java in subject._all_classes():
+    objects = subject._list_instances()
+    for java in subject._list_classes():
         if java.unit is subject.program.unit:
             with contextlib.suppress(StoppedError):  # what it did not reach has no value
                 bench.guard(java.initialize)
@@ -59,7 +59,7 @@ def list_python_holders(bench: Bench) -> Iterator[Holder]:
 
 
 def _list_assignments(node: ast.Module | ast.ClassDef) -> Iterator[tuple[str, str, int, int]]:
-    """Name, value and lines of what is assigned in a class or module, and as ``self.name``."""
+    """Name, value and lines of the assignments in a class or module, ``self.name`` included."""
     inside = [ast.walk(one) for one in node.body if isinstance(one, ast.FunctionDef)]
     for one in (*node.body, *(part for walk in inside for part in walk)):
         if isinstance(one, ast.Assign | ast.AnnAssign):

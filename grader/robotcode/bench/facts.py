@@ -1,4 +1,4 @@
-"""What a program did on the bench, as plain facts. Nothing here judges.
+"""Plain facts about a program's behavior on the bench; the checks judge them.
 
 Facts cross from the process that ran the program as JSON (``to_json``, ``from_json``).
 """
@@ -67,7 +67,7 @@ class Setting:
 
 @dataclass(frozen=True)
 class Sent:
-    """A kind of command that a motor got.
+    """A kind of command that a motor received.
 
     Args:
         kind: as in ``devices.Command``.
@@ -84,7 +84,7 @@ class Sent:
 
 @dataclass(frozen=True)
 class Driven:
-    """What one motor got in one test.
+    """The voltages that one motor received in one test.
 
     Args:
         loops: of the test.
@@ -231,7 +231,7 @@ class ProgramFacts:
 
 @dataclass(frozen=True)
 class RoutineFacts(ProgramFacts):
-    """What the SysIdRoutine of a subsystem did.
+    """Facts about the SysIdRoutine of a subsystem.
 
     Args:
         line: where the routine is made; 0 if there is none.

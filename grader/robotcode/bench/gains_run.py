@@ -90,7 +90,7 @@ class Gains:
 
 @dataclass(frozen=True)
 class GainFacts(ProgramFacts):
-    """What a program holds of gains.
+    """The gains that a program holds.
 
     Args:
         constants: the gains, each once: that in the class for them before others.

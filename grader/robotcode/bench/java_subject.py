@@ -77,7 +77,7 @@ class JavaSubject(Subject):
         return next((one for one in classes if wanted in (one.node.text or b"").decode()), public)
 
     def compile(self) -> None:
-        """Compile the file in hand, so that what a compiler refuses is known."""
+        """Compile the graded file, to find its compile errors."""
         self.program.compile_all()
 
     def start(self) -> None:
@@ -88,7 +88,7 @@ class JavaSubject(Subject):
             return
         _ = self.java.cls
         if self.java.constructors and all(one.kinds for one in self.java.constructors):
-            self.instance = self._made_by_program(self.java.name)
+            self.instance = self._find_program_instance(self.java.name)
             if self.instance is not None:
                 return
         made = [
@@ -104,9 +104,9 @@ class JavaSubject(Subject):
         else:
             self.instance = self.make(self.java)
 
-    def _made_by_program(self, name: str) -> Any:
+    def _find_program_instance(self, name: str) -> Any:
         """The object of a class that another class of the program makes, as a container does."""
-        for java in self._all_classes():
+        for java in self._list_classes():
             source = (java.node.text or b"").decode()
             if java.outer is None and java.name != name and re.search(rf"\bnew {name}\(", source):
                 _ = java.cls
@@ -117,18 +117,19 @@ class JavaSubject(Subject):
         return None
 
     def make(self, java: JavaClass, depth: int = 0) -> Any:
-        """An object of a class; its constructor gets what a robot's program would give it."""
+        """An object of a class; its constructor gets the same kind of arguments as on a robot."""
         _ = java.cls
         best: Method | None = min(java.constructors, key=lambda one: len(one.kinds), default=None)
         args = [
-            self._argument(kind, java, depth) for kind in (best.kinds if best is not None else ())
+            self._make_argument(kind, java, depth)
+            for kind in (best.kinds if best is not None else ())
         ]
         env = (
             None if java.static or java.outer is None else [self.make(java.outer, depth + 1), None]
         )
         return java.make(args, (), env)
 
-    def _argument(self, kind: str, java: JavaClass, depth: int) -> Any:
+    def _make_argument(self, kind: str, java: JavaClass, depth: int) -> Any:
         if kind in PRIMITIVES:
             return values.cast(kind, 1) if kind != "boolean" else False
         if kind == "String":
@@ -149,7 +150,7 @@ class JavaSubject(Subject):
         if java.form == "class" and "abstract" not in java.modifiers:
             return self.make(java, depth + 1)
         children = [
-            one for one in self._all_classes() if one is not java and java in one.ancestors()
+            one for one in self._list_classes() if one is not java and java in one.ancestors()
         ]
         children = [
             one for one in children if one.form == "class" and "abstract" not in one.modifiers
@@ -160,8 +161,8 @@ class JavaSubject(Subject):
         java.modifiers -= {"abstract"}  # what it has itself can be looked at
         return self.make(java, depth + 1)
 
-    def _all_classes(self) -> list[JavaClass]:
-        waiting = [one for unit in self.program.all_units() for one in unit.classes.values()]
+    def _list_classes(self) -> list[JavaClass]:
+        waiting = [one for unit in self.program.list_all_units() for one in unit.classes.values()]
         found = []
         while waiting:
             one = waiting.pop(0)
@@ -177,10 +178,10 @@ class JavaSubject(Subject):
         for one in self.java.methods if self.java is not None else ():
             told = one.returns in TESTING and "private" not in one.modifiers
             if told and all(kind.rpartition(".")[2] == "Direction" for kind in one.kinds):
-                args = [self._direction(kind) for kind in one.kinds]
+                args = [self._find_direction(kind) for kind in one.kinds]
                 one.run(None if one.static else self.instance, *args)
 
-    def _direction(self, kind: str) -> Any:
+    def _find_direction(self, kind: str) -> Any:
         found = self.program.resolve(kind, self.java)
         return next(iter(found)) if isinstance(found, enum.EnumMeta) else Unknown(kind)
 
@@ -191,7 +192,7 @@ class JavaSubject(Subject):
 
     @staticmethod
     def explain(error: BaseException) -> tuple[Outcome, str, int, str]:
-        """How an error ended the program."""
+        """The error that ended the program, with its line."""
         line = int(STATE.at)
         if isinstance(error, EndlessError):
             return Outcome.ENDLESS, "the code here runs without end", line, "endless"
@@ -222,7 +223,7 @@ class JavaSubject(Subject):
     def list_factories(self) -> list[Factory]:
         """The methods that give commands, with the tests that they made when they were called."""
         found = []
-        for java, instance in self._instances().items():
+        for java, instance in self._list_instances().items():
             for one in java.methods:
                 if "Command" not in one.returns and one.returns not in {"", "var"}:
                     continue
@@ -232,7 +233,7 @@ class JavaSubject(Subject):
                     found.append(Factory(java.name, one.name, public, int(one.at), tests))
         return found
 
-    def _instances(self) -> dict[JavaClass, Any]:
+    def _list_instances(self) -> dict[JavaClass, Any]:
         found: dict[JavaClass, Any] = {}
         for _, _, one in walk_fields(self.instance):
             java = getattr(type(one), "java", None)
@@ -244,7 +245,7 @@ class JavaSubject(Subject):
         """The tests that a method makes, for each value of its parameters."""
         choices = []
         for kind in method.kinds:
-            values_ = self._choices(kind, method.owner)
+            values_ = self._list_choices(kind, method.owner)
             if not values_:
                 return
             choices.append(values_)
@@ -254,7 +255,7 @@ class JavaSubject(Subject):
                 made = list_made("tests", functools.partial(method.run, this, *args))
                 yield from (test for test, _, _ in made)
 
-    def _choices(self, kind: str, scope: JavaClass) -> list[Any]:
+    def _list_choices(self, kind: str, scope: JavaClass) -> list[Any]:
         found = self.program.resolve(kind, scope)
         if isinstance(found, JavaClass) and found.form == "enum":
             return found.list_constants()
@@ -270,10 +271,10 @@ class JavaSubject(Subject):
 
     def owner_at(self, line: int) -> str:
         """The class in which a line stands."""
-        node = self._node_at(line, DECLARATIONS)
+        node = self._find_node_at(line, DECLARATIONS)
         return text(node.child_by_field_name("name")) if node is not None else ""
 
-    def _node_at(self, line: int, kinds: Collection[str]) -> Any:
+    def _find_node_at(self, line: int, kinds: Collection[str]) -> Any:
         """The smallest node of some kinds on a line of the file in hand."""
         found: Any = None
         waiting: list[Any] = [self.program.main.root]
@@ -299,14 +300,14 @@ class JavaSubject(Subject):
 
     def find_statement(self, line: int) -> tuple[int, int] | None:
         """The first and the last line of the statement that a line is in."""
-        node = self._node_at(line, STATEMENTS)
+        node = self._find_node_at(line, STATEMENTS)
         return None if node is None else (node.start_point[0] + 1, node.end_point[0] + 1)
 
     def find_uncalled(self) -> list[tuple[str, int]]:
         """Methods with bindings that nothing calls."""
         whole = self.program.main.text
         found = []
-        for java in self._all_classes():
+        for java in self._list_classes():
             for one in java.methods if "cls" in java.__dict__ else ():
                 binds = re.search(
                     r"\.(while|on|toggleOn)(True|False)\(", (one.node.text or b"").decode()

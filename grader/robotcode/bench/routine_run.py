@@ -1,4 +1,4 @@
-"""Runs the four tests of a program's SysIdRoutine, and writes down what it did.
+"""Runs the four tests of a program's SysIdRoutine, and records its behavior.
 
 Works on whatever stands for the robot: the fakes, or WPILib's own simulation.
 """
@@ -60,7 +60,7 @@ class Row:
 
 
 class StoppedError(Exception):
-    """The program came to an end that nobody wanted."""
+    """The program ended unexpectedly."""
 
     def __init__(self, stop: Stop) -> None:
         super().__init__(stop.said)
@@ -68,7 +68,7 @@ class StoppedError(Exception):
 
 
 class Bench:
-    """A program on the bench, with what of it runs now: a place of ``Stop``, and a test or nothing.
+    """A program on the bench, with the place of ``Stop`` and the test that are running.
 
     Args:
         subject: the program.
@@ -83,7 +83,7 @@ class Bench:
         self.subject, self.mounts = subject, mounts
 
     def run(self) -> Any:
-        """Make the class of the program, look at it, and tell what happened."""
+        """Make the program's class, run it, and return the facts."""
         facts: dict[str, Any] = {"language": self.subject.language, "name": self.subject.name}
         try:
             self.guard(self.subject.start)
@@ -98,7 +98,7 @@ class Bench:
         raise NotImplementedError
 
     def look_last(self, facts: dict[str, Any]) -> None:
-        """Write down what there is once it has ended."""
+        """Record the state after the end of the program."""
         raise NotImplementedError
 
     def guard(self, run: Callable[[], Any]) -> Any:
@@ -119,7 +119,7 @@ class Bench:
 
 
 class RoutineBench(Bench):
-    """A program with its routine, and what it does in the tests."""
+    """A program with its routine, and its behavior in the tests."""
 
     kind = RoutineFacts
 
@@ -132,11 +132,11 @@ class RoutineBench(Bench):
         """Find the routine, and run all four tests."""
         facts |= self._look()
         if "drive" in facts:
-            facts["tests"] = dict(self._tests(facts))
+            facts["tests"] = dict(self._list_tests(facts))
 
     def look_last(self, facts: dict[str, Any]) -> None:
         """List the devices."""
-        facts["devices"] = self._devices()
+        facts["devices"] = self._list_devices()
 
     # -- what there is ----------------------------------------------------------------------
 
@@ -176,7 +176,7 @@ class RoutineBench(Bench):
             "own_log": config.recordState is not None,
         }
 
-    def _devices(self) -> tuple[DeviceFacts, ...]:
+    def _list_devices(self) -> tuple[DeviceFacts, ...]:
         if not hasattr(self, "simulation"):
             return ()
         found = []
@@ -206,12 +206,12 @@ class RoutineBench(Bench):
 
     # -- the tests --------------------------------------------------------------------------
 
-    def _tests(self, facts: dict[str, Any]) -> Iterator[tuple[str, TestRun]]:
+    def _list_tests(self, facts: dict[str, Any]) -> Iterator[tuple[str, TestRun]]:
         self._wrap_callbacks()
         self.scheduler = CommandScheduler()
         for test in TESTS:
             WORLD.mode, WORLD.battery, self.simulation.hiccup = "test", BATTERY, False
-            self._rest()
+            self._wait_at_rest()
             try:
                 yield test, self._hold(test)
             except StoppedError as stopped:
@@ -230,7 +230,7 @@ class RoutineBench(Bench):
             WORLD.battery = BATTERY  # it sags once the motors have their shares of it
             drive(voltage)
             self._note_commands("drive")
-            self._hiccup()
+            self._delay_next_loop()
             self.simulation.settle()
             self._note_truth()  # where there is no log callback
             self.where = "command"
@@ -259,8 +259,8 @@ class RoutineBench(Bench):
                 for one in self.simulation.motors
             }
 
-    def _hiccup(self) -> None:
-        """Let less voltage through for a moment, so that what was asked and what came differ."""
+    def _delay_next_loop(self) -> None:
+        """Reduce the voltage for a moment, so that requested and applied voltage differ."""
         row = self.row
         now = (
             row is not None and self.test.startswith("dynamic") and HICCUP[0] < row.time < HICCUP[1]
@@ -275,7 +275,7 @@ class RoutineBench(Bench):
                 sent.setdefault(Sent(command.kind, command.method, int(command.line), phase))
             one._commands.clear()
 
-    def _rest(self) -> None:
+    def _wait_at_rest(self) -> None:
         self.test, self.row, self.where = "", None, "periodic"
         for _ in range(round(REST / PERIOD)):
             self.guard(lambda: self.simulation.run_loop(self.scheduler.run))

@@ -24,7 +24,7 @@ MOST_OBJECTS = 3_000
 
 
 class Load:
-    """What a shaft has to move."""
+    """The mechanism that a shaft moves."""
 
     def __init__(self, number: int, shaft: Shaft) -> None:
         self.ks, self.kv, self.ka = (GAINS[name] + number * STEP[name] for name in GAINS)
@@ -65,7 +65,7 @@ class GearedShaft:
 
 @dataclass(frozen=True)
 class Mount:
-    """How the task says that a motor is built in.
+    """A motor's mounting, as the task describes it.
 
     Args:
         backward: whether its shaft turns the mechanism backward.
@@ -134,7 +134,7 @@ class Simulation:
             linked = [one for one in motors if getattr(one, "_turned_by", None) == sensor._port]
             if not motors:
                 return
-            near = linked or self._named_like(sensor, motors)
+            near = linked or self._find_motors_named_like(sensor, motors)
             chosen = (
                 near[0]
                 if near
@@ -145,7 +145,7 @@ class Simulation:
             sensor._shaft = shaft
             self.turned_by[id(sensor)] = chosen
 
-    def _named_like(self, sensor: Device, motors: list[Motor]) -> list[Motor]:
+    def _find_motors_named_like(self, sensor: Device, motors: list[Motor]) -> list[Motor]:
         """The motors that share a word of their name, such as ``left``, with a sensor alone."""
         words = split_words(self.name(sensor))
         scores = [(len(words & split_words(self.name(one))), one) for one in motors]
@@ -173,7 +173,7 @@ class Simulation:
         return LIMITED ** (1 + list(self.leaders).index(id(motor)) % MOST_LIMITS)
 
     def settle(self) -> None:
-        """Fix what every motor gets."""
+        """Fix the voltage of every motor until the next loop."""
         for one in self.motors:
             if one._leader is None:
                 one._settle(self.get_through(one))
@@ -205,7 +205,7 @@ class Simulation:
 
 
 def find_device_number(device: Device) -> int | None:
-    """The CAN ID or the number of the port of a device; None if nobody knows it."""
+    """The CAN ID or the port number of a device; None if it is unknown."""
     return next((one for one in device._port if isinstance(one, int)), None)
 
 
@@ -218,7 +218,7 @@ def split_words(name: str) -> set[str]:
 def walk_fields(
     thing: object, *, leave: Callable[[Any], bool] = lambda _: False
 ) -> Iterator[tuple[str, str, Any]]:
-    """An object's fields and what they hold, each object once.
+    """An object's fields and their values, each object once.
 
     Args:
         thing: where to begin.

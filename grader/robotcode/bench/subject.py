@@ -1,4 +1,4 @@
-"""What a program on the bench is, whatever its language."""
+"""A program on the bench, in either language."""
 
 import enum
 from collections.abc import Callable
@@ -10,7 +10,7 @@ from grader.robotcode.library.world import WORLD
 
 
 class Subject:
-    """A program, and the one of its classes that is looked at.
+    """A program, and its class that is tested.
 
     A language adds: ``start``, which makes the class; ``explain``, how an error ended the program;
     ``refill``, the steps of one more loop; ``describe``, what is known of its text; the routines
@@ -48,7 +48,7 @@ def list_made(kind: str, make: Callable[[], Any]) -> list[Any]:
 
 
 def list_choices(kind: Any) -> list[Any]:
-    """What a factory's parameter may be given: the constants of an enum, or true and false."""
+    """The possible arguments of a factory's parameter: constants of an enum, or true and false."""
     if isinstance(kind, type) and issubclass(kind, enum.Enum):
         return list(kind)
     return [True, False] if kind is bool else []

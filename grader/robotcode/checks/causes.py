@@ -1,4 +1,4 @@
-"""Why a program did not do what was asked: it does not compile, it stopped, a file is missing."""
+"""Causes of missing behavior: it does not compile, it stopped, a file is missing."""
 
 import re
 from collections.abc import Iterable, Mapping
@@ -17,12 +17,12 @@ WHEN = {  # where a program stopped, in words
 
 
 def explain_doubt(what: str, text: str) -> str:
-    """A message that asks the learner about code whose effect nobody can know."""
+    """A message that asks the learner about code with an unknown effect."""
     return f"the grader cannot know {what}{f': {text}' if text else ''}"
 
 
 def quote(line: int) -> str:
-    """Where something stands, at the end of a sentence."""
+    """A line's number in brackets, for the end of a sentence; empty for line 0."""
     return f" (line {line})" if line else ""
 
 
@@ -34,7 +34,7 @@ def list_tests(tests: Iterable[str]) -> str:
 
 
 def ask_for_files(unknown: Mapping[str, int], earned: float = 0.0) -> None:
-    """Ask for what is in no file here, where what is missing may be in it.
+    """Ask for the missing files that may contain the missing code.
 
     Args:
         unknown: a name, and the line that uses it.
@@ -73,7 +73,7 @@ def check_compiles(facts: ProgramFacts, *, earned: float = 0.0) -> None:
 
 
 def check_stop(facts: ProgramFacts, *places: str, earned: float = 0.0) -> None:
-    """Raise ``WrongAnswer`` if the program came to an end that nobody wanted.
+    """Raise ``WrongAnswer`` if the program ended unexpectedly.
 
     Args:
         facts: the run.
@@ -90,7 +90,7 @@ def check_stop(facts: ProgramFacts, *places: str, earned: float = 0.0) -> None:
     hint = "On the robot it would stop in the same way. Mend that line, and grade again."
     if stop.outcome is Outcome.ENDLESS:
         verb = "hangs"
-        hint = "A robot's loop has 0.02 s. Whatever waits or repeats has to come back at once."
+        hint = "A robot's loop has 0.02 s. Code that waits or repeats must return at once."
     elif re.search(r"(quasistatic|dynamic)\W.*(takes|missing|argument)", stop.said):
         hint = (
             "SysIdRoutine is the class, and it has no motors: ask the object that you made, "

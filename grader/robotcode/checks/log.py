@@ -54,7 +54,7 @@ Faults = Iterator[tuple[str, WrongAnswer]]  # each with the signal that it is ab
 
 
 def list_signals(facts: RoutineFacts) -> Logged:
-    """Name in the log -> signal -> what it was in each test."""
+    """Name in the log -> signal -> its facts in each test."""
     found: dict[str, dict[str, list[Signal]]] = {}
     for test in facts.tests.values():
         for name, signals in test.signals.items():
@@ -131,7 +131,7 @@ def _find_log_faults(facts: RoutineFacts, there: Logged) -> Faults:
 def _find_name_faults(
     name: str, signals: Mapping[str, list[Signal]], facts: RoutineFacts
 ) -> Faults:
-    """What is wrong with the number of signals, and of rows, under one name."""
+    """Faults in the number of signals and of rows under one name."""
     lacking = [signal for signal in NEEDED if signal not in signals]
     hint = "A fit needs all three of every motor: voltage, position and velocity."
     if lacking == ["position"]:
@@ -162,7 +162,7 @@ def _find_name_faults(
 
 
 def _list_signal_faults(name: str, signal: str, one: Signal) -> Iterator[WrongAnswer]:
-    """What is wrong with a signal of the log, the worst first."""
+    """Faults of a signal in the log, the worst first."""
     at = quote(one.line)
     if one.twice:
         yield WrongAnswer(
@@ -182,7 +182,7 @@ def _list_signal_faults(name: str, signal: str, one: Signal) -> Iterator[WrongAn
 
 
 def _list_voltage_faults(name: str, _signal: str, one: Signal) -> Iterator[WrongAnswer]:
-    """What is wrong with a logged voltage, the worst first."""
+    """Faults of a logged voltage, the worst first."""
     at = quote(one.line)
     if one.asked:
         yield WrongAnswer(
@@ -207,7 +207,7 @@ def _list_voltage_faults(name: str, _signal: str, one: Signal) -> Iterator[Wrong
 
 
 def _list_motion_faults(name: str, signal: str, one: Signal) -> Iterator[WrongAnswer]:
-    """What is wrong with a logged position or velocity, the worst first."""
+    """Faults of a logged position or velocity, the worst first."""
     at, (part, _, motor) = quote(one.line), one.follows.partition(" ")
     if one.still:
         yield WrongAnswer(
@@ -401,7 +401,7 @@ def _check_scale(
 
 
 def _check_reported(motor: str, signal: str, one: Signal, turn: float) -> None:
-    """Whether a number was converted from what the motor reports.
+    """Whether a logged number is a converted reading of the motor.
 
     Args:
         motor: the signal and its motor, in words.

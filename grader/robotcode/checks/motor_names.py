@@ -1,4 +1,4 @@
-"""What the names of motors and mechanisms tell: the side, how it moves, what turns together."""
+"""Facts in the names of motors and mechanisms: the side, the kind of motion, and the groups."""
 
 import re
 

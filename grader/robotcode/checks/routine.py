@@ -48,7 +48,7 @@ def check_swapped(facts: RoutineFacts) -> None:
             )
 
 
-def check_found(facts: RoutineFacts) -> None:
+def check_routine_found(facts: RoutineFacts) -> None:
     """Raise ``WrongAnswer`` unless the subsystem makes a SysIdRoutine and keeps it."""
     if not facts.line:
         check_compiles(facts)
@@ -186,7 +186,7 @@ def check_driven(facts: RoutineFacts, *, points: float, mirrored: bool) -> str |
 
 def _note_driven(motors: Sequence[DeviceFacts], facts: RoutineFacts) -> str | None:
     """What to say of motors that get the right voltage."""
-    flipped = [one.name for one in motors if _ratio(one, facts) == -1]
+    flipped = [one.name for one in motors if _find_voltage_sign(one, facts) == -1]
     if flipped:
         return (
             f"{flipped[0]} gets the other sign. That is right only if it is mounted the other way "
@@ -198,22 +198,22 @@ def _note_driven(motors: Sequence[DeviceFacts], facts: RoutineFacts) -> str | No
     return None
 
 
-def _runs(motor: DeviceFacts, facts: RoutineFacts) -> dict[str, Driven]:
+def _list_driven_tests(motor: DeviceFacts, facts: RoutineFacts) -> dict[str, Driven]:
     name = motor.name
     return {test: run.motors[name] for test, run in facts.tests.items() if name in run.motors}
 
 
 def _list_sent(motor: DeviceFacts, facts: RoutineFacts) -> list[Sent]:
     """The commands that a motor gets in all tests."""
-    return [sent for run in _runs(motor, facts).values() for sent in run.sent]
+    return [sent for run in _list_driven_tests(motor, facts).values() for sent in run.sent]
 
 
-def _ratio(motor: DeviceFacts, facts: RoutineFacts) -> int | None:
+def _find_voltage_sign(motor: DeviceFacts, facts: RoutineFacts) -> int | None:
     """1 or -1 if a motor got the test's voltage with that sign in all tests; else None.
 
     A test whose voltage nobody knows, as with an unknown ramp, does not count.
     """
-    ratios = {run.ratio for run in _runs(motor, facts).values() if run.loops}
+    ratios = {run.ratio for run in _list_driven_tests(motor, facts).values() if run.loops}
     signs = {round(ratio) for ratio in ratios if ratio is not None and abs(abs(ratio) - 1) < SAME}
     return signs.pop() if len(signs) == 1 and None not in ratios else None
 
@@ -221,8 +221,8 @@ def _ratio(motor: DeviceFacts, facts: RoutineFacts) -> int | None:
 def _find_drive_fault(
     motor: DeviceFacts, facts: RoutineFacts, *, mirrored: bool
 ) -> WrongAnswer | None:
-    """What is wrong with what a motor gets in the tests; None if nothing is."""
-    runs = _runs(motor, facts)
+    """The fault in the voltages of a motor during the tests; None if there is none."""
+    runs = _list_driven_tests(motor, facts)
     bad = {test: run for test, run in runs.items() if run.wrong > FEW}
     fault = next(_list_command_faults(motor, runs, bad), None)
     if fault is not None:
@@ -230,7 +230,7 @@ def _find_drive_fault(
     cuts = [(test.endswith("forward"), run.cut) for test, run in bad.items() if run.cut is not None]
     if mirrored and cuts and len(cuts) == len(bad) and _are_limits(cuts):
         return None
-    ratio = _ratio(motor, facts)
+    ratio = _find_voltage_sign(motor, facts)
     fault = next(_list_direction_faults(motor, facts, mirrored=mirrored, right=not bad), None)
     if fault is not None or ratio == -1 or not bad or (motor.follows and ratio):
         return fault
@@ -246,7 +246,7 @@ def _find_drive_line(runs: Mapping[str, Driven]) -> int:
 def _list_command_faults(
     motor: DeviceFacts, runs: Mapping[str, Driven], bad: Mapping[str, Driven]
 ) -> Iterator[WrongAnswer]:
-    """What is wrong with the commands that a motor gets, the worst first."""
+    """Faults in the commands that a motor receives, the worst first."""
     name = motor.name
     sent = [one for run in runs.values() for one in run.sent]
     for one in sent:
@@ -264,7 +264,7 @@ def _list_command_faults(
             )
     if motor.follows == "?":
         yield WrongAnswer(
-            f"{name} follows a motor that is not there{quote(motor.line)}",
+            f"{name} follows a motor that does not exist{quote(motor.line)}",
             hint="Give the follower the ID of its leader.",
         )
     if runs and all(run.never for run in runs.values()):
@@ -287,7 +287,7 @@ def _list_command_faults(
 def _list_direction_faults(
     motor: DeviceFacts, facts: RoutineFacts, *, mirrored: bool, right: bool
 ) -> Iterator[WrongAnswer]:
-    """What is wrong with the way a motor turns: as a follower, by its sign, by its settings.
+    """Faults in a motor's direction, from following, signs or settings, the worst first.
 
     Args:
         motor: the motor.
@@ -295,7 +295,7 @@ def _list_direction_faults(
         mirrored: whether it may get the other sign.
         right: whether it gets the voltage of every test.
     """
-    name, ratio, at = motor.name, _ratio(motor, facts), quote(motor.line)
+    name, ratio, at = motor.name, _find_voltage_sign(motor, facts), quote(motor.line)
     forward = (ratio or 1) * (-1 if motor.backward else 1)
     if (
         find_side(name, SIDES[0])
@@ -321,7 +321,7 @@ def _list_direction_faults(
         )
         if motor.inverted and forward > 0:
             hint = "The code inverts this motor as well, and two inversions cancel. Leave one out."
-        line = _find_drive_line(_runs(motor, facts))
+        line = _find_drive_line(_list_driven_tests(motor, facts))
         yield WrongAnswer(f"{name}{quote(line)}: the sign of the voltage is changed", hint=hint)
     if motor.backward and right:
         yield WrongAnswer(
@@ -448,7 +448,7 @@ def check_devices(facts: RoutineFacts) -> None:
         if one.number is not None and one.number < 0:
             raise WrongAnswer(
                 f"{one.name} is made with {one.number:g}{quote(one.line)}",
-                hint="That cannot be a port or a CAN ID. Check the wiring.",
+                hint="This number is not a port or a CAN ID. Check the wiring.",
             )
         place = f"{one.type} {one.port}" if one.port.startswith("CAN") else one.port
         other = seen.setdefault(place, one)

@@ -62,14 +62,14 @@ def find_unmatched(text: str) -> ParseProblem | None:
     line, at = 1, 0
     for match in _TOKEN.finditer(text):
         line, at = line + text.count("\n", at, match.start()), match.start()
-        problem = _endless(match, line)
+        problem = _find_endless_literal(match, line)
         if problem is None and not match["comment"]:
             sign = match.group()
             if sign in CLOSES:
                 loop = _LOOP.search(text, max(at - 12, 0), at)
                 opened.append((sign, line, sign == "{" or loop is not None))
             else:
-                problem = _closed(sign, opened, line)
+                problem = _check_closing_bracket(sign, opened, line)
         if problem is not None:
             return problem
     if not opened:
@@ -80,8 +80,8 @@ def find_unmatched(text: str) -> ParseProblem | None:
     )
 
 
-def _endless(match: re.Match[str], line: int) -> ParseProblem | None:
-    """What to say of a string or a comment that goes on where it should have ended."""
+def _find_endless_literal(match: re.Match[str], line: int) -> ParseProblem | None:
+    """The error of a string or a comment without its end; None if it ends."""
     sign = match.group()
     if match["quoted"] and not match["end"]:
         return ParseProblem("the text in quotes that begins here has no closing '\"'", line)
@@ -90,7 +90,7 @@ def _endless(match: re.Match[str], line: int) -> ParseProblem | None:
     return None
 
 
-def _closed(sign: str, opened: list[_Opened], line: int) -> ParseProblem | None:
+def _check_closing_bracket(sign: str, opened: list[_Opened], line: int) -> ParseProblem | None:
     """Take the bracket away that a sign closes, or say why it cannot close one."""
     closing = sign in CLOSES.values()
     if closing and not opened:

@@ -50,7 +50,7 @@ class JavaObject:
         for name in streams.FUNCTIONAL:
             if runtime.find_attribute(type(self), name) is not None:
                 return getattr(self, runtime.python_name(name))(*args)
-        raise WrongArgument(f"a {type(self).__name__} is no function")
+        raise WrongArgument(f"a {type(self).__name__} is not a function")
 
     def __eq__(self, other: object) -> bool:
         return values.equals(self, other)
@@ -88,11 +88,11 @@ class Method:
 
     @cached_property
     def exact(self) -> list[type | None]:
-        """The types whose values a parameter holds as they are; None where it has to be seen."""
+        """The types whose values a parameter takes unchanged; None if values must be checked."""
         return [values.TYPES.get(one) for one in self.kinds]
 
     def compute_cost(self, args: Sequence[Any], kinds: Sequence[str], *, spread: bool) -> float:
-        """How far the arguments have to be converted; infinite if they do not fit."""
+        """The cost of converting the arguments to the parameters; infinite if they do not fit."""
         wanted = list(self.kinds)
         if spread:
             if not self.varargs or len(args) < len(wanted) - 1:
@@ -165,7 +165,7 @@ class Overloads:
             if self.inherited is not None:
                 return self.inherited(this, *args)
             wanted = " or ".join(f"({', '.join(one.kinds)})" for one in self.methods)
-            raise WrongArgument(f"{self.name}{wanted} does not take what it is called with")
+            raise WrongArgument(f"{self.name}{wanted} does not accept these arguments")
         return method.run(this, *method.bind(args, spread=spread))
 
 
@@ -245,7 +245,7 @@ class JavaClass:
 
     @cached_property
     def cls(self) -> type:
-        """The Python class; making it compiles what is in the Java class."""
+        """The Python class; making it compiles the members of the Java class."""
         from grader.robotcode.java.members import (  # noqa: PLC0415 - they need each other
             compile_members,
             declare_members,
@@ -278,7 +278,7 @@ class JavaClass:
 
     @property
     def uses_lombok(self) -> bool:
-        """Whether Lombok may write methods of it that stand nowhere."""
+        """Whether Lombok may add methods that are not in the class's text."""
         return any(one.full.startswith("lombok.") for one in self.unit.imports)
 
     def _find_parents(self) -> None:
@@ -302,11 +302,11 @@ class JavaClass:
                 self.parent, self.interfaces = None, []
 
     def resolve_node(self, node: Node | None) -> Any:
-        """The class that a type names, or None; what cannot be found has been written down."""
+        """The class that a type names; None if it is unknown, which is recorded as an error."""
         return self.unit.program.resolve_or_report(kind_of(node), self, self.unit.source.at(node))
 
     def _install(self) -> None:
-        """Hang the methods into the Python class, with those of the same name above."""
+        """Add the methods to the Python class, with inherited ones of the same name."""
         by_name: dict[str, list[Method]] = {}
         for one in self.methods:
             by_name.setdefault(one.name, []).append(one)
@@ -370,7 +370,7 @@ class JavaClass:
         return one
 
     def compute_conversion_cost(self, kind: str, value: Any, static: str) -> float:
-        """How far a value has to be converted for a parameter; infinite if it cannot be."""
+        """The cost of converting a value to a parameter; infinite if it does not fit."""
         given = static or values.KINDS.get(type(value)) or type_names.type_name(type(value))
         plain = BOXES.get(given, given)
         if isinstance(value, Unknown):

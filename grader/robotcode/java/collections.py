@@ -47,7 +47,7 @@ def sort(items: Iterable[Any], comparator: Any = None) -> list[Any]:
 
 
 def shuffle(items: Iterable[Any]) -> list[Any]:
-    """Items in an order that nobody knows."""
+    """Items in an unknown order."""
     return [Unknown("an item in an unknown order") for _ in items]
 
 
@@ -57,7 +57,7 @@ def make_stream(items: Any) -> Any:
 
 
 class JavaIterable(JavaClass, package="java.lang", name="Iterable", partial=True):
-    """What a for-each loop takes."""
+    """A value that a for-each loop can iterate over."""
 
     def forEach(self, action: Callable[..., Any]) -> None:
         """Call something with every element."""
@@ -363,7 +363,7 @@ JAVA.update({f"java.util.{name}": cls for cls in _ALIASES for name in _ALIASES[c
 
 
 class _Opaque(JavaClass):
-    """What holds other values, and nobody knows which."""
+    """A container with unknown content."""
 
     forEach = lambda self, _action: refuse(f"forEach() of a {type(self).__name__}")
 

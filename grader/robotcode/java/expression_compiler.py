@@ -92,13 +92,13 @@ class ExpressionCompiler(StaticTypes):
         return self.make_unknown(node) if method is None else method(node)
 
     def make_unknown(self, node: Node) -> Code:
-        """Compile what is not run here: its value is unknown."""
+        """Compile an expression that is not run here: its value is unknown."""
         unknown = Unknown(text(node)[:LONGEST_TEXT])
         return Code(lambda _env: unknown)
 
     def coerce(self, code: Code, kind: str, node: Node) -> Run:
         """Compile the conversion of an assignment, or write down that Java refuses it."""
-        refusal = self.why_not(kind, code)
+        refusal = self.explain_refusal(kind, code)
         if refusal:
             return self.refuse(refusal, node).run
         run, owner = code.run, self.owner
@@ -143,11 +143,11 @@ class ExpressionCompiler(StaticTypes):
 
     def _this(self, node: Node) -> Code:
         if self.frame.static:
-            return self.refuse("there is no this in a static method", node)
+            return self.refuse("a static method has no `this`", node)
         return Code(lambda env: env[THIS], self.owner.name)
 
     def _reach(self, keys: Sequence[str]) -> Callable[[Env], Env]:
-        """What leads from the variables of a method to those around its class."""
+        """Code that leads from the variables of a method to those of an outer class."""
         if not keys:
             return lambda env: env
 
@@ -158,8 +158,8 @@ class ExpressionCompiler(StaticTypes):
 
         return run
 
-    def _levels(self) -> Any:
-        """The frames from here outward, each with the keys that lead there."""
+    def _list_frames(self) -> Any:
+        """The frames from the current one outward, each with the keys that lead to it."""
         frame: Frame | None = self.frame
         keys: list[str] = []
         while frame is not None:
@@ -168,13 +168,13 @@ class ExpressionCompiler(StaticTypes):
             frame = frame.outer
 
     def find_variable(self, name: str) -> tuple[Any, ...] | None:
-        """What a simple name stands for, or None.
+        """The variable that a simple name refers to, or None.
 
         Returns:
             ``("local", keys, Local)``, ``("field", keys, owner, Field)``, or ``("library", keys)``
             for a field of a library's class.
         """
-        for frame, keys in self._levels():
+        for frame, keys in self._list_frames():
             local = frame.find(name)
             if local is not None:
                 return "local", keys, local
@@ -204,9 +204,9 @@ class ExpressionCompiler(StaticTypes):
         name = text(node)
         found = self.find_variable(name)
         if found is None:
-            return self._imported(name) or self._unknown_name(name, node)
+            return self._find_imported_field(name) or self._unknown_name(name, node)
         if found[0] == "local":
-            return self._local(found[1], found[2])
+            return self._compile_local(found[1], found[2])
         if found[0] == "library":
             reach = self._reach(found[1])
             return Code(lambda env: runtime.get_field(reach(env)[THIS], name))
@@ -214,14 +214,14 @@ class ExpressionCompiler(StaticTypes):
         below = owner is self.owner and not keys and 0 <= self.frame.field_rank <= one.rank
         if below and one.static == self.frame.static:
             return self.refuse(f"illegal forward reference: {name} is declared below", node)
-        return self._field_code(keys, owner, one, node)
+        return self._compile_field(keys, owner, one, node)
 
-    def _local(self, keys: Sequence[str], local: Local) -> Code:
+    def _compile_local(self, keys: Sequence[str], local: Local) -> Code:
         slot = local.slot
         reach = self._reach(keys)
         return Code(lambda env: reach(env)[slot] if keys else env[slot], local.kind)
 
-    def _field_code(self, keys: Sequence[str], owner: JavaClass, one: Field, node: Node) -> Code:
+    def _compile_field(self, keys: Sequence[str], owner: JavaClass, one: Field, node: Node) -> Code:
         key, kind = one.key, self.translate_type(owner, one.kind)
         if one.static:
 
@@ -231,7 +231,7 @@ class ExpressionCompiler(StaticTypes):
                 return owner.statics[key]
 
             return Code(run_static, kind)
-        level = next((f for f, k in self._levels() if tuple(k) == tuple(keys)), self.frame)
+        level = next((f for f, k in self._list_frames() if tuple(k) == tuple(keys)), self.frame)
         if level.static:
             return self.refuse(
                 f"{one.name} belongs to an object, and this is a static method", node
@@ -239,15 +239,15 @@ class ExpressionCompiler(StaticTypes):
         reach = self._reach(keys)
         return Code(lambda env: reach(env)[THIS].__dict__[key], kind)
 
-    def _imported(self, name: str) -> Code | None:
+    def _find_imported_field(self, name: str) -> Code | None:
         """A field that a static import brings."""
-        for cls, _ in self._static_imports(name):
+        for cls, _ in self._list_static_imports(name):
             code = self._static_member(cls, name)
             if code is not None:
                 return code
         return None
 
-    def _static_imports(self, name: str) -> Iterator[tuple[Any, bool]]:
+    def _list_static_imports(self, name: str) -> Iterator[tuple[Any, bool]]:
         """The classes of which a static import may bring a name, and whether it says the name."""
         for one in self.owner.unit.imports:
             if one.static and (one.star or one.name == name):
@@ -262,7 +262,7 @@ class ExpressionCompiler(StaticTypes):
         if isinstance(cls, JavaClass):
             found = cls.find_field(name)
             if found is not None:
-                return self._field_code((), *found, cls.node) if found[1].static else None
+                return self._compile_field((), *found, cls.node) if found[1].static else None
             cls = cls.library_base
         if cls is None:
             return None
@@ -287,8 +287,8 @@ class ExpressionCompiler(StaticTypes):
         if name[:1].isupper() and self.resolve(name) is None and not name.isupper():
             found = self.program.resolve_or_report(name, self.owner, self.at(node), self.frame)
             return Code(lambda _env: found)
-        seen = [one.name for frame, _ in self._levels() for one in frame.every]
-        for frame, _ in self._levels():
+        seen = [one.name for frame, _ in self._list_frames() for one in frame.every]
+        for frame, _ in self._list_frames():
             seen += [one for owner in frame.owner.ancestors() for one in owner.fields]
         return self.refuse(unknown_name("name", name, seen, ""), node)
 
@@ -302,8 +302,8 @@ class ExpressionCompiler(StaticTypes):
         near = difflib.get_close_matches(name, [*vars(units)], 1, NEARLY)
         return f"unknown name {name}. Did you mean {near[0]}?" if near else ""
 
-    def class_of(self, node: Node) -> Any:
-        """The class that an expression names, where it names one; else None."""
+    def find_named_class(self, node: Node) -> Any:
+        """The class that an expression names; None if it is a value."""
         if node.type not in {
             "identifier",
             "field_access",
@@ -326,7 +326,7 @@ class ExpressionCompiler(StaticTypes):
                 return None
         found = self.resolve(name)
         unsaid = found is None and name[:1].isupper() and "." not in name
-        if unsaid and self._imported(name) is None and not self._find_unit(name):
+        if unsaid and self._find_imported_field(name) is None and not self._find_unit(name):
             found = self.program.resolve_or_report(name, self.owner, self.at(node), self.frame)
         return found
 
@@ -336,7 +336,7 @@ class ExpressionCompiler(StaticTypes):
             return self._outer_this(object_)
         if object_.type == "super":
             return Code(lambda env: runtime.get_field(env[THIS], name))
-        cls = self.class_of(object_)
+        cls = self.find_named_class(object_)
         if cls is not None:
             if isinstance(cls, Unknown):
                 return Code(lambda _env: runtime.get_static(cls, name))
@@ -345,12 +345,12 @@ class ExpressionCompiler(StaticTypes):
                 return code
             names = member_names(cls)
             return self.refuse(unknown_name("field", name, names, _label(cls)), node)
-        whole = self.class_of(node)
+        whole = self.find_named_class(node)
         if whole is not None:
             return Code(lambda _env: whole)
-        return self._field_of(self.compile(object_), name, node)
+        return self._compile_field_of(self.compile(object_), name, node)
 
-    def _field_of(self, value: Code, name: str, node: Node) -> Code:
+    def _compile_field_of(self, value: Code, name: str, node: Node) -> Code:
         run, at = value.run, self.at(node)
         found = self.resolve(value.kind) if value.kind and not value.kind.endswith("[]") else None
         if name == "length" and value.kind.endswith("[]"):
@@ -358,9 +358,9 @@ class ExpressionCompiler(StaticTypes):
         if isinstance(found, JavaClass):
             there = found.find_field(name)
             if there is None and found.library_base is None:
-                return self.refuse(self.unknown_field(found, name), node)
+                return self.refuse(self.describe_unknown_field(found, name), node)
             if there is not None and there[1].static:
-                return self._field_code((), *there, node)
+                return self._compile_field((), *there, node)
             if there is not None:
                 key, kind = there[1].key, self.translate_type(there[0], there[1].kind)
 
@@ -382,8 +382,8 @@ class ExpressionCompiler(StaticTypes):
         return Code(run_any)
 
     def _outer_this(self, node: Node) -> Code:
-        wanted = self.class_of(node)
-        for frame, keys in self._levels():
+        wanted = self.find_named_class(node)
+        for frame, keys in self._list_frames():
             if frame.owner is wanted:
                 return Code(_this_of(self._reach(keys)), frame.owner.name)
         return self.refuse(f"there is no {text(node)}.this here", node)
@@ -493,7 +493,7 @@ class ExpressionCompiler(StaticTypes):
     # -- assignment -------------------------------------------------------------------------
 
     def target(self, node: Node) -> tuple[str, Run]:
-        """What can be assigned: its type, and what finds its place, a holder and a key in it."""
+        """The target of an assignment: its type, and code that returns a holder and a key in it."""
         if node.type == "parenthesized_expression":
             return self.target(next(named(node)))
         if node.type == "array_access":
@@ -502,13 +502,13 @@ class ExpressionCompiler(StaticTypes):
             run, kind = array.run, array.kind[:-2] if array.kind.endswith("[]") else ""
             return kind, lambda env: (run(env), index(env))
         if node.type == "identifier":
-            return self._named_target(node)
+            return self._compile_named_target(node)
         if node.type == "field_access":
-            return self._field_target(node)
-        stop = self.refuse("this cannot be assigned to", node).run
+            return self._compile_field_target(node)
+        stop = self.refuse("nothing can be assigned to this expression", node).run
         return "", lambda env: (stop(env), "")
 
-    def _named_target(self, node: Node) -> tuple[str, Run]:
+    def _compile_named_target(self, node: Node) -> tuple[str, Run]:
         name = text(node)
         found = self.find_variable(name)
         if found is None:
@@ -518,7 +518,7 @@ class ExpressionCompiler(StaticTypes):
             return "", lambda env: (env[THIS], name)
         if found[0] == "field":
             _, keys, owner, one = found
-            return self._own_field(keys, owner, one, node)
+            return self._compile_own_field(keys, owner, one, node)
         local: Local = found[2]
         if found[1] or local.depth < self.frame.depth:
             self.refuse(
@@ -529,13 +529,13 @@ class ExpressionCompiler(StaticTypes):
         slot = local.slot
         return local.kind, lambda env: (env, slot)
 
-    def _own_field(
+    def _compile_own_field(
         self, keys: Sequence[str], owner: JavaClass, one: Field, node: Node
     ) -> tuple[str, Run]:
-        """The place of a field of this object, of one around it, or of a class."""
+        """The place of a field of this object, of an outer one, or of a class."""
         self._check_final(owner, one, node)
         if self.frame.field_rank < 0:
-            self._field_code(keys, owner, one, node)  # which refuses what belongs to no object
+            self._compile_field(keys, owner, one, node)  # which refuses what belongs to no object
         key, kind, reach = one.key, self.translate_type(owner, one.kind), self._reach(keys)
         if one.static:
 
@@ -550,12 +550,12 @@ class ExpressionCompiler(StaticTypes):
         if one.final and not (owner is self.owner and self.in_constructor and one.value is None):
             self.refuse(f"cannot assign a value to final variable {one.name}", node)
 
-    def _field_target(self, node: Node) -> tuple[str, Run]:
+    def _compile_field_target(self, node: Node) -> tuple[str, Run]:
         object_, name = node.child_by_field_name("object"), text(node.child_by_field_name("field"))
-        cls = self.class_of(object_) if object_.type not in {"this", "super"} else None
+        cls = self.find_named_class(object_) if object_.type not in {"this", "super"} else None
         found = cls.find_field(name) if isinstance(cls, JavaClass) else None
         if found is not None and found[1].static:
-            return self._own_field((), *found, node)
+            return self._compile_own_field((), *found, node)
         if isinstance(cls, type | Unknown):
             return "", lambda _env: (cls, name)
         value = self.compile(object_)
@@ -563,10 +563,10 @@ class ExpressionCompiler(StaticTypes):
         found = known.find_field(name) if isinstance(known, JavaClass) else None
         if found is None:
             if isinstance(known, JavaClass) and known.library_base is None:
-                self.refuse(self.unknown_field(known, name), node)
+                self.refuse(self.describe_unknown_field(known, name), node)
             return "", lambda env: (value.run(env), name)
         if found[1].static:
-            return self._own_field((), *found, node)
+            return self._compile_own_field((), *found, node)
         if object_.type == "this":
             self._check_final(*found, node)
         key = found[1].key[1:]
@@ -588,15 +588,21 @@ class ExpressionCompiler(StaticTypes):
                 return new
 
             return Code(assign, kind)
-        return self._compound(left, sign[:-1], self.compile(right), node, after=True)
+        return self._compile_compound_assignment(
+            left, sign[:-1], self.compile(right), node, after=True
+        )
 
     def _update_expression(self, node: Node) -> Code:
         target = next(named(node))
         sign = "+" if any(one.type == "++" for one in node.children) else "-"
         after = node.children[0].type in {"++", "--"}
-        return self._compound(target, sign, _constant(1, "int"), node, after=after)
+        return self._compile_compound_assignment(
+            target, sign, _constant(1, "int"), node, after=after
+        )
 
-    def _compound(self, target: Node, sign: str, right: Code, node: Node, *, after: bool) -> Code:
+    def _compile_compound_assignment(
+        self, target: Node, sign: str, right: Code, node: Node, *, after: bool
+    ) -> Code:
         kind, find = self.target(target)
         at = self.at(node)
         slot = self.frame.declare(f"{node.start_byte} old", kind).slot
@@ -641,15 +647,15 @@ class ExpressionCompiler(StaticTypes):
         empty = sum(text(one).count("[") for one in node.children if one.type == "dimensions")
         value = node.child_by_field_name("value")
         if value is not None:
-            return self.array_of(value, kind + "[]" * empty)
+            return self.compile_array(value, kind + "[]" * empty)
         whole = kind + "[]" * (len(sizes) + empty)
         return Code(lambda env: type_names.make_array(whole, [size(env) for size in sizes]), whole)
 
-    def array_of(self, node: Node, kind: str) -> Code:
+    def compile_array(self, node: Node, kind: str) -> Code:
         """Compile ``{1, 2}`` as an array of a type."""
         inner = kind.removesuffix("[]")
         runs = [
-            self.array_of(one, inner).run
+            self.compile_array(one, inner).run
             if one.type == "array_initializer"
             else self.coerce(self.compile(one), self.erased(inner), one)
             for one in named(node)
@@ -668,12 +674,12 @@ class ExpressionCompiler(StaticTypes):
         object_, name = node.child_by_field_name("object"), text(node.child_by_field_name("name"))
         args = self.arguments(node.child_by_field_name("arguments"))
         if any(one.type == "super" for one in node.children):
-            return self._super_call(object_, name, args, node)
+            return self._compile_super_call(object_, name, args, node)
         if object_ is None:
-            return self._own_call(name, args, node)
-        cls = self.class_of(object_)
+            return self._compile_own_call(name, args, node)
+        cls = self.find_named_class(object_)
         if cls is not None:
-            return self._static_call(cls, name, args, node)
+            return self._compile_static_call(cls, name, args, node)
         value = self.compile(object_)
         if value.kind in PRIMITIVES:
             return self.refuse(
@@ -684,11 +690,11 @@ class ExpressionCompiler(StaticTypes):
         if isinstance(holder, JavaClass) and not value.kind.endswith("[]"):
             found = runtime.find_attribute(holder.cls, name)
             if found is not None and _is_static(found):
-                return self._static_call(holder, name, args, node)
-        return Code(self.call(value.run, name, args, node), self.result_of(found))
+                return self._compile_static_call(holder, name, args, node)
+        return Code(self.call(value.run, name, args, node), self.find_result_type(found))
 
     def call(self, value: Run, name: str, args: Arguments, node: Node) -> Run:
-        """Compile a call of a method on whatever a value is then."""
+        """Compile a method call on a value whose class is known only at run time."""
         at, arguments, kinds = self.at(node), args.run, args.kinds
         callers: dict[type, runtime.Call] = {}
 
@@ -703,12 +709,12 @@ class ExpressionCompiler(StaticTypes):
                     caller = callers[kind] = runtime.find_caller(kind, name, kinds)
                 return caller(one, given)
             except (NoSuchMember, TypeError) as problem:
-                return self.mismatch(problem, at, name)
+                return self.record_mismatch(problem, at, name)
 
         return run
 
-    def mismatch(self, problem: Exception, at: At, name: str) -> Unknown:
-        """Write down a call that javac would have refused; what it gives is unknown."""
+    def record_mismatch(self, problem: Exception, at: At, name: str) -> Unknown:
+        """Record a call that javac would refuse; its result is unknown."""
         said = str(problem)
         if not isinstance(problem, NoSuchMember | WrongArgument):
             if not runtime.is_about_arguments(problem):
@@ -717,15 +723,15 @@ class ExpressionCompiler(StaticTypes):
         self.program.error(said, at, name)
         return Unknown(f"{name}()")
 
-    def _own_call(self, name: str, args: Arguments, node: Node) -> Code:
-        """A call without anything in front of it: of this object, one around it, or an import."""
-        for frame, keys in self._levels():
+    def _compile_own_call(self, name: str, args: Arguments, node: Node) -> Code:
+        """Compile a call without a receiver: of this object, an outer one, or a static import."""
+        for frame, keys in self._list_frames():
             owner = frame.owner
             found = runtime.find_attribute(owner.cls, name)
             if found is None and name not in getattr(owner.cls, "fake_others", ()):
                 continue
             if found is not None and _is_static(found):
-                return self._static_call(owner, name, args, node)
+                return self._compile_static_call(owner, name, args, node)
             if frame.static:
                 return self.refuse(
                     f"{name}() belongs to an object, and this is a static method", node
@@ -735,12 +741,12 @@ class ExpressionCompiler(StaticTypes):
         while one is not None:
             found = runtime.find_attribute(one.cls, name)
             if found is not None or (one.form == "enum" and name in ENUM_STATICS):
-                return self._static_call(one, name, args, node)
+                return self._compile_static_call(one, name, args, node)
             one = one.outer
-        for cls, said in self._static_imports(name):
+        for cls, said in self._list_static_imports(name):
             sure = said or isinstance(cls, Unknown)
             if sure or runtime.find_attribute(python_class(cls), name) is not None:
-                return self._static_call(cls, name, args, node)
+                return self._compile_static_call(cls, name, args, node)
         if self.frame.static:
             return self.refuse(unknown_name("method", name, member_names(self.owner), ""), node)
         base = self.owner.library_base
@@ -749,7 +755,7 @@ class ExpressionCompiler(StaticTypes):
             return Code(
                 lambda env: getattr(env[THIS], runtime.python_name(name), unknown)(*args.run(env))
             )
-        names = [one for frame, _ in self._levels() for one in member_names(frame.owner)]
+        names = [one for frame, _ in self._list_frames() for one in member_names(frame.owner)]
         if name in runtime.OBJECT_METHODS:
             return Code(self.call(lambda env: env[THIS], name, args, node))
         return self.refuse(unknown_name("method", name, names, ""), node)
@@ -759,7 +765,7 @@ class ExpressionCompiler(StaticTypes):
     ) -> Code:
         """A call of a method of the object whose variables something leads to."""
         found = runtime.find_attribute(owner.cls, name)
-        result = self.result_of(found)
+        result = self.find_result_type(found)
         overloads = getattr(found, "overloads", None)
         if overloads is not None and all("private" in one.modifiers for one in overloads.methods):
             run = self._call_overloads(overloads, args, node, lambda env: reach(env)[THIS])
@@ -770,12 +776,12 @@ class ExpressionCompiler(StaticTypes):
         self, overloads: Any, args: Arguments, node: Node, this: Run = lambda _env: None
     ) -> Run:
         call = lambda env, given: overloads.call(this(env), given, args.kinds)
-        return self._calling(overloads.name, call, args, node)
+        return self._compile_known_call(overloads.name, call, args, node)
 
-    def _calling(
+    def _compile_known_call(
         self, name: str, call: Callable[[Env, list[Any]], Any], args: Arguments, node: Node
     ) -> Run:
-        """Compile a call of what is known before; what javac would refuse is written down."""
+        """Compile a call of a known method; a call that javac would refuse is recorded."""
         at, arguments = self.at(node), args.run
 
         def run(env: Env) -> Any:
@@ -784,11 +790,11 @@ class ExpressionCompiler(StaticTypes):
             try:
                 return call(env, given)
             except (NoSuchMember, TypeError) as problem:
-                return self.mismatch(problem, at, name)
+                return self.record_mismatch(problem, at, name)
 
         return run
 
-    def _static_call(self, cls: Any, name: str, args: Arguments, node: Node) -> Code:
+    def _compile_static_call(self, cls: Any, name: str, args: Arguments, node: Node) -> Code:
         if isinstance(cls, JavaClass) and cls.form == "enum" and name in ENUM_STATICS:
             kind = cls.name if self.resolve(cls.name) is cls else ""
             kind += "[]" * (name == "values")
@@ -812,23 +818,25 @@ class ExpressionCompiler(StaticTypes):
                 cls.initialize()
                 return call(env)
 
-            return Code(run_own, self.result_of(found))
+            return Code(run_own, self.find_result_type(found))
         library = python_class(cls)
         call_library = lambda _env, given: runtime.call_static(library, name, given)
-        return Code(self._calling(name, call_library, args, node))
+        return Code(self._compile_known_call(name, call_library, args, node))
 
-    def _super_call(self, object_: Node | None, name: str, args: Arguments, node: Node) -> Code:
+    def _compile_super_call(
+        self, object_: Node | None, name: str, args: Arguments, node: Node
+    ) -> Code:
         owner = self.owner
         above: Any = owner.parent
         if object_ is not None and object_.type != "super":
-            above = self.class_of(object_)
+            above = self.find_named_class(object_)
         for one in [above] if above is not None else owner.interfaces:
             cls = python_class(one)
             found = runtime.find_attribute(cls, name) if isinstance(cls, type) else None
             overloads = getattr(found, "overloads", None)
             if overloads is not None:
                 run = self._call_overloads(overloads, args, node, lambda env: env[THIS])
-                return Code(run, self.result_of(found))
+                return Code(run, self.find_result_type(found))
             if found is not None:
                 return Code(lambda env, found=found: found(env[THIS], *args.run(env)))
         if name in runtime.OBJECT_METHODS:
@@ -848,24 +856,24 @@ class ExpressionCompiler(StaticTypes):
         if isinstance(cls, JavaClass):
             if cls.name and ("abstract" in cls.modifiers or cls.form in {"interface", "enum"}):
                 what = "an enum" if cls.form == "enum" else "abstract"
-                return self.refuse(f"{cls.name} is {what}: new cannot make one of it", node)
-            around = self._environment(cls)
+                return self.refuse(f"{cls.name} is {what}: new cannot make an object of it", node)
+            around = self._compile_environment(cls)
             create = lambda env, given: cls.make(given, args.kinds, around(env) if around else None)
             named_kind = kind if cls.name else ""
         elif cls is None:  # a type variable
-            return self.refuse(f"new cannot make one of {kind}", node)
+            return self.refuse(f"new cannot make an object of {kind}", node)
         elif isinstance(cls, type) and issubclass(cls, Enum):
-            return self.refuse(f"{kind} is an enum: new cannot make one of it", node)
+            return self.refuse(f"{kind} is an enum: new cannot make an object of it", node)
         else:
             create, named_kind = lambda _env, given: cls(*given), kind
 
-        return Code(self._calling(f"new {kind}", create, args, node), named_kind)
+        return Code(self._compile_known_call(f"new {kind}", create, args, node), named_kind)
 
-    def _environment(self, cls: JavaClass) -> Callable[[Env], Env] | None:
-        """What a new object gets to know of what is around its class."""
+    def _compile_environment(self, cls: JavaClass) -> Callable[[Env], Env] | None:
+        """The variables around a class that its new object can read."""
         if cls.static:
             return None
-        for frame, keys in self._levels():
+        for frame, keys in self._list_frames():
             reach = self._reach(keys)
             if cls.frame is not None:
                 if frame is cls.frame:
@@ -924,7 +932,7 @@ class ExpressionCompiler(StaticTypes):
             kind = kind_of(first)
             make = lambda count: type_names.make_array(kind, [count])
             return Code(lambda _env: Function(make, at, 1), "lambda")
-        cls = self.class_of(first)
+        cls = self.find_named_class(first)
         if cls is not None and name == "new":
             return self._constructor_reference(cls, at)
         if cls is not None:
@@ -949,7 +957,7 @@ class ExpressionCompiler(StaticTypes):
     def _constructor_reference(self, cls: Any, at: At) -> Code:
         if not isinstance(cls, JavaClass):
             return Code(lambda _env: Function(cls, at), "lambda")
-        around = self._environment(cls)
+        around = self._compile_environment(cls)
         arities = {len(one.kinds) for one in cls.constructors}
         arity = arities.pop() if len(arities) == 1 else -1
 
@@ -993,7 +1001,7 @@ class ExpressionCompiler(StaticTypes):
 
 
 def _count_parameters(found: Any) -> int:
-    """The number of arguments that a method takes; -1 where nobody can tell."""
+    """The number of arguments that a method takes; -1 if it is unknown."""
     overloads = getattr(found, "overloads", None)
     if overloads is not None:
         counts = {-1 if one.varargs else len(one.kinds) for one in overloads.methods}

@@ -31,7 +31,7 @@ class Exited(BaseException):
     """The program called System.exit."""
 
 
-def _real(function: Callable[..., float]) -> Callable[..., Any]:
+def _limit_to_reals(function: Callable[..., float]) -> Callable[..., Any]:
     """A function of doubles that answers as Java does where Python raises an error."""
 
     @functools.wraps(function)
@@ -48,7 +48,7 @@ def _real(function: Callable[..., float]) -> Callable[..., Any]:
 
 
 def _round_with(change: Callable[[float], int]) -> Callable[[float], float]:
-    """A rounding to a double, which keeps its sign and what is not finite."""
+    """A rounding to a double, which keeps signs, infinities and nan."""
     return lambda x: math.copysign(change(x), x) if math.isfinite(x) else x
 
 
@@ -60,7 +60,7 @@ def _choose(pick: Callable[..., Any]) -> Callable[[Any, Any], Any]:
     return run
 
 
-def _floor(operate: Callable[[int, int], int]) -> Callable[[Any, Any], Any]:
+def _round_down(operate: Callable[[int, int], int]) -> Callable[[Any, Any], Any]:
     def run(a: Any, b: Any) -> Any:
         if b == 0:
             raise ArithmeticException("/ by zero")
@@ -86,14 +86,14 @@ _REALS: dict[str, Callable[..., float]] = {
 make_statics(
     f"{_LANG}.Math",
     {
-        **{name: _real(function) for name, function in _REALS.items()},
+        **{name: _limit_to_reals(function) for name, function in _REALS.items()},
         "abs": lambda x: abs(require_number(x)),
         "max": _larger,
         "min": _smaller,
         "clamp": lambda x, low, high: _larger(low, _smaller(high, x)),
         "round": lambda x: cast("long", math.floor(x + 0.5) if math.isfinite(x) else x),
-        "floorMod": _floor(lambda a, b: a % b),
-        "floorDiv": _floor(lambda a, b: a // b),
+        "floorMod": _round_down(lambda a, b: a % b),
+        "floorDiv": _round_down(lambda a, b: a // b),
     },
     others="random addExact subtractExact multiplyExact negateExact incrementExact decrementExact "
     "toIntExact IEEEremainder nextUp nextDown fma getExponent scalb absExact ceilDiv ceilMod ulp "
@@ -177,7 +177,7 @@ FakeType("Serializable", (JavaClass,), {}, package="java.io")
 
 
 class PrintStream(JavaClass, package="java.io", partial=True):
-    """System.out and System.err: nobody reads what a robot prints."""
+    """System.out and System.err, whose output is dropped."""
 
     print = println = printf = format = lambda self, *_args: None
 

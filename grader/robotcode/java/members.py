@@ -1,4 +1,4 @@
-"""The members of a Java class: what its text declares, compiled when it is first needed."""
+"""The members that the text of a Java class declares, compiled on first use."""
 
 import re
 from collections.abc import Callable
@@ -48,9 +48,9 @@ def declare_members(owner: JavaClass) -> None:
     if owner.form == "record":
         _declare_canonical(owner)
         for name, kind in owner.components:
-            _give(owner, name, [], kind, _reader(name))
+            _give(owner, name, [], kind, _make_reader(name))
         _give(owner, "hashCode", [], "int", _hash_record)
-        _give(owner, "equals", ["Object"], "boolean", _equal_records)
+        _give(owner, "equals", ["Object"], "boolean", _are_equal_records)
 
 
 def _declare_canonical(owner: JavaClass) -> None:
@@ -65,9 +65,9 @@ def _declare_canonical(owner: JavaClass) -> None:
 
 
 def compile_members(owner: JavaClass) -> None:
-    """Compile what runs when the class, or an object of it, is made; and all methods."""
+    """Compile the initializers of the class and its objects, and all methods."""
     for number, (name, node) in enumerate(owner.constants):
-        owner.on_class.append(_enum_constant(owner, name, node, number))
+        owner.on_class.append(_compile_enum_constant(owner, name, node, number))
     for one in owner.fields.values():
         if one.static:
             owner.statics[one.key] = values.default_value(one.kind)
@@ -76,9 +76,9 @@ def compile_members(owner: JavaClass) -> None:
             for declarator in node.children_by_field_name("declarator"):
                 _initialize_field(owner, text(declarator.child_by_field_name("name")), number)
         elif node.type == "static_initializer":
-            owner.on_class.append(_initializer(owner, next(named(node)), static=True))
+            owner.on_class.append(_compile_initializer(owner, next(named(node)), static=True))
         elif node.type == "block":
-            owner.on_instance.append(_initializer(owner, node, static=False))
+            owner.on_instance.append(_compile_initializer(owner, node, static=False))
     if owner.unit is owner.unit.program.unit:  # the rest of a program only as far as it is used
         for method in (*owner.methods, *owner.constructors):
             if hasattr(method.run, "compile_now"):
@@ -102,7 +102,7 @@ def _declare_fields(owner: JavaClass, node: Node, rank: int) -> None:
 
 def _declare_components(owner: JavaClass) -> None:
     for one in named(owner.node.child_by_field_name("parameters")):
-        name, kind = _parameter(one)
+        name, kind = _read_parameter(one)
         owner.components.append((name, kind))
         owner.fields[name] = Field(name, kind, False, True, f".{name}", -1, owner.at)
 
@@ -127,24 +127,24 @@ def _give(
         owner.methods.append(made)
 
 
-def _reader(name: str) -> Callable[[Any], Any]:
+def _make_reader(name: str) -> Callable[[Any], Any]:
     return lambda this: this.__dict__[f".{name}"]
 
 
-def _components(this: Any) -> list[Any]:
+def _list_components(this: Any) -> list[Any]:
     return [this.__dict__[f".{name}"] for name, _ in type(this).java.components]
 
 
 def _hash_record(this: Any) -> int:
-    return hash(tuple(one for one in _components(this) if isinstance(one, int | float | str)))
+    return hash(tuple(one for one in _list_components(this) if isinstance(one, int | float | str)))
 
 
-def _equal_records(this: Any, other: Any) -> bool:
+def _are_equal_records(this: Any, other: Any) -> bool:
     same = type(this) is type(other)
-    return same and all(map(values.equals, _components(this), _components(other)))
+    return same and all(map(values.equals, _list_components(this), _list_components(other)))
 
 
-def _parameter(node: Node) -> tuple[str, str]:
+def _read_parameter(node: Node) -> tuple[str, str]:
     """The name and the type of a parameter."""
     if node.type == "spread_parameter":
         declarator = child(node, "variable_declarator")
@@ -159,7 +159,7 @@ def _declare_method(owner: JavaClass, node: Node) -> None:
     compact = node.type == "compact_constructor_declaration"
     every = [] if compact else named(node.child_by_field_name("parameters"))
     listed = [one for one in every if one.type != "receiver_parameter"]
-    pairs = owner.components if compact else [_parameter(one) for one in listed]
+    pairs = owner.components if compact else [_read_parameter(one) for one in listed]
     constructor = node.type != "method_declaration"
     body = node.child_by_field_name("body")
     returns = "" if constructor else kind_of(node.child_by_field_name("type"))
@@ -308,7 +308,7 @@ def _initialize_field(owner: JavaClass, name: str, rank: int) -> None:
     if one.value is None:
         return
     if one.value.type == "array_initializer":
-        run = compiler.array_of(one.value, one.kind).run
+        run = compiler.compile_array(one.value, one.kind).run
     else:
         code = compiler.compile(one.value)
         run = compiler.coerce(code, compiler.erased(one.kind), one.value)
@@ -331,7 +331,7 @@ def _initialize_field(owner: JavaClass, name: str, rank: int) -> None:
         (owner.on_class if one.static else owner.on_instance).append(set_field)
 
 
-def _initializer(owner: JavaClass, node: Node, *, static: bool) -> Callable[[Env], Any]:
+def _compile_initializer(owner: JavaClass, node: Node, *, static: bool) -> Callable[[Env], Any]:
     frame = Frame(owner, static=static, outer=None if static else outer_frame(owner))
     compiler = StatementCompiler(owner, frame)
     compiler.in_constructor = True
@@ -339,7 +339,9 @@ def _initializer(owner: JavaClass, node: Node, *, static: bool) -> Callable[[Env
     return lambda env: run([env[0], None, *[None] * (frame.size - 2)])
 
 
-def _enum_constant(owner: JavaClass, name: str, node: Node, number: int) -> Callable[[Env], None]:
+def _compile_enum_constant(
+    owner: JavaClass, name: str, node: Node, number: int
+) -> Callable[[Env], None]:
     frame = Frame(owner, static=True)
     compiler = StatementCompiler(owner, frame)
     arguments = node.child_by_field_name("arguments")

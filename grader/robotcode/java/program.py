@@ -1,4 +1,4 @@
-"""The files of a Java program, the classes in them, and what a name stands for."""
+"""The files of a Java program, the classes in them, and the meaning of names."""
 
 import difflib
 import functools
@@ -42,7 +42,7 @@ def packages_of(name: str) -> list[str]:
 
 @dataclass(frozen=True)
 class Import:
-    """An import: what it names, whether it is static, whether it ends in a star."""
+    """An import: the imported name, whether it is static, whether it ends in a star."""
 
     full: str
     static: bool
@@ -131,7 +131,7 @@ class Program:
             self._check_import(imported)
 
     def error(self, message: str, at: At, call: str = "") -> None:
-        """Write down what javac would refuse: once for a call, whose values differ in each loop."""
+        """Record an error that javac would report; once for a call, also if it is in a loop."""
         other = "" if at.file == self.main.path.name else at.file
         self.errors.setdefault(
             (other, int(at), call or message), ParseProblem(message, int(at), other)
@@ -146,7 +146,7 @@ class Program:
             found.setdefault(one.stem, []).append(one)
         return found
 
-    def _unit_of(self, path: Path) -> Unit | None:
+    def _find_unit(self, path: Path) -> Unit | None:
         """A neighbour, parsed; None if it cannot be read without doubt."""
         if path not in self._units:
             self._units[path] = None
@@ -157,10 +157,10 @@ class Program:
                 pass
         return self._units[path]
 
-    def all_units(self) -> list[Unit]:
+    def list_all_units(self) -> list[Unit]:
         """Every file of the program that can be read."""
         paths = [self.path, *(one for several in self._stems.values() for one in several)]
-        return [unit for unit in map(self._unit_of, paths) if unit is not None]
+        return [unit for unit in map(self._find_unit, paths) if unit is not None]
 
     def find_own(self, full: str) -> JavaClass | None:
         """A class of the program by its full name: ``frc.robot.Constants.Drive``."""
@@ -169,7 +169,7 @@ class Program:
             if not word[:1].isupper():
                 continue
             package = ".".join(words[:at])
-            units = [self._unit_of(path) for path in self._stems.get(word, ())]
+            units = [self._find_unit(path) for path in self._stems.get(word, ())]
             found = [one for one in units if one is not None and word in one.classes]
             exact = [one for one in found if one.package == package]
             one = next(iter(exact or (found if len(found) == 1 else ())), None)
@@ -179,14 +179,14 @@ class Program:
             return top
         return None
 
-    def _neighbour(self, name: str, unit: Unit) -> JavaClass | None:
-        """A class in the same package, in whatever file it stands."""
+    def _find_neighbor(self, name: str, unit: Unit) -> JavaClass | None:
+        """A class in the same package, in any file."""
         found = self.find_own(f"{unit.package}.{name}")
         if found is not None and found.unit.package == unit.package:
             return found
         for path in (one for several in self._stems.values() for one in several):
             if path.parent == unit.source.path.parent and _mentions(path, name):
-                other = self._unit_of(path)
+                other = self._find_unit(path)
                 if other is not None and other.package == unit.package and name in other.classes:
                     return other.classes[name]
         return None
@@ -198,7 +198,7 @@ class Program:
             return found
         paths = [one for several in self._stems.values() for one in several]
         for path in paths:
-            unit = self._unit_of(path) if _mentions(path, name) else None
+            unit = self._find_unit(path) if _mentions(path, name) else None
             if unit is not None and unit.package == scope.unit.package:
                 for one in unit.classes.values():
                     if name in one.nested:
@@ -268,8 +268,12 @@ class Program:
             if imported.name == name and not imported.star:
                 found = self.load(imported.full)
                 if found is not None or not imported.static:
-                    return found if found is not None else self._unknown(imported.full, imported.at)
-        found = self._neighbour(name, unit)
+                    return (
+                        found
+                        if found is not None
+                        else self._make_unknown(imported.full, imported.at)
+                    )
+        found = self._find_neighbor(name, unit)
         if found is None and name.endswith(GENERATED):  # by AdvantageKit, of a class with @AutoLog
             found = self._find_logged(name.removesuffix(GENERATED), scope)
         if found is not None:
@@ -281,7 +285,7 @@ class Program:
                     return found
         return JAVA.get(f"java.lang.{name}")
 
-    def _unknown(self, full: str, at: At) -> Unknown:
+    def _make_unknown(self, full: str, at: At) -> Unknown:
         self.unknown.setdefault(full, at)
         return Unknown(full.rpartition(".")[2])
 
@@ -304,7 +308,7 @@ class Program:
         same = [known for known in JAVA if known.rpartition(".")[0] == full.rpartition(".")[0]]
         close = difflib.get_close_matches(name, [k.rpartition(".")[2] for k in same], 1, NEARLY)
         if elsewhere:
-            best = min(elsewhere, key=lambda known: _likeness(known, self.unit))
+            best = min(elsewhere, key=lambda known: _rate_likeness(known, self.unit))
             self.error(f"there is no {full}; {name} is {best}", one.at)
         elif close:
             self.error(f"there is no {name}. Did you mean {close[0]}?", one.at)
@@ -326,7 +330,7 @@ class Program:
         elsewhere = {full: JAVA[full] for full in packages_of(first)}
         elsewhere |= {full: cls for full, cls in nested.items() if isinstance(cls, type)}
         if elsewhere:
-            best = min(elsewhere, key=lambda full: _likeness(full, scope.unit))
+            best = min(elsewhere, key=lambda full: _rate_likeness(full, scope.unit))
             self.error(f"{first} is not imported. Write at the top: import {best};", at)
             return _descend(elsewhere[best], rest)
         simple = [full.rpartition(".")[2] for full in JAVA if full.startswith(VENDORS)]
@@ -334,10 +338,10 @@ class Program:
         if close:
             self.error(f"there is no class {first}. Did you mean {close[0]}?", at)
             return _descend(JAVA[packages_of(close[0])[0]], rest)
-        return self._unknown(name, at)
+        return self._make_unknown(name, at)
 
 
-def _likeness(full: str, unit: Unit) -> tuple[bool, int]:
+def _rate_likeness(full: str, unit: Unit) -> tuple[bool, int]:
     """The smaller, the likelier a class is meant: not an old one, and of a library that is used."""
     package = full.rpartition(".")[0]
     old = package.startswith(OLD) or package == "com.revrobotics"
@@ -372,7 +376,7 @@ def _descend(found: Any, names: list[str]) -> Any:
 
 
 def iterate(value: Any) -> Iterator[Any]:
-    """What a for-each loop goes over.
+    """The values that a for-each loop iterates over.
 
     Raises:
         NullPointerException: it is null.

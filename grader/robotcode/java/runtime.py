@@ -1,4 +1,4 @@
-"""What a running Java program has: its budget, its calls, its lambdas, and members by name."""
+"""The runtime of a Java program: its budget, calls, lambdas, and members by name."""
 
 import enum
 import functools
@@ -94,7 +94,7 @@ def find_caller(cls: type, name: str, kinds: Sequence[str]) -> Call:
     Raises:
         NoSuchMember: the class has no such method.
     """
-    table = _table(cls)
+    table = _list_static_methods(cls)
     if table is not None and (name in table or not issubclass(cls, enum.Enum)):
         if name not in table:
             raise make_no_member_error(cls, f"{name}()", table)
@@ -121,9 +121,9 @@ def find_caller(cls: type, name: str, kinds: Sequence[str]) -> Call:
         return lambda value, args: OBJECT_METHODS[name](value, *args)
     if name == "andThen" and issubclass(cls, streams.Functional):
         interface = cls.__mro__[cls.__mro__.index(streams.Functional) - 1]
-        return lambda value, args: _chain(value, interface, *args)
+        return lambda value, args: _chain_functions(value, interface, *args)
     if issubclass(cls, Fake):
-        return lambda value, args: _member(value, name)(*args)
+        return lambda value, args: _find_member(value, name)(*args)
     if cls in {list, tuple, set, dict}:  # what a fake gives back
         return lambda _value, _args: Unknown(f"{name}()")
     if any("__call__" in vars(base) for base in cls.__mro__) and name in streams.FUNCTIONAL:
@@ -138,7 +138,7 @@ def make_no_member_error(cls: type, name: str, known: Iterable[str]) -> NoSuchMe
     return NoSuchMember(f"{type_names.type_name(cls)} has no {name}{near}")
 
 
-def _table(cls: type) -> dict[str, Callable[..., Any]] | None:
+def _list_static_methods(cls: type) -> dict[str, Callable[..., Any]] | None:
     if issubclass(cls, bool | int | float):
         return lang.BOXED_METHODS
     if cls is str:
@@ -169,7 +169,7 @@ def _call_function(function: Function, name: str, args: Sequence[Any]) -> Any:
             return method.owner.convert("" if method.returns == "void" else method.returns, result)
         return function(*args)
     if name == "andThen":
-        return _chain(function, interface, *args)
+        return _chain_functions(function, interface, *args)
     if name in streams.DEFAULT_METHODS:
         return Unknown(f"{name}() of a lambda")
     named = getattr(interface, "__name__", "Double" if name == "applyAsDouble" else "")
@@ -179,7 +179,7 @@ def _call_function(function: Function, name: str, args: Sequence[Any]) -> Any:
     return values.convert(given, result) if given and result is not None else result
 
 
-def _chain(first: Callable[..., Any], interface: Any, after: Any) -> Function:
+def _chain_functions(first: Callable[..., Any], interface: Any, after: Any) -> Function:
     """Two consumers, which get the same; or two functions, of which one gets the other's result."""
 
     def call(*args: Any) -> Any:
@@ -205,7 +205,7 @@ def get_field(value: Any, name: str) -> Any:
     own = getattr(value, "__dict__", {})
     if f".{name}" in own:
         return own[f".{name}"]
-    return _no_method(_member(value, name), name)
+    return _raise_no_method(_find_member(value, name), name)
 
 
 def is_about_arguments(problem: Exception) -> bool:
@@ -216,7 +216,7 @@ def is_about_arguments(problem: Exception) -> bool:
     return trace is not None and trace.tb_frame.f_globals["__package__"] == __package__
 
 
-def _member(value: Any, name: str) -> Any:
+def _find_member(value: Any, name: str) -> Any:
     """A member of an object, but none that only Python's own classes give it."""
     attribute, own = python_name(name), getattr(value, "__dict__", {})
     there = attribute in own or find_attribute(type(value), name) is not None
@@ -261,10 +261,10 @@ def get_static(cls: Any, name: str) -> Any:
             return cls[name]
         near = type_names.did_you_mean(name, list(cls.__members__))
         raise NoSuchMember(f"{cls.__name__} has no {name}{near}")
-    return _no_method(_static_member(cls, name), name)
+    return _raise_no_method(_find_static_member(cls, name), name)
 
 
-def _static_member(cls: Any, name: str) -> Any:
+def _find_static_member(cls: Any, name: str) -> Any:
     """A static member of a library's class, but none that only Python's own classes give it."""
     attribute = python_name(name)
     if not name.startswith("_"):
@@ -275,7 +275,7 @@ def _static_member(cls: Any, name: str) -> Any:
     raise make_no_member_error(cls, f"{name}()", dir(cls))
 
 
-def _no_method(found: Any, name: str) -> Any:
+def _raise_no_method(found: Any, name: str) -> Any:
     if isinstance(found, types.FunctionType | types.MethodType | types.BuiltinFunctionType):
         raise NoSuchMember(f"{name} is a method: write {name}()")
     return found
@@ -298,7 +298,7 @@ def call_static(cls: Any, name: str, args: Sequence[Any]) -> Any:
         raise NoSuchMember(
             f"{name}() belongs to an object: {cls.__name__} is the class, which has none of its own"
         )
-    return _static_member(cls, name)(*args)
+    return _find_static_member(cls, name)(*args)
 
 
 def enum_static(every: Sequence[Any], kind: str, name: str, args: Sequence[Any]) -> Any:

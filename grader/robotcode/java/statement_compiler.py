@@ -36,7 +36,7 @@ MOST_UNKNOWN = 3  # turns of a loop whose condition nobody knows
 
 
 class Jump(Enum):
-    """How a statement ended."""
+    """The kind of jump that ended a statement."""
 
     RETURN = "return"
     BREAK = "break"
@@ -68,9 +68,9 @@ class StatementCompiler(ExpressionCompiler):
         def stop(_env: Env) -> Any:
             raise CannotRunError(" ".join(text(node).split())[:LONGEST_TEXT])
 
-        return self._lead(node, stop)
+        return self._add_position(node, stop)
 
-    def _lead(self, node: Node, run: Run) -> Run:
+    def _add_position(self, node: Node, run: Run) -> Run:
         """A run that says first where it is."""
         at = self.at(node)
 
@@ -94,7 +94,7 @@ class StatementCompiler(ExpressionCompiler):
         if node.type != "block":
             code = self.compile(node)
             gives = False if code.kind == "void" else None if node.type in STATEMENTS else True
-            return self._lead(node, code.run), gives
+            return self._add_position(node, code.run), gives
         (returns, self.returns), (gave, self.gives) = (self.returns, ""), (self.gives, False)
         self.in_lambda += 1
         run = self.block(node)
@@ -121,7 +121,7 @@ class StatementCompiler(ExpressionCompiler):
             kind = base + "[]" * text(one.child_by_field_name("dimensions")).count("[")
             runs.append(self._declare(name, kind, value, final=final))
         run = runs[0] if len(runs) == 1 else (lambda env: [one(env) for one in runs] and None)
-        return self._lead(node, run)
+        return self._add_position(node, run)
 
     def _declare(self, name: str, kind: str, value: Node | None, *, final: bool) -> Run:
         if value is None:
@@ -133,7 +133,7 @@ class StatementCompiler(ExpressionCompiler):
             return clear
         if value.type == "array_initializer":
             local = self.frame.declare(name, kind, final=final)
-            run = self.array_of(value, kind).run
+            run = self.compile_array(value, kind).run
         else:
             if kind == "var":
                 code = self.compile(value)
@@ -176,7 +176,7 @@ class StatementCompiler(ExpressionCompiler):
 
     def _if_statement(self, node: Node) -> Run:
         self.frame.push()
-        condition = self._lead(node, self.condition(node.child_by_field_name("condition")))
+        condition = self._add_position(node, self.condition(node.child_by_field_name("condition")))
         yes = self.statement(node.child_by_field_name("consequence"))
         other = node.child_by_field_name("alternative")
         patterns = dict(self.frame.scopes[-1])
@@ -189,7 +189,9 @@ class StatementCompiler(ExpressionCompiler):
         no = self.statement(other)
         return lambda env: yes(env) if condition(env) else no(env)
 
-    def _loop(self, condition: Run | None, body: Run, update: Run, *, first: bool = True) -> Run:
+    def _compile_loop(
+        self, condition: Run | None, body: Run, update: Run, *, first: bool = True
+    ) -> Run:
         """A loop: ``first`` asks its condition before the first turn."""
         state = STATE
 
@@ -216,14 +218,14 @@ class StatementCompiler(ExpressionCompiler):
         return loop
 
     def _while_statement(self, node: Node) -> Run:
-        condition = self._lead(node, self.condition(node.child_by_field_name("condition")))
+        condition = self._add_position(node, self.condition(node.child_by_field_name("condition")))
         body = self.statement(node.child_by_field_name("body"))
-        return self._loop(condition, body, lambda _env: None)
+        return self._compile_loop(condition, body, lambda _env: None)
 
     def _do_statement(self, node: Node) -> Run:
         body = self.statement(node.child_by_field_name("body"))
-        condition = self._lead(node, self.condition(node.child_by_field_name("condition")))
-        return self._loop(condition, body, lambda _env: None, first=False)
+        condition = self._add_position(node, self.condition(node.child_by_field_name("condition")))
+        return self._compile_loop(condition, body, lambda _env: None, first=False)
 
     def _for_statement(self, node: Node) -> Run:
         self.frame.push()
@@ -234,11 +236,11 @@ class StatementCompiler(ExpressionCompiler):
             for one in node.children_by_field_name("init")
         ]
         asked = node.child_by_field_name("condition")
-        condition = self._lead(node, self.condition(asked)) if asked is not None else None
+        condition = self._add_position(node, self.condition(asked)) if asked is not None else None
         after = [self.compile(one).run for one in node.children_by_field_name("update")]
         body = self.statement(node.child_by_field_name("body"))
         self.frame.pop()
-        loop = self._loop(condition, body, lambda env: [one(env) for one in after])
+        loop = self._compile_loop(condition, body, lambda env: [one(env) for one in after])
 
         def run(env: Env) -> Any:
             for one in before:
@@ -266,7 +268,7 @@ class StatementCompiler(ExpressionCompiler):
             return False
 
         self.frame.pop()
-        loop = self._loop(more, body, lambda _env: None)
+        loop = self._compile_loop(more, body, lambda _env: None)
 
         def run_loop(env: Env) -> Any:
             STATE.at = at
@@ -308,7 +310,7 @@ class StatementCompiler(ExpressionCompiler):
             STATE.at = at
             if isinstance(problem, Throwable):
                 raise problem
-            raise NullPointerException("what is thrown is null")
+            raise NullPointerException("the thrown exception is null")
 
         return throw
 
@@ -322,10 +324,10 @@ class StatementCompiler(ExpressionCompiler):
 
     def _try_statement(self, node: Node) -> Run:
         body = self.block(node.child_by_field_name("body"))
-        return self._guarded(node, body)
+        return self._compile_guarded(node, body)
 
-    def _guarded(self, node: Node, body: Run) -> Run:
-        catches = [self._catch(one) for one in node.children if one.type == "catch_clause"]
+    def _compile_guarded(self, node: Node, body: Run) -> Run:
+        catches = [self._compile_catch(one) for one in node.children if one.type == "catch_clause"]
         last = child(node, "finally_clause")
         finally_ = self.block(next(named(last))) if last is not None else None
 
@@ -361,7 +363,7 @@ class StatementCompiler(ExpressionCompiler):
 
         return run
 
-    def _catch(self, node: Node) -> tuple[Callable[[Throwable], bool], int, Run]:
+    def _compile_catch(self, node: Node) -> tuple[Callable[[Throwable], bool], int, Run]:
         parameter = child(node, "catch_formal_parameter")
         types = [
             (kind_of(one), self.find_type(one)) for one in named(child(parameter, "catch_type"))
@@ -437,7 +439,7 @@ class StatementCompiler(ExpressionCompiler):
         return switch
 
     def _label(self, node: Node) -> Any:
-        """What a case compares with: the name of an enum's constant, or a value."""
+        """The value that a case compares with: the name of an enum's constant, or a value."""
         if node.type == "identifier" and self.find_variable(text(node)) is None:
             return text(node)
         return self.compile(node).run
@@ -454,7 +456,7 @@ def _find_case(cases: Sequence[tuple[list[Any], bool, Run, bool]], value: Any, e
 
 
 def _choose_case(cases: Sequence[tuple[list[Any], bool, Run, bool]], value: Unknown) -> int:
-    """A case for a value that nobody knows: the first one, or else the default or the last."""
+    """A case for an unknown value: the first one, or else the default or the last."""
     default = next((n for n, (_, default, _, _) in enumerate(cases) if default), len(cases) - 1)
     return 0 if value else default
 
@@ -483,7 +485,7 @@ def _sequence(runs: Sequence[Run]) -> Run:
 
 
 def falls_through(node: Node) -> bool:
-    """Whether a statement surely can end without a return; what is hard to tell does not."""
+    """Whether a statement surely can end without a return; False if that is unclear."""
     kind, parts = node.type, list(named(node))
     if kind in {"block", "constructor_body"}:
         return all(map(falls_through, parts))

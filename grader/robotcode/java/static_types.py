@@ -68,20 +68,20 @@ class StaticTypes:
             return kind
         return kind if self.resolve(name) is self.program.resolve(name, owner) else ""
 
-    def result_of(self, found: Any) -> str:
-        """The type of what a method of the program gives back; empty if it cannot be told."""
+    def find_result_type(self, found: Any) -> str:
+        """The result type of a method of the program; empty if it is unknown."""
         overloads = getattr(found, "overloads", None)
         if overloads is None or overloads.inherited is not None:
             return ""
         results = {self.translate_type(one.owner, one.returns) for one in overloads.methods}
         return results.pop() if len(results) == 1 else ""
 
-    def unknown_field(self, cls: JavaClass, name: str) -> str:
+    def describe_unknown_field(self, cls: JavaClass, name: str) -> str:
         """What to say where a class has no field of a name."""
         return unknown_name("field", name, member_names(cls), cls.name)
 
-    def why_not(self, kind: str, code: Code) -> str:
-        """What javac says of a number where another type is wanted; empty if it may be."""
+    def explain_refusal(self, kind: str, code: Code) -> str:
+        """The error of javac for a number in place of another type; empty if it is allowed."""
         source, target = BOXES.get(code.kind, code.kind), BOXES.get(kind, kind)
         if code.kind == "void" and kind:
             return "a method that returns nothing gives no value"
@@ -107,7 +107,7 @@ def is_sure(cls: Any) -> bool:
 
 
 def unknown_name(what: str, name: str, known: Sequence[str], label: str) -> str:
-    """What to say of a name that nothing has, with the one that was meant."""
+    """The error for an unknown name, with the most similar known one."""
     lacks = f": {label} has none" if label else ": nothing here has it"
     return f"unknown {what} {name}{type_names.did_you_mean(name, known) or lacks}"
 

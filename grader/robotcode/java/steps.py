@@ -1,4 +1,4 @@
-"""How far a running program is, and how much of its time it has used."""
+"""The place of a running program, and the rest of its time."""
 
 import sys
 from typing import Any
@@ -24,7 +24,7 @@ class EndlessError(BaseException):
 
 
 class CannotRunError(BaseException):
-    """The program comes to something of Java's that is not run here, whose effect is unknown."""
+    """The program uses something of Java that is not run here, so its effect is unknown."""
 
 
 def refuse(what: str) -> Any:
@@ -37,7 +37,7 @@ def refuse(what: str) -> Any:
 
 
 class State:
-    """Where the program is, and what it may still use."""
+    """The current place in the program, and the rest of its budget."""
 
     at: At = At(0)
     steps = STEPS

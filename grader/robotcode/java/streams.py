@@ -58,14 +58,14 @@ class IntStream(Stream, package=_STREAMS, partial=True):
     _kind: str = "int"
 
     def sum(self) -> Any:
-        """Their sum."""
+        """The sum of the elements."""
         total = convert(self._kind, 0)
         for one in self:
             total = add(total, one)
         return total
 
     def average(self) -> Any:
-        """Their mean."""
+        """The mean of the elements."""
         items = list(self)
         return Optional(DoubleStream(items).sum() / len(items) if items else None)
 

@@ -1,4 +1,4 @@
-"""Java text to tree-sitter's tree, and what in it is not Java."""
+"""Java text to tree-sitter's tree, and its syntax errors."""
 
 import re
 from dataclasses import dataclass
@@ -69,7 +69,7 @@ class Source:
         return _parse(source)
 
     def at(self, node: Node) -> At:
-        """Where a node stands."""
+        """The file and the line of a node."""
         return At(node.start_point[0] + 1, self.path.name)
 
     @cached_property
@@ -99,7 +99,7 @@ def _find_problem(root: Node, text: str) -> ParseProblem:
     if tree.is_missing:
         return ParseProblem(f"a '{tree.type}' is missing", _find_code_line(text, row))
     comma = _DECIMAL_COMMA.search(text.split("\n")[row])
-    said = _POINT.format(comma[0]) if comma else _misread((tree.text or b"").decode())
+    said = _POINT.format(comma[0]) if comma else _describe_misreading((tree.text or b"").decode())
     return _find_no_semicolon(text, *tree.start_point) or ParseProblem(said, row + 1)
 
 
@@ -131,10 +131,10 @@ def _find_no_class(text: str) -> ParseProblem | None:
     first = next((at for at, line in enumerate(text.split("\n"), 1) if line.strip()), 1)
     said = "this is Python, and a .java file must contain Java"
     if not _PYTHON.search(text):
-        said = _misread(text.split("\n")[first - 1])
+        said = _describe_misreading(text.split("\n")[first - 1])
     return ParseProblem(said, first)
 
 
-def _misread(text: str) -> str:
+def _describe_misreading(text: str) -> str:
     shown = " ".join(text[:200].split())[:40]
     return f"this is not Java: {shown}" if shown else "something is missing here"

@@ -1,4 +1,4 @@
-"""Java's texts, as far as a robot program's names need them; whatever else they do is unknown."""
+"""Java's texts, as far as robot programs need them; the result of any other method is unknown."""
 
 import functools
 import re

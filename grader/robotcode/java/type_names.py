@@ -1,4 +1,4 @@
-"""Types while a program runs: what a value is, whether it is one of a type, arrays of a type."""
+"""Types at run time: the type of a value, instance checks, and arrays of a type."""
 
 import difflib
 import enum

@@ -58,7 +58,7 @@ _NARROW = frozenset({"byte", "short", "char"})  # a cast to them may change a nu
 
 
 def default_value(kind: str) -> Any:
-    """What a field or an element of that type is before anything is stored in it."""
+    """The initial value of a field or an array element of a type."""
     return _DEFAULTS.get(kind)
 
 
@@ -211,12 +211,12 @@ def _defines(cls: type, name: str) -> bool:
 
 
 def make_unknown(text: str) -> Callable[..., Unknown]:
-    """A method whose result nobody knows."""
+    """A method with an unknown result."""
     return lambda *_args: Unknown(text)
 
 
 def find_unknown(*values: object) -> Unknown | None:
-    """The first of some values that nobody knows."""
+    """The first unknown value; None if all are known."""
     return next((one for one in values if type(one) is Unknown), None)
 
 
@@ -250,7 +250,7 @@ def make_statics(
 
 
 def require_number(value: Any) -> Any:
-    """A number, or a value that nobody knows, such as a character's number.
+    """A number, or an unknown value, such as a character's number.
 
     Raises:
         NullPointerException: it is null.
@@ -265,7 +265,7 @@ def require_number(value: Any) -> Any:
     return value
 
 
-def _operator(operate: Callable[[Any, Any], Any]) -> Callable[[Any, Any], Any]:
+def _lift_operator(operate: Callable[[Any, Any], Any]) -> Callable[[Any, Any], Any]:
     """An operator of Java's for two numbers or two booleans."""
 
     def run(a: Any, b: Any) -> Any:
@@ -283,13 +283,13 @@ def _operator(operate: Callable[[Any, Any], Any]) -> Callable[[Any, Any], Any]:
     return run
 
 
-def _whole_operator(operate: Callable[[int, int], int]) -> Callable[[Any, Any], Any]:
+def _lift_whole_operator(operate: Callable[[int, int], int]) -> Callable[[Any, Any], Any]:
     def run(a: Any, b: Any) -> Any:
         if type(a) is float or type(b) is float:
             raise WrongArgument(f"{a} and {b} are not both whole numbers")
         return operate(a, b)
 
-    return _operator(run)
+    return _lift_operator(run)
 
 
 def _divide(a: Any, b: Any) -> Any:
@@ -303,7 +303,7 @@ def _divide(a: Any, b: Any) -> Any:
     return math.nan if a == 0 or math.isnan(a) else math.copysign(math.inf, a) * math.copysign(1, b)
 
 
-def _remainder(a: Any, b: Any) -> Any:
+def _compute_remainder(a: Any, b: Any) -> Any:
     if type(a) is int and type(b) is int:
         return a - b * _divide(a, b)
     return math.nan if b == 0 or math.isinf(a) else math.fmod(a, b)
@@ -315,18 +315,18 @@ def check_range(value: Any) -> Any:
     return Unknown("a number beyond 32 bits") if wraps else value
 
 
-_add_numbers = _operator(operator.add)
-subtract = _operator(operator.sub)
-multiply = _operator(operator.mul)
-divide = _operator(_divide)
-remainder = _operator(_remainder)
-bit_and = _whole_operator(operator.and_)
-bit_or = _whole_operator(operator.or_)
-bit_xor = _whole_operator(operator.xor)
-less = _operator(operator.lt)
-less_equal = _operator(operator.le)
-greater = _operator(operator.gt)
-greater_equal = _operator(operator.ge)
+_add_numbers = _lift_operator(operator.add)
+subtract = _lift_operator(operator.sub)
+multiply = _lift_operator(operator.mul)
+divide = _lift_operator(_divide)
+remainder = _lift_operator(_compute_remainder)
+bit_and = _lift_whole_operator(operator.and_)
+bit_or = _lift_whole_operator(operator.or_)
+bit_xor = _lift_whole_operator(operator.xor)
+less = _lift_operator(operator.lt)
+less_equal = _lift_operator(operator.le)
+greater = _lift_operator(operator.gt)
+greater_equal = _lift_operator(operator.ge)
 
 
 def add(a: Any, b: Any) -> Any:
@@ -409,7 +409,7 @@ _WORDS = {None: "null", True: "true", False: "false"}
 
 
 def to_string(value: Any) -> Any:
-    """Java's String.valueOf. Of what nobody knows, the text is unknown, too."""
+    """Java's String.valueOf; the text of an unknown value is unknown."""
     if isinstance(value, str | Unknown):
         return value
     if value is None or type(value) is bool:

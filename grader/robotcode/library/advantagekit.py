@@ -21,7 +21,7 @@ MICROSECONDS = 1e6  # in a second
 
 @fake(JUNCTION, "pykit.logger", complete=True)
 class Logger(Fake):
-    """Writes values into a log that nobody reads here (.../junction/Logger.java)."""
+    """Writes values into a log that is not read here (.../junction/Logger.java)."""
 
     @staticmethod
     def getTimestamp() -> int:

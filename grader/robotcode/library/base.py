@@ -1,4 +1,4 @@
-"""What every fake is made of: where it lives, what it has, and the value that nobody knows.
+"""The base of every fake: its packages, its members, and the unknown value.
 
 A fake is a Python class that stands for a class of WPILib or of a vendor. Its public members have
 the names that Java gives them (a Java name that is a keyword of Python ends in ``_``: ``and_``);
@@ -34,7 +34,7 @@ class WrongArgument(TypeError):
 
 
 class Unknown:
-    """A value that the grader cannot know. Whatever is made of it is unknown, too.
+    """A value that the grader does not know. Results computed from it are unknown, too.
 
     Args:
         text: what it comes from, as the code has it.
@@ -78,7 +78,7 @@ class Unknown:
 
 
 class FakeType(type):
-    """The class of all fakes: knows which members there are that nobody had to write."""
+    """The class of all fakes: knows the members that have no code of their own."""
 
     fake_complete: bool
     fake_others: frozenset[str]
@@ -95,14 +95,14 @@ class Fake(metaclass=FakeType):
     java: Any = None  # the Java class of a learner that it was made from
 
     def __init__(self, *_args: Any, **_named: Any) -> None:
-        """Take whatever a class takes of which nothing matters here."""
+        """Accept any arguments, and ignore them."""
 
     def __getattr__(self, name: str) -> Any:  # whatever the member is
         return _find_unwritten(type(self), name)
 
 
 def _find_unwritten(cls: FakeType, name: str) -> Any:  # whatever the member is
-    """A member that is no attribute: one whose result nobody knows, or the learner's mistake."""
+    """A member without code: a known one with an unknown result, or the learner's mistake."""
     if name.startswith("_"):
         raise AttributeError(name)
     if name in cls.fake_others or not cls.fake_complete:
@@ -216,7 +216,7 @@ def accepts(kind: Any, value: Any) -> bool:  # any annotation and any value
 
 
 def _make_test(kind: Any) -> Callable[[Any], bool] | None:  # any annotation
-    """What a value of a type passes; None if every value does."""
+    """The test that values of a type pass; None if every value does."""
     if type(kind) is types.UnionType or typing.get_origin(kind) is typing.Union:
         tests = [_make_test(one) for one in typing.get_args(kind)]
         if None in tests:

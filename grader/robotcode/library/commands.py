@@ -48,7 +48,7 @@ def flatten(values: Any) -> Iterator[Any]:  # arguments, alone or in collections
 
 
 def count_parameters(function: Any) -> int:  # anything that can be called
-    """The number of arguments that a function takes; -1 where nobody can tell."""
+    """The number of arguments that a function takes; -1 if it is unknown."""
     if hasattr(function, "arity"):
         return function.arity
     try:
@@ -80,7 +80,7 @@ def as_commands(values: Any) -> list["Command"]:  # arguments
 
 @fake("edu.wpi.first.wpilibj.event org.wpilib.event", "wpilib.event", complete=True)
 class EventLoop(Fake):
-    """What is asked once a loop (allwpilib v2026, wpilibj/.../EventLoop.java)."""
+    """Conditions that are polled once a loop (allwpilib v2026, wpilibj/.../EventLoop.java)."""
 
     def __init__(self) -> None:
         self._actions: list[Callable[..., Any]] = []
@@ -332,7 +332,7 @@ def make_steps(first: Any = (), *more: Any) -> list[Any]:  # commands, or a func
 
 
 class _UnknownCommand(Command):
-    """A command that nobody knows, as one of another library: it may end, or not."""
+    """An unknown command, such as another library's: it may end, or not."""
 
     def __init__(self, value: Unknown) -> None:
         self._value = value
@@ -634,7 +634,7 @@ class RepeatCommand(_Composition):
 
 
 class ProxyCommand(Command):
-    """Lets another run by itself, and waits for it (allwpilib v2026, .../ProxyCommand.java)."""
+    """Schedules another command and waits for it (allwpilib v2026, .../ProxyCommand.java)."""
 
     _when_disabled = True
 

@@ -75,7 +75,7 @@ def write_value(path: str, value: Any, *, start: bool = False) -> bool:  # any v
 
 
 def make_path(*names: str) -> str:
-    """A whole path, of a table's and of what is in it."""
+    """The full path of an entry in a table."""
     return "/".join(one.strip("/") for one in names if one.strip("/"))
 
 

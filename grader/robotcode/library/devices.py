@@ -13,7 +13,7 @@ from grader.robotcode.library.world import WORLD
 
 @dataclass
 class Shaft:
-    """What a motor turns: position [rot] and velocity [rot/s] of the rotor, as it is mounted."""
+    """The shaft of a motor: position [rot] and velocity [rot/s] of the rotor, as it is mounted."""
 
     position: float = 0.0
     velocity: float = 0.0
@@ -21,7 +21,7 @@ class Shaft:
 
 @dataclass(frozen=True)
 class Command:
-    """What a program last asked of a motor.
+    """The last command that a program sent to a motor.
 
     Args:
         kind: ``voltage``, ``duty``, ``closed-loop``, ``current``, ``neutral`` or ``follow``.
@@ -81,7 +81,7 @@ class Motor(Device):
             self._leader = None
 
     def _settle(self, share: float = 1.0) -> None:
-        """Fix what the motor gets until the next loop.
+        """Fix the motor's voltage until the next loop.
 
         Args:
             share: of the voltage asked for that gets through: less while a current limit acts.

@@ -75,7 +75,7 @@ class Rotation2d(Fake):
 
 @fake(KINEMATICS, "wpimath.kinematics")
 class SwerveModulePosition(Fake):
-    """How far a module has driven (.../kinematics/SwerveModulePosition.java)."""
+    """The driven distance of a module (.../kinematics/SwerveModulePosition.java)."""
 
     def __init__(self, distance: Any = 0.0, angle: Any = None) -> None:
         self.distance = self.distanceMeters = _to_number(distance, "Meters")
@@ -84,7 +84,7 @@ class SwerveModulePosition(Fake):
 
 @fake(KINEMATICS, "wpimath.kinematics")
 class SwerveModuleState(Fake):
-    """How fast a module drives (.../kinematics/SwerveModuleState.java)."""
+    """The speed and angle of a module (.../kinematics/SwerveModuleState.java)."""
 
     def __init__(self, speed: Any = 0.0, angle: Any = None) -> None:
         self.speed = self.speedMetersPerSecond = _to_number(speed, "MetersPerSecond")

@@ -32,7 +32,7 @@ def to_volts(value: Any) -> Any:
 
 
 def clamp(value: Any, low: float, high: float) -> Any:
-    """A number within limits; what is unknown stays so."""
+    """A number within limits; an unknown value stays unknown."""
     return value if isinstance(value, Unknown) else max(low, min(high, value))
 
 
@@ -68,7 +68,7 @@ class VendorMotor(Motor):
             self._applied = clamp(self._applied, before - step, before + step)
 
     def _follow(self, leader: Motor) -> None:
-        """Get what a leader gets; in place of ``_settle``, and once the leader has settled."""
+        """Copy a leader's output; called in place of ``_settle``, after that of the leader."""
         turned = self._opposed != (not self._strict and leader._inverted != self._inverted)
         self._applied = -leader._applied if turned else leader._applied
 

@@ -112,7 +112,7 @@ class BaseMotorController(VendorMotor):
 
 
 class WpiMotorController(MotorController, BaseMotorController):
-    """What the classes ``WPI_`` have beyond the others (.../can/WPI_TalonSRX.html)."""
+    """The members that only the classes ``WPI_`` have (.../can/WPI_TalonSRX.html)."""
 
     def setVoltage(self, outputVolts: float | Voltage) -> None:
         self._give(to_volts(outputVolts) / WORLD.battery, "setVoltage")

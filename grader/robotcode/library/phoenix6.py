@@ -37,7 +37,7 @@ DEFAULTS: dict[str, Any] = {}  # an enum -> its first member, a group -> its def
 
 
 class StatusCode(Enum):
-    """How a call went: well (.../phoenix6/StatusCode.html)."""
+    """The result of a call: always OK here (.../phoenix6/StatusCode.html)."""
 
     OK = 0
     StatusCodeNotInitialized = -1  # where a loop begins that tries until it goes well
@@ -290,7 +290,7 @@ class ParentDevice(Device):
         return self._config._values[group]._values[field]
 
     def _turns(self) -> tuple[Any, Any]:
-        """Position [rot], before somebody moved it, and velocity [rot/s]."""
+        """Position [rot], without the offset that the program set, and velocity [rot/s]."""
         return 0.0, 0.0
 
     def _measure(self, name: str) -> Any:
@@ -503,7 +503,7 @@ for _class in (ParentDevice, TalonFX, TalonFXS, CANcoder, Pigeon2):
 
 @fake(CTRE, "phoenix6 phoenix6.signal_logger")
 class SignalLogger(Fake):
-    """CTRE's own log (.../phoenix6/SignalLogger.html), which nobody reads here."""
+    """CTRE's own log (.../phoenix6/SignalLogger.html), which is not read here."""
 
 
 @fake(CTRE)
@@ -565,7 +565,7 @@ class SwerveDrivetrainConstants(_Constants):
 
 @fake(SWERVE)
 class SwerveRequest(Fake):
-    """What a swerve drive is asked for (.../phoenix6/swerve/SwerveRequest.html)."""
+    """A command for a swerve drive (.../phoenix6/swerve/SwerveRequest.html)."""
 
 
 for _name, _fields in TABLES["swerve_requests"].items():

@@ -38,7 +38,7 @@ OK = ENUMS["REVLibError"].kOk
 
 
 class BaseConfig(Fake):
-    """Setters that keep what they were given, by their name (.../config/BaseConfig.html)."""
+    """Setters that store their arguments under their name (.../config/BaseConfig.html)."""
 
     _parts: ClassVar[dict[str, type]] = {}  # attribute -> class of the configuration in it
     _family = ""  # name of the configurations that it can apply
@@ -49,7 +49,7 @@ class BaseConfig(Fake):
             setattr(self, name, cls())
 
     def _flat(self) -> dict[str, tuple[Any, ...]]:
-        """All that was given, also to the parts: ``encoder.inverted``."""
+        """All settings, those of the parts included: ``encoder.inverted``."""
         inner = {
             f"{part}.{name}": values
             for part in self._parts

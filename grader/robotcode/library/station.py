@@ -115,7 +115,7 @@ class RobotBase(RobotState):
 
 
 def _do_nothing(self: Any) -> None:
-    """What a robot does in a mode that its program says nothing about."""
+    """The behavior of a robot in a mode that its program does not define."""
 
 
 @fake(FRAMEWORK, "wpilib")

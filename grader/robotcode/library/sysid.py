@@ -53,13 +53,13 @@ def _show(value: Any) -> str:
 
 @fake()
 class _MotorLog(Fake):
-    """What a log callback writes of one motor."""
+    """The values that a log callback writes about one motor."""
 
     def __init__(self, motor: str) -> None:
         self._motor = motor
 
     def value(self, name: str, value: float, unit: str) -> "_MotorLog":
-        """Log a number as it is: nobody converts it."""
+        """Log a number without any conversion."""
         return self._write(name, value, "", unit)
 
     def _write(self, signal: str, value: Any, family: str, unit: str) -> "_MotorLog":
@@ -195,7 +195,7 @@ class ConfigV3(Config):
 
 @fake(complete=True)
 class Mechanism(Fake):
-    """What a routine moves, and how."""
+    """The mechanism of a routine: its name and its callbacks."""
 
     _owner = "edu.wpi.first.wpilibj2.command.Subsystem"
 
@@ -216,14 +216,14 @@ class Mechanism(Fake):
 
 
 class SysIdMechanism(Mechanism):
-    """What a routine of Commands v3 moves, and how."""
+    """The mechanism of a routine of Commands v3: its name and its callbacks."""
 
     _owner = "org.wpilib.command3.Mechanism"
 
 
 @fake(complete=True)
 class Routine(SysIdRoutineLog):
-    """What the routines of all versions share."""
+    """The common part of the routines of all versions."""
 
     def __init__(self, config: Any, mechanism: Any) -> None:
         self._swapped = isinstance(config, Mechanism) and isinstance(mechanism, Config)
@@ -256,7 +256,7 @@ class Routine(SysIdRoutineLog):
         return self._make_test(f"dynamic-{_find_way(direction)}", output, output)
 
     def _make_test(self, test: str, start: Callable[[], Any], output: Callable[[], Any]) -> Command:
-        """A command, from what it does at its start and the voltage of each loop."""
+        """A command, from its action at the start and the voltage of each loop."""
         mechanism, state = self._mechanism, self.State(test)
 
         def run() -> None:

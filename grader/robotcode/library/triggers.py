@@ -64,7 +64,7 @@ class Binding:
         action = ACTIONS[self.how][0 if now else 1] if now != self.before else ""
         self.before = now
         if action:
-            self.trigger._act(action, self.command, self.line)
+            self.trigger._bind_action(action, self.command, self.line)
 
 
 @fake("edu.wpi.first.wpilibj.event org.wpilib.event", "wpilib.event")
@@ -150,7 +150,7 @@ class Trigger(BooleanEvent):
     def _derive(self, condition: Callable[..., Any]) -> "Trigger":
         return Trigger(condition, loop=self._loop)
 
-    def _act(self, action: str, command: Any, line: int) -> None:  # may be unknown
+    def _bind_action(self, action: str, command: Any, line: int) -> None:  # may be unknown
         scheduler = CommandScheduler()
         if action == "stop" or (action == "toggle" and scheduler.isScheduled(command)):
             scheduler._cancel(command)  # not from the program
@@ -271,7 +271,7 @@ def _add(cls: Any, name: str, of: Any, method: Callable[..., Any]) -> None:  # a
 
 
 def _add_button(hid: type, command: type, name: str, number: int) -> None:
-    """Give both classes of a controller what they have for one of its buttons."""
+    """Add the methods of one button to both classes of a controller."""
     plain = name if len(name) == 2 else name[0].lower() + name[1:]  # noqa: PLR2004 - as L1
     for cls in (hid, command):
         _add(cls, plain, cls._kind, lambda self, loop=None: self.button(number, loop))

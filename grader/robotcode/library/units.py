@@ -142,7 +142,7 @@ class Measure(Fake):
         shown = value if isinstance(value, Unknown) else format(value, ".3e")
         return f"{shown} {self._unit._symbol}"
 
-    def _base_of(self, other: Any, method: str) -> Any:
+    def _convert_to_base(self, other: Any, method: str) -> Any:
         """Another measure's value in base units, if it has the same dimension."""
         self._require(getattr(other, "_unit", other), method)
         return other._base
@@ -178,10 +178,10 @@ class Measure(Fake):
     negate = unaryMinus
 
     def plus(self, other: "Measure") -> "Measure":
-        return self._unit.ofBaseUnits(self._base + self._base_of(other, "plus"))
+        return self._unit.ofBaseUnits(self._base + self._convert_to_base(other, "plus"))
 
     def minus(self, other: "Measure") -> "Measure":
-        return self._unit.ofBaseUnits(self._base - self._base_of(other, "minus"))
+        return self._unit.ofBaseUnits(self._base - self._convert_to_base(other, "minus"))
 
     def times(self, multiplier: "float | Measure") -> "Measure":
         if not isinstance(multiplier, Measure):
@@ -208,7 +208,7 @@ def _compare(name: str, test: Callable[[Any, Any], Any]) -> None:
     """Give Measure a method that compares it with another one of its dimension."""
 
     def compare(self: Measure, other: Measure) -> bool:
-        return test(self._base, self._base_of(other, name))
+        return test(self._base, self._convert_to_base(other, name))
 
     compare.__qualname__ = f"Measure.{name}"
     setattr(Measure, name, checked(compare))
@@ -237,7 +237,7 @@ class MutableMeasure(Measure):
 
     def mut_replace(self, magnitude: float | Measure, newUnit: Unit = None) -> "MutableMeasure":
         other: Any = magnitude if newUnit is None else newUnit.of(magnitude)  # type: ignore[arg-type]  # a number, then
-        self._base, self._unit = self._base_of(other, "mut_replace"), other._unit
+        self._base, self._unit = self._convert_to_base(other, "mut_replace"), other._unit
         return self
 
     def mut_setMagnitude(self, magnitude: float) -> "MutableMeasure":
@@ -247,7 +247,7 @@ class MutableMeasure(Measure):
         return self.mut_replace(self._unit.ofBaseUnits(baseUnitMagnitude))
 
     def _change(self, method: str, other: Any, unit: Any = None) -> "MutableMeasure":
-        """Replace it by what one of its methods gives, of a measure or a number and its unit."""
+        """Replace its value by the result of one of its methods."""
         return self.mut_replace(getattr(self, method)(other if unit is None else unit.of(other)))
 
     mut_plus = partialmethod(_change, "plus")
@@ -297,7 +297,7 @@ class Angle(Kind, **TABLES["kinds"]["Angle"]):
 
 
 class AngularVelocity(Kind, **TABLES["kinds"]["AngularVelocity"]):
-    """How fast something turns."""
+    """An angular velocity."""
 
 
 class Voltage(Kind, **TABLES["kinds"]["Voltage"]):
@@ -305,15 +305,15 @@ class Voltage(Kind, **TABLES["kinds"]["Voltage"]):
 
 
 class Velocity(Kind):
-    """How fast anything else changes: V/s is a ``Velocity<VoltageUnit>``."""
+    """The rate of change of any other quantity: V/s is a ``Velocity<VoltageUnit>``."""
 
 
 class Per(Kind):
-    """Any other quotient."""
+    """A quotient of units without a class of its own."""
 
 
 class Mult(Kind):
-    """Any other product."""
+    """A product of units without a class of its own."""
 
 
 for _name, _row in TABLES["kinds"].items():

@@ -17,7 +17,7 @@ GEARING = 100.0  # turns of a motor for one of the shaft that has an absolute se
 
 @dataclass
 class Joystick:
-    """What a driver does with one controller: buttons from 1 on, axes from -1 to 1, a hat."""
+    """The state of a driver's controller: buttons from 1 on, axes from -1 to 1, a hat."""
 
     buttons: set[int] = field(default_factory=set)
     axes: dict[int, float] = field(default_factory=dict)
@@ -66,12 +66,12 @@ class World:
     singletons: dict[str, Any] = field(default_factory=dict)
 
     def reset(self, language: str, *, assume: bool = False) -> None:
-        """Start anew, as when a robot is switched on."""
+        """Reset the state to that of a robot just switched on."""
         fresh = World(language=language, assume=assume)
         self.__dict__.update(fresh.__dict__)
 
     def decide(self, text: str) -> bool:
-        """A condition that nobody can know: taken as assumed, and written down."""
+        """Decide an unknown condition as assumed, and record that it mattered."""
         self.undecided.setdefault(text, self.where())
         return self.assume
 

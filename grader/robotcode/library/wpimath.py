@@ -7,12 +7,12 @@ from grader.robotcode.library.base import PYTHON, TABLES, Fake, Unknown, checked
 from grader.robotcode.library.world import PERIOD, WORLD
 
 
-def _packages(folder: str) -> str:
+def _list_packages(folder: str) -> str:
     return f"edu.wpi.first.math.{folder} org.wpilib.math.{folder}"
 
 
-def _unknown(*values: Any) -> Any:
-    """The first value that nobody knows; None if there is none."""
+def _find_unknown(*values: Any) -> Any:
+    """The first unknown value; None if there is none."""
     return next((one for one in values if isinstance(one, Unknown)), None)
 
 
@@ -44,14 +44,14 @@ class Feedforward(Fake):
 
 
 class SimpleMotorFeedforward(Feedforward):
-    """Of a flywheel or a drivetrain: allwpilib v2026.2.2, .../SimpleMotorFeedforward.java."""
+    """Feedforward without gravity: allwpilib v2026.2.2, .../SimpleMotorFeedforward.java."""
 
     def __init__(self, kS: float, kV: float, kA: float = 0.0, dt: float = PERIOD) -> None:
         self._register(ks=kS, kv=kV, ka=kA, dt=dt)
 
 
 class ElevatorFeedforward(Feedforward):
-    """Of an elevator: allwpilib v2026.2.2, wpimath/.../ElevatorFeedforward.java."""
+    """Feedforward of an elevator: allwpilib v2026.2.2, wpimath/.../ElevatorFeedforward.java."""
 
     def __init__(
         self, kS: float, kG: float, kV: float, kA: float = 0.0, dt: float = PERIOD
@@ -60,7 +60,7 @@ class ElevatorFeedforward(Feedforward):
 
 
 class ArmFeedforward(ElevatorFeedforward):
-    """Of an arm, whose angle is 0 where it is level: .../ArmFeedforward.java."""
+    """Feedforward of an arm, whose angle is 0 when level: .../ArmFeedforward.java."""
 
 
 for _gain in ("Ks", "Kv", "Ka"):
@@ -68,7 +68,7 @@ for _gain in ("Ks", "Kv", "Ka"):
 _add_setting(ElevatorFeedforward, "Kg", "kg")
 for _cls in (SimpleMotorFeedforward, ElevatorFeedforward, ArmFeedforward):
     fake(
-        _packages("controller"),
+        _list_packages("controller"),
         "wpimath.controller",
         complete=True,
         others=TABLES["others"]["feedforwards"],
@@ -78,7 +78,7 @@ for _unit in ("Meters", "Radians"):  # RobotPy has it under two names
 del PYTHON["wpimath.controller"]["SimpleMotorFeedforward"]
 
 
-@fake(_packages("trajectory"), "wpimath.trajectory")
+@fake(_list_packages("trajectory"), "wpimath.trajectory")
 class TrapezoidProfile(Fake):
     """A motion profile, whose course is unknown: wpimath/.../TrapezoidProfile.java."""
 
@@ -108,12 +108,12 @@ class Controller(Fake):
         self._p, self._i, self._d = Kp, Ki, Kd
 
 
-@fake(_packages("controller"), "wpimath.controller", complete=True)
+@fake(_list_packages("controller"), "wpimath.controller", complete=True)
 class PIDController(Controller):
     """A PID controller: allwpilib v2026.2.2, wpimath/.../PIDController.java."""
 
 
-@fake(_packages("controller"), "wpimath.controller")
+@fake(_list_packages("controller"), "wpimath.controller")
 class ProfiledPIDController(Controller):
     """A PID controller along a profile: .../ProfiledPIDController.java."""
 
@@ -131,7 +131,7 @@ UNKNOWN = {  # folder -> classes of which nothing is known here
 for _folder, _names in UNKNOWN.items():
     for _name in _names.split():
         _class = type(Fake)(_name, (Fake,), {"__doc__": "What it computes is unknown."})
-        fake(f"{_packages(_folder)} edu.wpi.first.math", f"wpimath.{_folder}")(_class)
+        fake(f"{_list_packages(_folder)} edu.wpi.first.math", f"wpimath.{_folder}")(_class)
 
 
 @fake("edu.wpi.first.math org.wpilib.math.util", complete=True)
@@ -140,7 +140,7 @@ class MathUtil(Fake):
 
     @staticmethod
     def clamp(value: float, low: float, high: float) -> float:
-        unknown = _unknown(value, low, high)
+        unknown = _find_unknown(value, low, high)
         return max(low, min(high, value)) if unknown is None else unknown
 
     @staticmethod

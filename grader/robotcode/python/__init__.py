@@ -36,7 +36,7 @@ JAVA = re.compile(r"^[ \t]*(package [\w.]+;|import [\w.]+;|public class )", re.M
 def run_python(
     path: Path, kind: str, mounts: Mapping[Any, Mount], *, seconds: float = SECONDS
 ) -> tuple[Any, ...]:
-    """Run a RobotPy program, with what nobody knows assumed false, then true if that matters.
+    """Run a RobotPy program with unknown conditions false, then true if that matters.
 
     Args:
         path: the learner's file.
@@ -85,7 +85,7 @@ def _refuse_syntax(path: Path) -> None:
 
 
 def _run_once(path: Path, orders: dict[str, Any], seconds: float) -> tuple[Any, bool]:
-    """The facts of one run, and whether they depend on what nobody knows."""
+    """The facts of one run, and whether they depend on an unknown condition."""
     kind = find_bench(orders["kind"]).kind
     nonce = secrets.token_hex(16)
     with scratch_folder() as place:

@@ -1,4 +1,4 @@
-"""How a learner's program is imported: its own files, and fakes in the place of libraries.
+"""The import of a learner's program: its own files, and fakes in place of libraries.
 
 In a learner's files every private name, ``_speed``, gets another first sign. So its fields never
 meet those of a fake that it derives from, and it reaches nothing private of a fake.

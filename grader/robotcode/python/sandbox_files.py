@@ -1,4 +1,4 @@
-"""What a run may read of a learner's: a copy of the program, and of nothing else beside it."""
+"""The files of a learner that a run may read: a copy of the program only."""
 
 from collections.abc import Iterator
 from itertools import islice
@@ -33,23 +33,23 @@ def copy_program(path: Path, given: Path) -> Path:
 
 def list_program_files(path: Path) -> Iterator[Path]:
     """The files that a run may read of the program in ``path``, ``MOST`` at most."""
-    return islice(_belonging(path.resolve()), MOST)
+    return islice(_list_program_files(path.resolve()), MOST)
 
 
-def _belonging(file: Path) -> Iterator[Path]:
+def _list_program_files(file: Path) -> Iterator[Path]:
     """The files of the program. Only a folder with ``robot.py`` is one of a robot as a whole."""
     beside, above = file.parent, file.parent.parent
     for folder in (beside, above):
         yield from _code(folder)
     for folder in (beside, above) if (above / "robot.py").is_file() else (beside,):
-        for below in _listed(folder):
+        for below in _list_folder(folder):
             if below != beside and below.is_dir() and not below.is_symlink():
                 yield from _code(below)
 
 
 def _code(folder: Path) -> Iterator[Path]:
-    """Plain files only: a link in what a learner hands in may lead to somebody else's."""
-    for found in _listed(folder):
+    """The plain code files; links are left out, because they may lead to other people's files."""
+    for found in _list_folder(folder):
         if (
             found.suffix in SUFFIXES
             and not found.is_symlink()
@@ -59,7 +59,7 @@ def _code(folder: Path) -> Iterator[Path]:
             yield found
 
 
-def _listed(folder: Path) -> list[Path]:
+def _list_folder(folder: Path) -> list[Path]:
     try:
         return sorted(folder.iterdir())
     except OSError:  # not ours to look into

@@ -43,7 +43,7 @@ class EndlessError(BaseException):
 
 
 class PythonSubject(Subject):
-    """A Python program, and the one of its classes that is looked at.
+    """A Python program, and its class that is tested.
 
     Args:
         path: the file in hand.
@@ -75,7 +75,7 @@ class PythonSubject(Subject):
     # -- its text ---------------------------------------------------------------------------
 
     def _choose(self, wanted: str) -> ast.ClassDef | None:
-        """The class of the file in which, or in whose bases, a name of the pattern stands."""
+        """The class of the file that has a name of the pattern, itself or in its bases."""
         mine = [node for node in self.tree.body if isinstance(node, ast.ClassDef)]
         aliases = {
             alias.asname
@@ -87,18 +87,18 @@ class PythonSubject(Subject):
         makes = [
             one
             for one in mine
-            for names in [{name for part in self._family(one) for name in list_names(part)}]
+            for names in [{name for part in self._list_ancestors(one) for name in list_names(part)}]
             if names & aliases or any(re.search(wanted, name) for name in names)
         ]
         found = makes or mine
-        bases = {part.name for one in found for part in self._family(one)[1:]}
+        bases = {part.name for one in found for part in self._list_ancestors(one)[1:]}
         named = [
             one for one in found if one.name.lower() == self.path.stem.replace("_", "").lower()
         ]
         return next(iter(named or [one for one in found if one.name not in bases]), None)
 
-    def _family(self, node: ast.ClassDef) -> list[ast.ClassDef]:
-        """A class and its bases, as far as they are the program's own."""
+    def _list_ancestors(self, node: ast.ClassDef) -> list[ast.ClassDef]:
+        """A class and those of its bases that the program defines."""
         found = [node]
         for one in found:
             names = {name for base in one.bases for name in list_names(base)}
@@ -157,7 +157,7 @@ class PythonSubject(Subject):
         return [one for one in list(sys.modules.values()) if getattr(one, "__file__", "") in files]
 
     def make(self, cls: Any, depth: int = 0) -> Any:  # a class
-        """An object of a class; its constructor gets what a robot's program would give it."""
+        """An object of a class; its constructor gets the same kind of arguments as on a robot."""
         own = getattr(cls, "__module__", "") in {one.__name__ for one in self.modules}
         if not own:
             return make_library_object(cls)
@@ -183,7 +183,7 @@ class PythonSubject(Subject):
         return Unknown(name)
 
     def find_routines(self) -> list[Any]:
-        """The routines that a method makes when somebody asks for one, or for a test."""
+        """The routines that a call of a method makes."""
         return list_made("routines", self._ask_methods)
 
     def _ask_methods(self) -> None:
@@ -194,7 +194,7 @@ class PythonSubject(Subject):
         """The methods of a class and its bases that give tests or a routine."""
         return [
             one
-            for part in (self._family(owner)[::-1] if owner is not None else ())
+            for part in (self._list_ancestors(owner)[::-1] if owner is not None else ())
             for one in part.body
             if isinstance(one, ast.FunctionDef) and one.name != "__init__"
             if any(isinstance(node, ast.Return) and node.value for node in ast.walk(one))
@@ -230,7 +230,7 @@ class PythonSubject(Subject):
             signal.setitimer(signal.ITIMER_VIRTUAL, SECONDS)
 
     def explain(self, error: BaseException) -> tuple[Outcome, str, int, str]:
-        """How an error ended the program."""
+        """The error that ended the program, with its line."""
         steps = traceback.extract_tb(error.__traceback__)
         lines = [one.lineno or 0 for one in steps if one.filename.startswith(str(self.root))]
         line = lines[-1] if lines else 0
@@ -251,7 +251,9 @@ class PythonSubject(Subject):
         if isinstance(error, TypeError) and "Unknown" in str(error):
             return Outcome.CANNOT, f"the grader cannot know a value in line {line}", line, kind
         if isinstance(error, FileNotFoundError | PermissionError):
-            said = f"the grader cannot give the program what it asks for in line {line}: {said}"
+            said = (
+                f"the grader cannot provide the value that the program needs in line {line}: {said}"
+            )
             return Outcome.CANNOT, said, line, kind
         return Outcome.CRASHED, said, line, kind
 
@@ -290,18 +292,18 @@ class PythonSubject(Subject):
         method = getattr(self.instance, "getAutonomousCommand", None)
         return method() if callable(method) else None
 
-    def _node_at(self, line: int, kind: Any) -> Any:  # a class of nodes
+    def _find_node_at(self, line: int, kind: Any) -> Any:  # a class of nodes
         """The smallest node of a kind on a line of the file in hand."""
         nodes = [one for one in ast.walk(self.tree) if isinstance(one, kind)]
         return next((one for one in nodes[::-1] if one.lineno <= line <= one.end_lineno), None)
 
     def owner_at(self, line: int) -> str:
         """The class in which a line stands."""
-        return getattr(self._node_at(line, ast.ClassDef), "name", "")
+        return getattr(self._find_node_at(line, ast.ClassDef), "name", "")
 
     def find_statement(self, line: int) -> tuple[int, int] | None:
         """The first and the last line of the statement that a line is in."""
-        node = self._node_at(line, ast.Assign | ast.AnnAssign | ast.Expr | ast.Return)
+        node = self._find_node_at(line, ast.Assign | ast.AnnAssign | ast.Expr | ast.Return)
         return None if node is None else (node.lineno, node.end_lineno or node.lineno)
 
     def find_uncalled(self) -> list[tuple[str, int]]:
@@ -333,7 +335,7 @@ def list_names(tree: ast.AST) -> set[str]:
 
 
 def _choose_values(parameter: inspect.Parameter) -> list[Any]:
-    """What a parameter of a factory may be given: the constants of an enum, or true and false."""
+    """The possible arguments of a factory's parameter: constants of an enum, or true and false."""
     kind = parameter.annotation
     if kind is parameter.empty or "Direction" in str(kind):
         from commands2.sysid import SysIdRoutine  # noqa: PLC0415 - whichever is there

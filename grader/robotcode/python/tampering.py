@@ -19,40 +19,42 @@ from grader.robotcode.python.sandbox_files import list_program_files
 from sim.core.errors import UnreadableFile
 
 
-def _words(text: str) -> frozenset[str]:
+def _split_words(text: str) -> frozenset[str]:
     return frozenset(text.split())
 
 
-PACKAGES = _words(  # wpilib and commands2, and what they are made of
+PACKAGES = _split_words(  # wpilib and commands2, and what they are made of
     "wpilib commands2 hal ntcore wpimath wpinet wpiutil native numpy typing_extensions"
 )
 
 # Modules that reach into a running program, by whichever name they are met: random._os is os.
-INSIDES = _words(
+INSIDES = _split_words(
     "builtins ctypes ctypeslib gc importlib inspect marshal mmap mock multiprocessing nt pickle "
     "pkgutil posix runpy shutil subprocess unittest"
 )
-NOT_IMPORTED = INSIDES | _words(
+NOT_IMPORTED = INSIDES | _split_words(
     "_thread atexit bdb cProfile code codeop dis doctest faulthandler fcntl grader imp io pdb "
     "profile resource signal site tempfile timeit trace tracemalloc zipimport"
 )
 PARTLY = {  # what is harmless of modules that robot programs do use
-    "os": _words("PathLike curdir environ fspath getcwd getenv linesep listdir name path sep"),
-    "sys": _words(
+    "os": _split_words(
+        "PathLike curdir environ fspath getcwd getenv linesep listdir name path sep"
+    ),
+    "sys": _split_words(
         "argv byteorder exit executable float_info maxsize path platform stderr stdout version "
         "version_info"
     ),
 }
-CALLS = _words(
+CALLS = _split_words(
     "__builtins__ __import__ __loader__ __spec__ breakpoint compile delattr eval exec globals "
     "locals setattr vars"
 )
-ATTRIBUTES = _words(
+ATTRIBUTES = _split_words(
     "ForwardRef _current_frames _evaluate _getframe ag_frame attrgetter cr_frame f_back f_builtins "
     "f_globals f_locals get_type_hints gi_frame hardlink_to methodcaller runstring savetxt "
     "settrace setprofile symlink_to tb_frame tb_next tofile write_bytes write_text"
 )
-DUNDERS = _words(
+DUNDERS = _split_words(
     "__all__ __class__ __doc__ __enter__ __exit__ __file__ __init__ __init_subclass__ __name__ "
     "__post_init__ __qualname__ __version__"
 )
@@ -71,14 +73,14 @@ def refuse_tampering(path: Path) -> None:
     Raises:
         UnreadableFile: it does; where, and what to do.
     """
-    local = _local(path)
-    for file, tree in _parsed(path):
-        line, what = next(_found(file, tree, local), (0, ""))
+    local = _list_local_modules(path)
+    for file, tree in _parse_files(path):
+        line, what = next(_find_tampering(file, tree, local), (0, ""))
         if line:
-            raise _refusal(what, path if file == path else Path(file.name), line)
+            raise _make_refusal(what, path if file == path else Path(file.name), line)
 
 
-def _refusal(what: str, file: Path, line: int) -> UnreadableFile:
+def _make_refusal(what: str, file: Path, line: int) -> UnreadableFile:
     return UnreadableFile(
         f"{what}, so the grader cannot see what this code does",
         where=f"{file}, line {line}",
@@ -86,8 +88,8 @@ def _refusal(what: str, file: Path, line: int) -> UnreadableFile:
     )
 
 
-def _parsed(path: Path) -> Iterator[tuple[Path, ast.Module]]:
-    """The file and what it imports from its own folders, each as a tree.
+def _parse_files(path: Path) -> Iterator[tuple[Path, ast.Module]]:
+    """The syntax trees of the file and of the modules that it imports from its own folders.
 
     Raises:
         UnreadableFile: it is too much, or in an encoding that hides what is in it.
@@ -107,9 +109,9 @@ def _parsed(path: Path) -> Iterator[tuple[Path, ast.Module]]:
         size += len(text)
         if encoding not in UTF_8 or size > MOST_CODE:
             what = "it is too much code" if size > MOST_CODE else f"it is written in {encoding}"
-            raise _refusal(what, path if file == path else Path(file.name), 1)
+            raise _make_refusal(what, path if file == path else Path(file.name), 1)
         yield file, tree
-        asked = {part for node in ast.walk(tree) for part in _imported(node)}
+        asked = {part for node in ast.walk(tree) for part in _list_imported_modules(node)}
         for one in there:
             name = one.parent.name if one.stem == "__init__" else one.stem
             wanted = name in asked or name in sys.stdlib_module_names or name in PACKAGES
@@ -118,13 +120,13 @@ def _parsed(path: Path) -> Iterator[tuple[Path, ast.Module]]:
                 todo.append(one)
 
 
-def _local(path: Path) -> frozenset[str]:
+def _list_local_modules(path: Path) -> frozenset[str]:
     """The names of modules that are the program's own."""
     files = [one for one in list_program_files(path) if one.suffix == ".py"]
     return frozenset({one.stem for one in files} | {one.parent.name for one in files})
 
 
-def _imported(node: ast.AST) -> Iterator[str]:
+def _list_imported_modules(node: ast.AST) -> Iterator[str]:
     """The parts of the names an import asks for."""
     if isinstance(node, ast.Import | ast.ImportFrom):
         for alias in node.names:
@@ -132,11 +134,13 @@ def _imported(node: ast.AST) -> Iterator[str]:
         yield from (getattr(node, "module", None) or "").split(".")
 
 
-def _found(file: Path, tree: ast.Module, local: frozenset[str]) -> Iterator[tuple[int, str]]:
-    """Each line that tampers, and what it does."""
+def _find_tampering(
+    file: Path, tree: ast.Module, local: frozenset[str]
+) -> Iterator[tuple[int, str]]:
+    """Each line that changes Python or WPILib, with a description."""
     if file.stem in PACKAGES:
         yield 1, f"this file replaces WPILib's own {file.stem}"
-    foreign = _foreign(tree, local)
+    foreign = _list_foreign_names(tree, local)
     bases = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Attribute)}
     calls = {id(node.func): node for node in ast.walk(tree) if isinstance(node, ast.Call)}
     for node in ast.walk(tree):
@@ -146,7 +150,7 @@ def _found(file: Path, tree: ast.Module, local: frozenset[str]) -> Iterator[tupl
         elif isinstance(node, ast.Name):
             said = _name(node, id(node) in bases, calls.get(id(node)))
         elif isinstance(node, ast.Attribute):
-            said = _attribute(node, id(node) in bases, calls.get(id(node)), foreign)
+            said = _check_attribute(node, id(node) in bases, calls.get(id(node)), foreign)
         if said:
             yield node.lineno, said  # type: ignore[attr-defined]  # all four kinds have one
 
@@ -171,50 +175,50 @@ def _import(node: ast.Import | ast.ImportFrom, local: frozenset[str]) -> str:
 def _name(node: ast.Name, is_base: bool, call: ast.Call | None) -> str:  # noqa: FBT001 - what is around the node
     if not isinstance(node.ctx, ast.Load):
         return ""
-    if node.id in CALLS or _hidden_part(node.id):
+    if node.id in CALLS or _find_hidden_part(node.id):
         return f"it uses {node.id}"
     if node.id in PARTLY and not is_base:
         return f"it gives {node.id} another name"
-    if node.id == "getattr" and not _plain_getattr(call):
+    if node.id == "getattr" and not _is_plain_getattr(call):
         return "it uses getattr with a name that cannot be read"
     if node.id == "open" and not (_only_reads(call, mode_at=1) or _writes_notes(call)):
         return "it writes a file that may be code"
     return ""
 
 
-def _attribute(
+def _check_attribute(
     node: ast.Attribute,
     is_base: bool,  # noqa: FBT001 - what is around the node
     call: ast.Call | None,
     foreign: frozenset[str],
 ) -> str:
     name, plain = node.attr, node.attr.strip("_")
-    base = _last(node.value).strip("_")
+    base = _get_last_name(node.value).strip("_")
     if base in PARTLY and name not in PARTLY[base]:
         return f"it uses {base}.{name}"
-    if plain in INSIDES or name in ATTRIBUTES or _hidden_part(name):
+    if plain in INSIDES or name in ATTRIBUTES or _find_hidden_part(name):
         return f"it uses {name}"
     if plain in PARTLY and not is_base:
         return f"it gives {name} another name"
     if name == "open" and call is not None and not _only_reads(call, mode_at=0):
         return "it writes a file that may be code"
     if not isinstance(node.ctx, ast.Load) and _of_a_library(node, foreign):
-        return f"it replaces {name} of {_root(node.value) or 'a library'}"
+        return f"it replaces {name} of {_get_root_name(node.value) or 'a library'}"
     return ""
 
 
-def _hidden_part(name: str) -> bool:
+def _find_hidden_part(name: str) -> bool:
     """Whether it is one of Python's own names, ``__dict__``, that lead into its insides."""
     return name.startswith("__") and name.endswith("__") and name not in DUNDERS
 
 
-def _last(node: ast.AST) -> str:
+def _get_last_name(node: ast.AST) -> str:
     if isinstance(node, ast.Attribute):
         return node.attr
     return node.id if isinstance(node, ast.Name) else ""
 
 
-def _plain_getattr(call: ast.Call | None) -> bool:
+def _is_plain_getattr(call: ast.Call | None) -> bool:
     """Whether the name that getattr is asked for can be read, and is an ordinary one."""
     if call is None or len(call.args) < 2 or not isinstance(call.args[1], ast.Constant):  # noqa: PLR2004 - of what, and which
         return False
@@ -240,7 +244,7 @@ def _writes_notes(call: ast.Call | None) -> bool:
     return Path(name.value).suffix in NOTES and not name.value.startswith(("/dev", "/proc"))
 
 
-def _foreign(tree: ast.Module, local: frozenset[str]) -> frozenset[str]:
+def _list_foreign_names(tree: ast.Module, local: frozenset[str]) -> frozenset[str]:
     """The names that stand for something of a library: imported, or another name of that."""
     found: set[str] = set()
     for node in ast.walk(tree):
@@ -253,9 +257,9 @@ def _foreign(tree: ast.Module, local: frozenset[str]) -> frozenset[str]:
                     found.add(alias.asname or top)
     other_names: dict[str, set[str]] = {}
     for node in ast.walk(tree):
-        if isinstance(node, ast.Assign) and not _called(node.value):
+        if isinstance(node, ast.Assign) and not _is_called(node.value):
             names = {one.id for one in node.targets if isinstance(one, ast.Name)}
-            other_names.setdefault(_root(node.value), set()).update(names)
+            other_names.setdefault(_get_root_name(node.value), set()).update(names)
     todo = [*found]
     while todo:
         more = other_names.get(todo.pop(), set()) - found
@@ -266,18 +270,18 @@ def _foreign(tree: ast.Module, local: frozenset[str]) -> frozenset[str]:
 
 def _of_a_library(node: ast.Attribute, foreign: frozenset[str]) -> bool:
     """Whether setting this attribute changes a library, or an object of one."""
-    kinds = [one for one in ast.walk(node.value) if _last(one) in {"type", "__class__"}]
-    if kinds or (_root(node.value) in foreign and not _called(node.value)):
+    kinds = [one for one in ast.walk(node.value) if _get_last_name(one) in {"type", "__class__"}]
+    if kinds or (_get_root_name(node.value) in foreign and not _is_called(node.value)):
         return True
     own = isinstance(node.value, ast.Name) and node.value.id in {"self", "cls"}
     return not own and LIBRARY_METHOD.match(node.attr) is not None
 
 
-def _root(node: ast.AST) -> str:
+def _get_root_name(node: ast.AST) -> str:
     while isinstance(node, ast.Attribute | ast.Subscript | ast.Call):
         node = node.func if isinstance(node, ast.Call) else node.value
     return node.id if isinstance(node, ast.Name) else ""
 
 
-def _called(node: ast.AST) -> bool:
+def _is_called(node: ast.AST) -> bool:
     return any(isinstance(one, ast.Call) for one in ast.walk(node))

@@ -218,8 +218,8 @@ def check_separation(folder: Path, **places: Path | None) -> None:
     for name, path in places.items():
         if path is not None and path.resolve().is_relative_to(folder.resolve()):
             raise BadRequest(
-                f"the {name} lies in the folder of the data, so whoever gets the data "
-                "would get it too",
+                f"the {name} lies in the folder of the data, so everybody who gets the "
+                "data would get it, too",
                 where=str(path),
                 advice="Name another folder with -o"
                 + (", or another place with --key." if name == "key" else "."),

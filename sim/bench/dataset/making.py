@@ -85,7 +85,7 @@ def rehearse_logs(jobs: Iterable[LogJob]) -> None:
 
 
 def _pick_name(one: Choice, number: int) -> Choice:
-    """A choice without chance: one of its names, counted round."""
+    """The name for a log, taken from its names in turn."""
     return replace(one, name=(one.name[number % len(one.name)],), chance=1.0)
 
 

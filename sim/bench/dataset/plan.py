@@ -90,7 +90,7 @@ class LogJob:
 
 
 def draw_one(names: Sequence[str], rng: np.random.Generator) -> str:
-    """One of the names."""
+    """A random name of those given."""
     return names[int(rng.integers(len(names)))]
 
 

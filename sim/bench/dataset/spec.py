@@ -231,7 +231,7 @@ def read_spec(path: Path) -> Spec:
     if isinstance(students, RosterFile):
         advice = "Give the path of a CSV file in UTF-8, seen from the spec's folder."
         roster = read_student_table(path.parent / students.file, what="the roster", advice=advice)
-        advice = f'Name one that is there: students = {{ file = "{students.file}", column = "…" }}'
+        advice = f'Name one of its columns: students = {{ file = "{students.file}", column = "…" }}'
         students = tuple(roster.index_rows(roster.find_column(students.column, advice=advice)))
     total = max(len(students), 1) * sum(one.count * len(one.mechanisms) for one in found.logs)
     if total > MOST_LOGS:

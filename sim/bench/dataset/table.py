@@ -59,7 +59,9 @@ def read_table(kind: type[Table], content: object) -> Table:
     keys = {one.name: one for one in fields(kind) if one.metadata}  # type: ignore[arg-type]
     if not isinstance(content, dict):
         advice = "Write each line as key = value."
-        raise BadRequest(f"there are no keys here, only {show(content)}", advice=advice)
+        raise BadRequest(
+            f"a table of keys belongs here, and this is {show(content)}", advice=advice
+        )
     for name in content:
         if name not in keys:
             raise BadRequest(f"unknown key {show(name)}", advice=suggest_word(name, tuple(keys)))

@@ -55,7 +55,7 @@ def _list_groups(found: Fit, log: Log, top: str, unit: Unit) -> Iterator[SignalG
     for (k, run), replay in zip(runs, replay_fit(found, log), strict=False):
         yield _make_group(replay, run, [one for one in faults if one.where.run == k], top, unit)
     for innovations in compute_innovations(found, log):
-        yield from _innovation_groups(innovations, top, unit)
+        yield from _group_innovations(innovations, top, unit)
 
 
 def _make_group(
@@ -79,7 +79,7 @@ def _make_group(
     return SignalGroup(time, signals, texts | ({f"{top}/fault": sorted(marks)} if marks else {}))
 
 
-def _innovation_groups(one: RunInnovations, top: str, unit: Unit) -> Iterator[SignalGroup]:
+def _group_innovations(one: RunInnovations, top: str, unit: Unit) -> Iterator[SignalGroup]:
     """The innovations of one run; positions and velocities can be measured at different times."""
     for name, time, values in (
         ("position", one.position_time, one.position),

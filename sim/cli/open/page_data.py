@@ -240,7 +240,7 @@ def _describe_verdict(found: Fit, log: Log) -> dict[str, str]:
 
 
 def describe_directions(one: OpenLog, reading: Reading) -> dict[str, Any]:
-    """Where forward and reverse runs, each fitted alone, disagree; and the verdict that knows it.
+    """The places where separate fits of forward and reverse runs disagree, and their verdict.
 
     Raises:
         Refusal: the log cannot be read or fitted.
@@ -296,7 +296,7 @@ def write_code(
     """
     language, season = query.get("language", "java"), query.get("season", "2026")
     if not season.isdecimal():
-        raise BadRequest("there is no such season", advice="Choose 2026.")
+        raise BadRequest("this season is not supported", advice="Choose 2026.")
     compared = one.fit(reading).found if chosen else one.compare_directions(reading)[0]
     found = _apply_model(compared.in_log_units(), chosen)
     moved = {name: float(query[name]) for name in found.gains if _is_number(query.get(name, ""))}

@@ -175,7 +175,7 @@ def search_effects(
     left_out: Sequence[LeftOutPart] = (),
     **more: Any,  # noqa: ANN401 - passed on
 ) -> Story:
-    """The story of these logs; damage is excluded, and what the user left out.
+    """The story of these logs, without damage and without the parts that the user left out.
 
     Args:
         logs: ``log``, and ``validation`` and ``held_out`` if they are given.

@@ -121,7 +121,7 @@ class PageRequest(BaseHTTPRequestHandler):
         """Print nothing: the terminal is for the address."""
 
     def _is_ours(self) -> bool:
-        """Whether the Host and Origin headers are those of our own page."""
+        """Whether the Host and Origin headers are from our own page."""
         hosts = self.server.hosts
         origin = self.headers.get("Origin")
         return self.headers.get("Host") in hosts and (
@@ -129,7 +129,7 @@ class PageRequest(BaseHTTPRequestHandler):
         )
 
     def _answer(self, steps: list[str], query: Mapping[str, str]) -> None:
-        """Send a file of the page or data about a log; open, close or stop what is named."""
+        """Answer a request: send a file of the page or data about a log, or open, close or stop."""
         session = self.server.session
         match self.command, steps:
             case "GET", [] | [""]:

@@ -180,11 +180,11 @@ class OpenLog:
         )
 
     def _read_rest(self, reading: Reading) -> dict[str, Log]:
-        """The log of each mechanism, side or motor without what the user left out."""
+        """The log of each mechanism, side or motor, without the parts that the user left out."""
         return leave_out(self.read_parts(reading), map(LeftOutPart.parse, reading.left_out))
 
     def keep_fit(self, pooled: PooledParts) -> None:
-        """Take a fit that was already computed, of the log as it is."""
+        """Store a fit of the complete log that was already computed."""
         self._results[self.revision, ("fit", Reading())] = pooled
 
     def reconcile(

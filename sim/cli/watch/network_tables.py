@@ -63,7 +63,7 @@ class NetworkTablesSource:
 
     @property
     def status(self) -> str:
-        """The status: what it waits for or follows."""
+        """The status: waiting for a server, or following one."""
         if self._connected:
             return f"following NetworkTables of {self._address}"
         again = " again" if self._recordings else ""
@@ -175,7 +175,7 @@ class _TopicRecorder:
                 self._tests[name] = (self._count_microseconds(time), test)
         metadata = json.dumps({"properties": properties, "source": "NT"})  # as DataLogManager
         self._file.record(
-            _entry_name(name), kind, self._count_microseconds(time), value, metadata=metadata
+            _make_entry_name(name), kind, self._count_microseconds(time), value, metadata=metadata
         )
 
     def _count_microseconds(self, time: int) -> int:
@@ -190,11 +190,11 @@ class _TopicRecorder:
         """Close the file, and replace the name of a test that was still running."""
         for name, (since, test) in self._tests.items():
             if test in TESTS:
-                self._file.record(_entry_name(name), STRING, since, INTERRUPTED)
+                self._file.record(_make_entry_name(name), STRING, since, INTERRUPTED)
         self._file.close()
 
 
-def _entry_name(topic: str) -> str:
+def _make_entry_name(topic: str) -> str:
     """The name that WPILib's DataLogManager gives to a topic in a log."""
     return f"NT:{topic}"
 
@@ -225,7 +225,7 @@ def _split_address(address: str) -> tuple[str, int]:
     host, _, port = address.partition(":")
     if not re.fullmatch(r"[\w.-]+", host) or (port and not port.isdecimal()):
         raise BadRequest(
-            f"{address!r} is no address",
+            f"{address!r} is not an address",
             advice="Give localhost, an address like 10.12.34.2, or the number of your team.",
         )
     if host.isdecimal() and not 0 < int(host) <= LARGEST_TEAM:

@@ -34,7 +34,7 @@ def compare_sides(left: Fit, right: Fit) -> tuple[Doubt, ...]:
         BadRequest: one measures a length, the other an angle.
     """
     one = fit_in_si(left)
-    return _differing_gains(one, right.in_units(one.units), ("left", "right"), "side")
+    return _doubt_differing_gains(one, right.in_units(one.units), ("left", "right"), "side")
 
 
 def compare_parts(fits: Mapping[str, Fit], what: str) -> tuple[Doubt, ...]:
@@ -56,7 +56,7 @@ def compare_parts(fits: Mapping[str, Fit], what: str) -> tuple[Doubt, ...]:
             low, *_, high = sorted(having, key=lambda name: alike[name].gains[gain])
             low, high = sorted((low, high), key=having.index)  # in the order of the parts
             names = (low, high)
-            doubts += _differing_gains(alike[low], alike[high], names, what, only=gain)
+            doubts += _doubt_differing_gains(alike[low], alike[high], names, what, only=gain)
     return tuple(doubts)
 
 
@@ -81,10 +81,10 @@ def compare_directions(log: Log, type: str) -> tuple[Doubt, ...]:  # noqa: A002 
             fits.append(fit_output_error(replace(log, runs=runs), type=type))
         except NotIdentifiable:
             return ()
-    return _differing_gains(fits[0], fits[1], DIRECTIONS, "direction")
+    return _doubt_differing_gains(fits[0], fits[1], DIRECTIONS, "direction")
 
 
-def _differing_gains(
+def _doubt_differing_gains(
     one: Fit, other: Fit, names: tuple[str, ...], what: str, *, only: str = ""
 ) -> tuple[Doubt, ...]:
     """Doubts about gains that differ significantly, and by more than ``APART`` and ``NOTICED``."""

@@ -34,7 +34,7 @@ MISTAKEN = (
         "you gave half the trackwidth T, the lever of a tank drive. Give T/√2 for a square swerve",
     ),
     (1.0 / math.sqrt(2.0), "you gave the trackwidth T. Give T/√2 for a square swerve"),
-    (0.5, "you gave the trackwidth. Give half of it for a tank drive"),
+    (0.5, "you gave the trackwidth. For a tank drive, give half of the trackwidth"),
     *FACTORS,
 )
 """Ratio of the lever arm from the speeds to the given one, and the mistake that causes it."""
@@ -93,7 +93,7 @@ def compute_moment_of_inertia(
             a position of the wrong kind, or a kV or kA that is not positive.
     """
     if by_wheels:
-        turning = _per_radian(turning, lever)
+        turning = _convert_to_radians(turning, lever)
     _refuse_unusable(turning, straight, mass=mass, lever=lever)
     turn, go = fit_in_si(turning), fit_in_si(straight)
     in_turns = find_unit(straight.units).angular
@@ -106,7 +106,7 @@ def compute_moment_of_inertia(
     if lever is None or in_turns:
         parts += [one.errors["kV"] / one.gains["kV"] for one in (turn, go)]
     own = sorted(value - share * (mass * arm**2 - value) for share in ROTORS)
-    doubts = () if lever is None else tuple(_lever_doubts(turn, go, from_speeds, lever))
+    doubts = () if lever is None else tuple(_doubt_lever(turn, go, from_speeds, lever))
     return MomentOfInertia(
         value,
         value * math.hypot(*parts),
@@ -117,7 +117,7 @@ def compute_moment_of_inertia(
     )
 
 
-def _per_radian(turning: Fit, lever: float | None) -> Fit:
+def _convert_to_radians(turning: Fit, lever: float | None) -> Fit:
     """The fit of turning per radian of the robot, from that per meter of its wheels."""
     if lever is None:
         raise BadRequest(
@@ -168,7 +168,7 @@ def _refuse_unusable(turning: Fit, straight: Fit, *, mass: float, lever: float |
             )
 
 
-def _lever_doubts(turn: Fit, go: Fit, from_speeds: float, lever: float) -> list[Doubt]:
+def _doubt_lever(turn: Fit, go: Fit, from_speeds: float, lever: float) -> list[Doubt]:
     """A doubt if the lever arm from the speeds differs from the given one."""
     unsure = SURELY * math.hypot(*(one.errors["kV"] / one.gains["kV"] for one in (turn, go)))
     share = from_speeds / lever

@@ -51,7 +51,7 @@ def check_theory(found: Fit, parts: Parts) -> list[Doubt]:
         BadRequest: a radius although the position is an angle, or none although it is a length.
     """
     check_radius_unit(parts, found)
-    return [*_kv(found, parts), *_ka(found, parts)]
+    return [*_check_kv(found, parts), *_check_ka(found, parts)]
 
 
 def describe_theory(found: Fit, parts: Parts) -> str:
@@ -78,7 +78,7 @@ def describe_theory(found: Fit, parts: Parts) -> str:
     )
 
 
-def _kv(found: Fit, parts: Parts) -> list[Doubt]:
+def _check_kv(found: Fit, parts: Parts) -> list[Doubt]:
     """Doubts about kV."""
     kv, error = found.gains["kV"], found.errors["kV"]
     if kv <= 0.0:
@@ -88,7 +88,7 @@ def _kv(found: Fit, parts: Parts) -> list[Doubt]:
     said += f" from theory (12 V divided by the free speed of {parts.count} × {parts.motor.name})"
     named = [*_explain_ratio(share, parts)]
     if share + unsure < BELOW:
-        why = " or ".join(named) or f"a wrong unit, {_parts_instead(kv, parts)}"
+        why = " or ".join(named) or f"a wrong unit, {_suggest_other_parts(kv, parts)}"
         return [
             Doubt(
                 "kv-below-theory",
@@ -105,7 +105,7 @@ def _kv(found: Fit, parts: Parts) -> list[Doubt]:
                 "kv-above-theory",
                 f"{said}. Drag alone does not explain so much. Check the units first, then "
                 "whether the log has the applied voltage, then for "
-                f"{_parts_instead(kv, parts)}, and at last for a part that rubs.",
+                f"{_suggest_other_parts(kv, parts)}, and at last for a part that rubs.",
             )
         ]
     if share - unsure > DRAG:
@@ -149,7 +149,7 @@ def _explain_ratio(share: float, parts: Parts) -> list[str]:
     return [f"a factor of {factor:.3g} ({why})" for _, factor, why in sorted(near)[:2]]
 
 
-def _parts_instead(kv: float, parts: Parts) -> str:
+def _suggest_other_parts(kv: float, parts: Parts) -> str:
     """The ratio, the radius and the motors that would explain the fitted kV."""
     share = kv / (parts.motor.back_emf * parts.ratio / parts.radius)
     would = [f"a gear ratio of {parts.ratio * share:.3g}"]
@@ -167,7 +167,7 @@ def _parts_instead(kv: float, parts: Parts) -> str:
     return " or ".join(would)
 
 
-def _ka(found: Fit, parts: Parts) -> list[Doubt]:
+def _check_ka(found: Fit, parts: Parts) -> list[Doubt]:
     """Doubts about kA."""
     ka, theory = found.gains["kA"], parts.ka
     if theory is None or ka <= 0.0:
@@ -178,7 +178,7 @@ def _ka(found: Fit, parts: Parts) -> list[Doubt]:
     difference = _describe_difference(found, "kA", theory)
     said = f"{difference} from theory ({size} on {motors}, without their rotors)"
     where = _place_to_look(found.gains["kV"] / parts.kv, share)
-    if _kv_fits(found.gains["kV"] / parts.kv):
+    if _is_kv_plausible(found.gains["kV"] / parts.kv):
         where = f"{where} ({_load_instead(share, parts, size.rpartition(' ')[2])} would fit)"
     if share + unsure < LIGHT:
         return [
@@ -199,14 +199,14 @@ def _ka(found: Fit, parts: Parts) -> list[Doubt]:
     return []
 
 
-def _kv_fits(share: float) -> bool:
+def _is_kv_plausible(share: float) -> bool:
     """Whether this share of the theoretical kV is normal."""
     return BELOW < share < DRAG
 
 
 def _place_to_look(kv: float, ka: float) -> str:
     """Half a sentence of advice, from the shares of the theoretical kV and kA."""
-    if _kv_fits(kv):
+    if _is_kv_plausible(kv):
         return "kV fits, so look at the load, the number of motors and the voltage logged"
     if LIGHT / DRAG < ka / kv < HEAVY / BELOW:
         return (

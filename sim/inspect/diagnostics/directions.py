@@ -28,7 +28,7 @@ class _Line:
 
 def check_directions(features: LogFeatures) -> list[Doubt]:
     """Doubts about forward and reverse ramps that need different voltages for one speed."""
-    forward, reverse = (_line(features, way) for way in DIRECTIONS)
+    forward, reverse = (_fit_direction(features, way) for way in DIRECTIONS)
     if forward is None or reverse is None:
         return []
     ks, kv = 0.5 * (forward.ks + reverse.ks), 0.5 * (forward.kv + reverse.kv)
@@ -61,7 +61,7 @@ def check_directions(features: LogFeatures) -> list[Doubt]:
     return doubts
 
 
-def _line(features: LogFeatures, way: str) -> _Line | None:
+def _fit_direction(features: LogFeatures, way: str) -> _Line | None:
     """The line of voltage over velocity of a direction's first ramp; None if there is none."""
     runs = [i for i, run in enumerate(features.log.runs) if run.test == f"quasistatic-{way}"]
     if not runs or features.baseline is None:
@@ -78,7 +78,9 @@ def _line(features: LogFeatures, way: str) -> _Line | None:
     load = np.zeros(len(run))
     if features.log.type in ("elevator", "arm"):
         load = baseline.compute_gravity(run.position)
-    volts = (sign * (run.voltage - load - baseline.ka * _acceleration(run, features.period)))[fast]
+    volts = (
+        sign * (run.voltage - load - baseline.ka * _compute_acceleration(run, features.period))
+    )[fast]
     speed = np.abs(run.velocity[fast])
     if not np.ptp(speed):  # the sensor is so coarse that there is only one speed
         return None
@@ -87,7 +89,7 @@ def _line(features: LogFeatures, way: str) -> _Line | None:
     return _Line(float(ks), float(kv), float(errors[1]), float(errors[0]))
 
 
-def _acceleration(run: Run, period: float) -> Array:
+def _compute_acceleration(run: Run, period: float) -> Array:
     """(n,) [m/s² or rad/s²] slope of the velocity over ``SMOOTH`` to both sides."""
     reach = max(1, round(SMOOTH / period))
     late = np.minimum(np.arange(len(run)) + reach, len(run) - 1)

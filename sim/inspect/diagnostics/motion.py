@@ -1,4 +1,4 @@
-"""Check the motion: whether there is enough of it, and whether the gains reproduce it."""
+"""Check the motion: whether the log has enough of it, and whether the gains reproduce it."""
 
 import numpy as np
 
@@ -77,7 +77,7 @@ def check_repeated_tests(features: LogFeatures) -> list[Doubt]:
         runs = [i for i, run in enumerate(features.log.runs) if run.test == test]
         if len(runs) < 2 or not features.predicted_velocities:  # noqa: PLR2004 - two runs to compare
             continue
-        ahead = [_speed_excess(features, i) for i in runs]
+        ahead = [_measure_speed_excess(features, i) for i in runs]
         apart = max(ahead) - min(ahead)
         if apart > REPEATABLE:
             doubts.append(
@@ -91,7 +91,7 @@ def check_repeated_tests(features: LogFeatures) -> list[Doubt]:
     return doubts
 
 
-def _speed_excess(features: LogFeatures, index: int) -> float:
+def _measure_speed_excess(features: LogFeatures, index: int) -> float:
     """[share of its top speed] median of a run's velocity minus the predicted one."""
     run = features.log.runs[index]
     if not run.moving.any():
@@ -107,7 +107,7 @@ def check_too_little_motion(features: LogFeatures) -> list[Doubt]:
     doubts = []
     runs = [run for run in features.log.runs if len(run)]
     if runs and all(not np.ptp(run.position) and not run.velocity.any() for run in runs):
-        return [_nothing_moves(runs)]
+        return [_doubt_motion(runs)]
     for run in features.log.runs:
         moving = int((run.moving & (np.abs(run.velocity) > features.still_speed)).sum())
         if moving < MIN_SAMPLES and run.kind in ("quasistatic", "dynamic"):
@@ -115,10 +115,10 @@ def check_too_little_motion(features: LogFeatures) -> list[Doubt]:
                 Doubt(
                     "little-motion",
                     f"Only {moving} of the {len(run)} samples of {run.test} are in motion, so "
-                    f"this run contains almost no information. {_more_motion(run)}",
+                    f"this run contains almost no information. {_advise_more_motion(run)}",
                 )
             )
-        elif run.kind == "dynamic" and (samples := _rise_samples(run)) < RISE:
+        elif run.kind == "dynamic" and (samples := _count_rise_samples(run)) < RISE:
             doubts.append(
                 Doubt(
                     "short-rise",
@@ -130,7 +130,7 @@ def check_too_little_motion(features: LogFeatures) -> list[Doubt]:
     return doubts
 
 
-def _more_motion(run: Run) -> str:
+def _advise_more_motion(run: Run) -> str:
     """Advice to make a run move more: a longer one, or a higher voltage."""
     most = float(np.abs(run.voltage).max(initial=0.0))
     if run.kind == "quasistatic":
@@ -141,7 +141,7 @@ def _more_motion(run: Run) -> str:
     return f"Let it run longer than {lasts:.1f} s, or use a larger step than {most:.2g} V."
 
 
-def _nothing_moves(runs: list[Run]) -> Doubt:
+def _doubt_motion(runs: list[Run]) -> Doubt:
     """A grave warning about a log without any motion."""
     volts = max(float(np.abs(run.voltage).max()) for run in runs)
     lasts = max(float(np.ptp(run.time)) for run in runs)
@@ -155,7 +155,7 @@ def _nothing_moves(runs: list[Run]) -> Doubt:
     )
 
 
-def _rise_samples(run: Run) -> int:
+def _count_rise_samples(run: Run) -> int:
     """[samples] between 10 % and 90 % of the top speed; all if it starts in motion."""
     done = int(np.argmax(np.abs(run.velocity) > 0.9 * run.top_speed))
     return len(run) if run.moving[0] else done - int(np.argmax(run.moving))
@@ -167,7 +167,7 @@ def check_ramp_rate(features: LogFeatures) -> list[Doubt]:
     ramps = [run for run in long if run.kind == "quasistatic"]
     if features.baseline is None or not ramps:
         return []
-    rate = float(np.median([_ramp_rate(run) for run in ramps]))
+    rate = float(np.median([_measure_ramp_rate(run) for run in ramps]))
     shift = features.baseline.timescale * rate
     if shift < INTERCEPT:
         return []
@@ -183,7 +183,7 @@ def check_ramp_rate(features: LogFeatures) -> list[Doubt]:
     ]
 
 
-def _ramp_rate(run: Run) -> float:
+def _measure_ramp_rate(run: Run) -> float:
     """[V/s] slope of a ramp's first part, which a weak battery does not flatten."""
     size = np.abs(run.voltage)
     low, high = (int(np.argmax(size > share * size.max())) for share in (0.1, 0.6))

@@ -85,10 +85,12 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
 
 def detect(features: LogFeatures) -> Iterable[Damage]:
     """Find brownouts: by the bus voltage, by the applied voltage, else by the motion."""
-    cuts = [found for index in range(len(features.log.runs)) for found in _cuts(features, index)]
+    cuts = [
+        found for index in range(len(features.log.runs)) for found in _detect_cuts(features, index)
+    ]
     yield from cuts
     for anomaly in features.anomalies:
-        found = _unpowered(features, anomaly)
+        found = _detect_unpowered_motion(features, anomaly)
         if found and not any(_overlap(found.where, other.where) for other in cuts):
             yield found
 
@@ -98,11 +100,11 @@ def _overlap(one: LogInterval, other: LogInterval) -> bool:
     return one.run == other.run and min(one.end, other.end) > max(one.start, other.start)
 
 
-def _cuts(features: LogFeatures, index: int) -> list[Damage]:
+def _detect_cuts(features: LogFeatures, index: int) -> list[Damage]:
     """Brownouts that the recorded voltages show."""
     run = features.log.runs[index]
     size = np.abs(run.voltage)
-    off = _gaps(size > DRIVEN * size.max(initial=0.0), run.time)
+    off = _find_gaps(size > DRIVEN * size.max(initial=0.0), run.time)
     if run.bus_voltage is None:
         low = np.zeros(len(run), dtype=bool)
         if len(off) < CHOPPED:
@@ -120,7 +122,7 @@ def _cuts(features: LogFeatures, index: int) -> list[Damage]:
     return [_describe_cut(features, index, int(part[0]), int(part[-1])) for part in parts]
 
 
-def _gaps(on: NDArray[np.bool_], time: Array) -> list[tuple[int, int]]:
+def _find_gaps(on: NDArray[np.bool_], time: Array) -> list[tuple[int, int]]:
     """First and last index of each interval of ``OFF`` seconds without voltage."""
     at = np.flatnonzero(on)
     ends = np.flatnonzero(np.diff(at) > 1)
@@ -150,11 +152,11 @@ def _describe_cut(features: LogFeatures, index: int, first: int, last: int) -> D
         where=LogInterval(index, run.test, start, end),
         confidence=BUS_CONFIDENCE if bus is not None else CUT_CONFIDENCE,
         evidence=f"{happened}.",
-        advice=_advice(run),
+        advice=_write_advice(run),
     )
 
 
-def _advice(run: Run) -> str:
+def _write_advice(run: Run) -> str:
     """The advice for a run."""
     what = "step" if run.kind == "dynamic" else "end of the ramp"
     most = float(np.abs(run.voltage).max(initial=0.0))
@@ -164,7 +166,7 @@ def _advice(run: Run) -> str:
     )
 
 
-def _unpowered(features: LogFeatures, anomaly: Anomaly) -> Damage | None:
+def _detect_unpowered_motion(features: LogFeatures, anomaly: Anomaly) -> Damage | None:
     """A brownout that explains an anomaly; None if it does not, or something contradicts it."""
     share, first, last = _fit_cut(features, anomaly)
     run = features.log.runs[anomaly.run]
@@ -183,14 +185,14 @@ def _unpowered(features: LogFeatures, anomaly: Anomaly) -> Damage | None:
     return Damage(
         fault="brownout",
         where=LogInterval(anomaly.run, run.test, start, end),
-        confidence=_confidence(share, back=back, has_bus=bus is not None),
+        confidence=_rate_confidence(share, back=back, has_bus=bus is not None),
         evidence=f"For {end - start:.2f} s the mechanism slows down as if its motors were off, "
         f"but the log still shows {volts:.1f} V{said}.",
-        advice=f"{_advice(run)} Log the applied voltage instead of the commanded voltage.",
+        advice=f"{_write_advice(run)} Log the applied voltage instead of the commanded voltage.",
     )
 
 
-def _confidence(share: float, *, back: bool, has_bus: bool) -> float:
+def _rate_confidence(share: float, *, back: bool, has_bus: bool) -> float:
     """Confidence from the share explained; lower if the motion never returns."""
     if not back and not has_bus:
         return NOT_BACK * share
@@ -208,14 +210,28 @@ def _fit_cut(features: LogFeatures, anomaly: Anomaly) -> tuple[float, int, int]:
     for first in range(anomaly.first - margin, anomaly.first + 1, stride):
         if first >= anomaly.begin:
             best = max(
-                best, *((_share(features, anomaly, first, e), first, e) for e in ends.tolist())
+                best,
+                *(
+                    (_measure_explained_share(features, anomaly, first, e), first, e)
+                    for e in ends.tolist()
+                ),
             )
     _, first, last = best
     near = range(max(last - margin, first + 1), min(last + margin, anomaly.end))
-    return max([best, *((_share(features, anomaly, first, end), first, end) for end in near)])
+    return max(
+        [
+            best,
+            *(
+                (_measure_explained_share(features, anomaly, first, end), first, end)
+                for end in near
+            ),
+        ]
+    )
 
 
-def _share(features: LogFeatures, anomaly: Anomaly, first: int, last: int) -> float:
+def _measure_explained_share(
+    features: LogFeatures, anomaly: Anomaly, first: int, last: int
+) -> float:
     """Share of an anomaly that a cut from sample ``first`` to before ``last`` explains."""
     run, baseline = features.log.runs[anomaly.run], features.baseline
     if baseline is None:

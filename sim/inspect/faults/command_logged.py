@@ -54,7 +54,7 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
     features, where = LogFeatures(log), []
     for index, run in enumerate(features.log.runs):
         if run.kind == log.runs[strike.run].kind:
-            spoilt = _clipped(features, index, keeps=float(KEEPS ** np.cbrt(strike.severity)))
+            spoilt = _clip_voltage(features, index, keeps=float(KEEPS ** np.cbrt(strike.severity)))
             if spoilt is not None:
                 log = replace_run(log, index, spoilt)
                 where.append(LogInterval.of_samples(index, run))
@@ -105,7 +105,7 @@ def _detect_limit(index: int, run: Run, rise: StepRise) -> Damage | None:
     )
 
 
-def _clipped(features: LogFeatures, index: int, *, keeps: float) -> Run | None:
+def _clip_voltage(features: LogFeatures, index: int, *, keeps: float) -> Run | None:
     """The run with ``keeps`` [share] of its acceleration at the start; None if it has no step."""
     run, baseline = features.log.runs[index], features.baseline
     driven = np.flatnonzero(np.abs(run.voltage) > DRIVEN * np.abs(run.voltage).max(initial=0.0))

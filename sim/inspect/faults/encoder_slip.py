@@ -69,7 +69,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
         start, end = (float(run.time[anomaly.begin + i]) for i in (first, last - 1))
         if share < BELIEVED or not back or end - start > MOST:
             continue
-        evidence, advice = _explain(
+        evidence, advice = _describe_slip(
             abs(loss), low=loss > 0, samples=last - first, lasts=end - start
         )
         yield Damage(
@@ -81,7 +81,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
         )
 
 
-def _explain(loss: float, *, low: bool, samples: int, lasts: float) -> tuple[str, str]:
+def _describe_slip(loss: float, *, low: bool, samples: int, lasts: float) -> tuple[str, str]:
     """Evidence and advice about a slip, or about single wrong readings."""
     off = f"{loss:.0%} too {'low' if low else 'high'}"
     if samples < FEWEST:
@@ -122,16 +122,16 @@ def _fit_slip(anomaly: Anomaly, period: float) -> tuple[float, float, int, int]:
 
 
 def _search_spans(anomaly: Anomaly, *, fading: bool, margin: int) -> tuple[float, float, int, int]:
-    """The best result of ``_loss`` over all candidate spans of an anomaly."""
+    """The best result of ``_measure_loss`` over all candidate spans of an anomaly."""
     best = (0.0, 0.0, 0, 1)
     for span in anomaly.list_candidate_spans(margin=margin):
-        best = max(best, _loss(anomaly, span, fading=fading))
+        best = max(best, _measure_loss(anomaly, span, fading=fading))
     for span in anomaly.refine_spans(best[2:], margin=margin):
-        best = max(best, _loss(anomaly, span, fading=fading))
+        best = max(best, _measure_loss(anomaly, span, fading=fading))
     return best
 
 
-def _loss(
+def _measure_loss(
     anomaly: Anomaly, span: tuple[int, int], *, fading: bool
 ) -> tuple[float, float, int, int]:
     """How well a loss of speed over a span explains an anomaly: share, loss [share], the span.

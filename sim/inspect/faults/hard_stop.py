@@ -99,16 +99,16 @@ def _find_stop(index: int, run: Run, *, still: float, period: float) -> Damage |
         fault="hard-stop",
         where=LogInterval.of_samples(index, run, impact),
         confidence=share,
-        evidence=f"The mechanism stops from {_percent(speed, run)} of its top speed within "
+        evidence=f"The mechanism stops from {_format_percent(speed, run)} of its top speed within "
         f"{SETTLES:g} s and stays there for {lasts:.2f} s, although the voltage stays "
         f"at up to {volts[impact:].max():.1f} V: it hit its end, "
-        f"{_distance(run, impact):.3g} from where the run started.",
+        f"{_measure_distance(run, impact):.3g} from where the run started.",
         advice="Keep only the part of the run before the impact. Or set soft limits, run the test "
         "again, and let go of the button earlier.",
     )
 
 
-def _distance(run: Run, impact: int) -> float:
+def _measure_distance(run: Run, impact: int) -> float:
     """[m or rad] distance from the start of the run to the impact."""
     return abs(float(run.position[impact] - run.position[0]))
 
@@ -188,7 +188,7 @@ def _extend(run: Run, *, until: float) -> Run:
     )
 
 
-def _percent(speed: float, run: Run) -> str:
+def _format_percent(speed: float, run: Run) -> str:
     """A speed in percent of the run's largest one."""
     return f"{min(1.0, speed / float(np.abs(run.velocity).max())):.0%}"
 

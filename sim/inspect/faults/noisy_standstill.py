@@ -52,7 +52,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
         still = features.rest_lengths[index] if run.kind == "quasistatic" else 0
         if still >= FEWEST:
             rests[index] = run.velocity[:still]
-    noise = _noise(list(rests.values()))
+    noise = _measure_noise(list(rests.values()))
     if not noise > LOUD * top:
         return
     confidence = 1.0 - 0.5 * 10.0 ** (-noise / (SURE * LOUD * top))
@@ -60,7 +60,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
         yield _damage(index, features.log.runs[index], rest, noise, confidence)
 
 
-def _noise(rests: list[Array]) -> float:
+def _measure_noise(rests: list[Array]) -> float:
     """[m/s or rad/s] standard deviation of the noise at rest, without drift; 0 if nothing rests."""
     steps = np.concatenate([np.diff(rest) for rest in rests] or [np.zeros(1)])
     return float(np.sqrt(np.mean(steps**2) / 2.0))

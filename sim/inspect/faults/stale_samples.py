@@ -50,7 +50,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
         for name, step in steps.items()
     }
     for index, run in enumerate(features.log.runs):
-        stale = {name: runs[index] for name, runs in held.items() if _stale(runs, index)}
+        stale = {name: runs[index] for name, runs in held.items() if _is_stale(runs, index)}
         if stale:
             yield _damage(index, run, stale)
 
@@ -63,7 +63,7 @@ def _count_held(values: Array, moving: Flags, *, step: float) -> Counts:
     return np.asarray(lengths[1:-1][between])
 
 
-def _stale(runs: list[Counts], index: int) -> bool:
+def _is_stale(runs: list[Counts], index: int) -> bool:
     """Whether a run's readings usually repeat; with few readings, those of the log decide."""
     own = runs[index]
     proof = own if own.size >= FEWEST else np.concatenate(runs)
@@ -87,7 +87,7 @@ def _damage(index: int, run: Run, stale: dict[str, Counts]) -> Damage:
         longest.get("position", 0.0) <= FRAME and longest.get("velocity", 0.0) <= VELOCITY_FRAME
     )
     advice = (
-        "This is no fault. For a more accurate kA, raise the rate of the controller's status "
+        "This is not a fault. For a more accurate kA, raise the rate of the controller's status "
         "frames."
         if ordinary
         else "Raise the rate of the controller's status frames to 20 ms or faster, and record "

@@ -55,7 +55,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
         together = np.stack((run.position, run.velocity))
         changed = np.any(np.diff(together, axis=1) != 0.0, axis=0)
         starts, lengths = find_held_samples(np.concatenate(([0], np.cumsum(changed))).astype(float))
-        shortest = max(FEWEST, UNUSUAL * _usual(features, index))
+        shortest = max(FEWEST, UNUSUAL * _measure_usual_hold(features, index))
         for first, length in zip(starts[lengths >= shortest], lengths[lengths >= shortest]):  # noqa: B905 - both have the same mask
             last = int(first + length - 1)
             if run.time[min(last + 1, len(run) - 1)] - run.time[first] < SHORTEST:
@@ -65,16 +65,16 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
                 yield _damage(index, run, int(first), last, hidden)
 
 
-def _usual(features: LogFeatures, index: int) -> float:
+def _measure_usual_hold(features: LogFeatures, index: int) -> float:
     """[samples] usual length of a repeated reading in motion, of the slower signal."""
     run = features.log.runs[index]
     return max(
-        _median_hold(*find_held_samples(v), run.moving.nonzero()[0])
+        _measure_median_hold(*find_held_samples(v), run.moving.nonzero()[0])
         for v in (run.position, run.velocity)
     )
 
 
-def _median_hold(starts: Counts, lengths: Counts, moving: Counts) -> float:
+def _measure_median_hold(starts: Counts, lengths: Counts, moving: Counts) -> float:
     """[samples] median length of the readings that start in motion; 1 if there is none."""
     judged = lengths[np.isin(starts, moving)]
     return float(np.median(judged)) if judged.size else 1.0

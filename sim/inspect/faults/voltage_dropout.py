@@ -122,7 +122,7 @@ def measure_loss(run: Run, drop: Dropout) -> tuple[float, int, float]:
 def _group_drops(
     index: int, run: Run, drops: list[Dropout]
 ) -> list[tuple[LogInterval, list[Dropout]]]:
-    """The drop-outs as they are reported: a series together, a few one by one."""
+    """The drop-outs grouped for the report: a series as one group, a few single ones each alone."""
     reports = [drops] if len(drops) >= SERIES else [[drop] for drop in drops]
     return [
         (

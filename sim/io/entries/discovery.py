@@ -144,7 +144,7 @@ def select_driven_devices(
     """
     usable = [device for device in devices if can_be_fitted(device.signals)]
     usable = [device for device in usable if device.is_complete] or usable
-    levels = [(device, _rms_voltage(device, tests)) for device in usable]
+    levels = [(device, _measure_rms_voltage(device, tests)) for device in usable]
     most = max((level for _, level in levels), default=0.0)
     return [
         device
@@ -161,7 +161,7 @@ def group_by_tests(
     Some robot programs name the tests of all mechanisms in one entry and test one mechanism after
     another.
     """
-    levels = np.array([[_rms_voltage(one, [test]) for test in tests] for one in devices])
+    levels = np.array([[_measure_rms_voltage(one, [test]) for test in tests] for one in devices])
     driven = (levels >= DRIVEN * levels.max(axis=0)) & (levels > ZERO)
     groups: list[tuple[list[MotorEntries], set[int]]] = []
     for device, own in zip(devices, driven, strict=True):
@@ -179,7 +179,7 @@ def find_driven_interval(test: str, devices: Sequence[MotorEntries]) -> RunInter
         interval
         for device in devices
         if device.is_complete
-        for interval in _driven_intervals(device.signals["voltage"])
+        for interval in _find_driven_intervals(device.signals["voltage"])
     ]
     if not intervals:
         return None
@@ -223,11 +223,11 @@ def _compute_voltage(signals: Mapping[str, Entry]) -> dict[str, Entry]:
     return found
 
 
-def _samples_between(entry: Entry, tests: Sequence[RunInterval]) -> list[slice]:
+def _select_samples(entry: Entry, tests: Sequence[RunInterval]) -> list[slice]:
     return [slice(*np.searchsorted(entry.time, (test.begin, test.end))) for test in tests]
 
 
-def _rms_voltage(device: MotorEntries, tests: Sequence[RunInterval]) -> float:
+def _measure_rms_voltage(device: MotorEntries, tests: Sequence[RunInterval]) -> float:
     """The RMS voltage [V] of a device during tests.
 
     If only changes were logged, a test may have no sample: then the last value before it holds.
@@ -236,7 +236,7 @@ def _rms_voltage(device: MotorEntries, tests: Sequence[RunInterval]) -> float:
     values = entry.numbers()
     parts = [
         values[part] if part.start < part.stop else values[max(part.start - 1, 0) : part.start]
-        for part in _samples_between(entry, tests)
+        for part in _select_samples(entry, tests)
     ]
     every = np.concatenate(parts) if parts else np.empty(0)
     return float(np.sqrt(np.mean(np.square(every)))) if every.size else 0.0
@@ -252,9 +252,10 @@ def _follows_position(device: MotorEntries, tests: Sequence[RunInterval]) -> boo
     if position is None or velocity is None:
         return _has_changes(next(one for one in (position, velocity) if one is not None), tests)
     x, v = position.numbers(), velocity.numbers()
-    parts = _samples_between(velocity, tests)
+    parts = _select_samples(velocity, tests)
     if any(
-        _same_motion(v[part], np.interp(velocity.time[part], position.time, x)) for part in parts
+        _have_same_motion(v[part], np.interp(velocity.time[part], position.time, x))
+        for part in parts
     ):
         return True
     slopes, speeds = [], []
@@ -273,10 +274,10 @@ def _follows_position(device: MotorEntries, tests: Sequence[RunInterval]) -> boo
 def _has_changes(entry: Entry, tests: Sequence[RunInterval]) -> bool:
     """Whether the values of an entry change during tests."""
     values = entry.numbers()
-    return any(np.any(np.diff(values[part])) for part in _samples_between(entry, tests))
+    return any(np.any(np.diff(values[part])) for part in _select_samples(entry, tests))
 
 
-def _same_motion(one: Array, other: Array) -> bool:
+def _have_same_motion(one: Array, other: Array) -> bool:
     """Whether two signals differ only by a factor and an offset, and are not constant."""
     if not one.size:
         return False
@@ -285,7 +286,7 @@ def _same_motion(one: Array, other: Array) -> bool:
     return size > 0.0 and float(one @ other) > ALIKE * size
 
 
-def _driven_intervals(voltage: Entry) -> Iterator[tuple[int, int]]:
+def _find_driven_intervals(voltage: Entry) -> Iterator[tuple[int, int]]:
     """Begin and end [µs] of each interval with a voltage; short pauses do not end it."""
     values = voltage.numbers()
     on = np.flatnonzero(np.abs(values) > ZERO)

@@ -356,7 +356,7 @@ def _advise_logging(signal: str) -> str:
 def _find_similar_names(signal: str, entries: Sequence[Entry], mechanism: str) -> list[str]:
     """Names of entries like those of signals, first those of this mechanism and this signal."""
 
-    def distance(entry: Entry) -> tuple[bool, bool, int]:
+    def rank_entry(entry: Entry) -> tuple[bool, bool, int]:
         name = entry.name.lower()
         return mechanism.lower() not in name, signal[:4] not in name, -len(entry)
 
@@ -366,4 +366,4 @@ def _find_similar_names(signal: str, entries: Sequence[Entry], mechanism: str) -
         for entry in entries
         if entry.type in NUMBERS and any(word in entry.name.lower() for word in words)
     ]
-    return [entry.name for entry in sorted(similar, key=distance)]
+    return [entry.name for entry in sorted(similar, key=rank_entry)]

@@ -69,9 +69,9 @@ def find_state_entries(
         )
         if not names_tests(entry):
             raise _make_no_test_error([entry], where=where)
-        return (_as_sysid_entry(entry) or StateEntry("", "", entry),)
+        return (_read_as_sysid_entry(entry) or StateEntry("", "", entry),)
     texts = [entry for entry in entries if entry.type == STRING]
-    named = [state for state in map(_as_sysid_entry, texts) if state is not None]
+    named = [state for state in map(_read_as_sysid_entry, texts) if state is not None]
     naming = [state for state in named if names_tests(state.entry)]
     if named and not naming:
         raise _make_no_test_error([state.entry for state in named], where=where)
@@ -84,7 +84,7 @@ def find_state_entries(
     return tuple(_choose_entry(naming, mechanism, where=where) for mechanism in mechanisms)
 
 
-def _as_sysid_entry(entry: Entry) -> StateEntry | None:
+def _read_as_sysid_entry(entry: Entry) -> StateEntry | None:
     """The state entry, if the entry has SysId's name; else None."""
     name = split_name(entry.name, WORD)
     return None if name is None else StateEntry(name.rest, name.path, entry)

@@ -146,20 +146,20 @@ def _decode_frames(
 ) -> Iterator[Entry]:
     """The signals in the frames ``STATUS_0`` and ``STATUS_2`` of a SPARK."""
 
-    def entry(name: str, metadata: str, of: NDArray[np.void], values: ArrayLike) -> Entry:
+    def make_entry(name: str, metadata: str, of: NDArray[np.void], values: ArrayLike) -> Entry:
         time = of["time"].astype(np.int64) * 1000
         numbers = np.asarray(values, dtype=np.float64)
         return Entry(f"REV/Spark-{device}/{name}", "double", metadata, time, numbers)
 
     data = general["data"]
     duty = (data & np.uint64(0xFFFF)).astype(np.uint16).view(np.int16) * DUTY_STEP
-    yield entry("APPLIED_OUTPUT", "", general, duty)
-    yield entry("VOLTAGE", "V", general, (data >> np.uint64(16) & LOW_12) * VOLT_STEP)
-    yield entry("CURRENT", "A", general, (data >> np.uint64(28) & LOW_12) * AMPERE_STEP)
+    yield make_entry("APPLIED_OUTPUT", "", general, duty)
+    yield make_entry("VOLTAGE", "V", general, (data >> np.uint64(16) & LOW_12) * VOLT_STEP)
+    yield make_entry("CURRENT", "A", general, (data >> np.uint64(28) & LOW_12) * AMPERE_STEP)
     floats = motion["data"].copy().view("<f4").reshape(-1, 2)
     units = ("rpm", "rotations") if default_units else ("", "")
-    yield entry("PRIMARY_ENCODER_VELOCITY", units[0], motion, floats[:, 0])
-    yield entry("PRIMARY_ENCODER_POSITION", units[1], motion, floats[:, 1])
+    yield make_entry("PRIMARY_ENCODER_VELOCITY", units[0], motion, floats[:, 0])
+    yield make_entry("PRIMARY_ENCODER_POSITION", units[1], motion, floats[:, 1])
 
 
 def _make_doubts(found: _Frames, options: ReadOptions, path: Path) -> Iterator[Doubt]:
@@ -174,6 +174,6 @@ def _make_doubts(found: _Frames, options: ReadOptions, path: Path) -> Iterator[D
     if found.unread:
         yield Doubt(
             "truncated",
-            f"{path}: the file ends too soon: its last {found.unread} bytes are no whole record "
-            "and were left out. Copy the file from the robot again.",
+            f"{path}: the file ends too soon: its last {found.unread} bytes are not a whole "
+            "record, so they were left out. Copy the file from the robot again.",
         )

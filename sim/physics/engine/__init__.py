@@ -162,7 +162,7 @@ def simulate_run(
     limits = EXACT if base_only else compute_step_limits(model)
     if step:
         limits = np.array([step, math.inf, step, math.inf])
-    kernel = _plain_engine() if plain else _compiled_engine()
+    kernel = _load_plain_engine() if plain else _load_compiled_engine()
     kernel.move(
         np.array([0.0, time.size]), _as_contiguous(time), _as_contiguous(voltage),
         np.zeros(time.size) if slide is None else _as_contiguous(slide), state.body[None],
@@ -218,7 +218,7 @@ def filter_runs(
     begin = batch.position + position_offset
     load = begin
     if play := sum_backlash(model):
-        load = begin - 0.5 * play * _backlash_position(model, begin, backlash_phase)
+        load = begin - 0.5 * play * _choose_backlash_position(model, begin, backlash_phase)
     bodies = np.zeros((begin.size, 5))
     bodies[:, 0], bodies[:, 2] = begin, load
     bodies[:, 1] = bodies[:, 3] = batch.velocity
@@ -227,7 +227,7 @@ def filter_runs(
     measured = batch.measured if errors is not None or kalman_gain.any() else NO_MEASUREMENTS
     gains = _as_contiguous(kalman_gain.reshape(-1, 4)[: len(measured)])
     errors = np.empty(measured.shape) if errors is None else errors
-    _compiled_engine().move(
+    _load_compiled_engine().move(
         batch.edges, batch.time, batch.voltage, batch.voltage_slide, bodies, batch.low + shift,
         batch.high + shift, _as_contiguous(friction_offset), _as_contiguous(lag_offset),
         batch.memory_groups, make_model_constants(model), NO_WIRES, on, parameters,
@@ -237,7 +237,7 @@ def filter_runs(
     return out
 
 
-def _backlash_position(model: Model, position: Array, phase: Array) -> Array:
+def _choose_backlash_position(model: Model, position: Array, phase: Array) -> Array:
     """(runs,) [1] backlash phases; where ``phase`` is nan, the load's weight decides."""
     load = np.full(position.size, model.gains.get("kG", 0.0))
     if model.type == "arm":
@@ -264,7 +264,7 @@ def load_engine() -> None:
     simulate_run(Model("simple", gains), time=np.zeros(1), voltage=np.zeros(1), state=State())
 
 
-def _compiled_engine() -> "Kernel | ModuleType":
+def _load_compiled_engine() -> "Kernel | ModuleType":
     """The compiled engine, built once even if several threads need it."""
     with BUILD_LOCK:
         return _build_engine()
@@ -277,7 +277,7 @@ def _build_engine() -> "Kernel | ModuleType":
     A message on the terminal or in the notebook says why the first use takes long.
     """
     if not engine_can_compile():
-        return _plain_engine()
+        return _load_plain_engine()
     try:
         stream = sys.stdout if "ipykernel" in sys.modules else sys.stderr  # red in a notebook
         if (stream is sys.stdout or stream.isatty()) and not engine_is_cached():
@@ -285,9 +285,9 @@ def _build_engine() -> "Kernel | ModuleType":
             stream.flush()
         return compose_engine(EFFECTS)
     except ImportError:  # Numba refuses a NumPy that is newer than itself
-        return _plain_engine()
+        return _load_plain_engine()
 
 
 @cache
-def _plain_engine() -> "Kernel | ModuleType":
+def _load_plain_engine() -> "Kernel | ModuleType":
     return compose_engine(EFFECTS, compiled=False)

@@ -112,11 +112,11 @@ def compose_engine(
                 advice="Compare with sim/physics/effects/drag.py, and with HOOK_ARGUMENTS in "
                 "sim/physics/effect.py.",
             )
-    text = "\n".join(_engine_lines(effects, compiled=compiled))
+    text = "\n".join(_write_engine(effects, compiled=compiled))
     if compiled:
         from sim.physics.engine.kernel import find_kernel_file, load_kernel  # noqa: PLC0415 - needs llvmlite
 
-        return load_kernel(text, find_kernel_file(find_cache_folder(), _engine_hash(effects, text)))
+        return load_kernel(text, find_kernel_file(find_cache_folder(), _hash_engine(effects, text)))
     module = ModuleType("plain_engine")
     exec(compile(text, "plain_engine", "exec"), module.__dict__)  # noqa: S102 - our own text
     module.__dict__["move"] = np.errstate(all="ignore")(
@@ -139,11 +139,11 @@ def is_compiled(effects: Mapping[str, Effect]) -> bool:
     """
     from sim.physics.engine.kernel import find_kernel_file  # noqa: PLC0415 - needs llvmlite
 
-    text = "\n".join(_engine_lines(effects, compiled=True))
-    return find_kernel_file(find_cache_folder(), _engine_hash(effects, text)).is_file()
+    text = "\n".join(_write_engine(effects, compiled=True))
+    return find_kernel_file(find_cache_folder(), _hash_engine(effects, text)).is_file()
 
 
-def _engine_hash(effects: Mapping[str, Effect], text: str) -> str:
+def _hash_engine(effects: Mapping[str, Effect], text: str) -> str:
     """SHA-256 of the engine's text and of the modules that define the effects' functions."""
     sources = [
         inspect.getsource(sys.modules[act.__module__])
@@ -153,7 +153,7 @@ def _engine_hash(effects: Mapping[str, Effect], text: str) -> str:
     return hashlib.sha256("\n".join([text, *sources]).encode()).hexdigest()
 
 
-def _engine_lines(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[str]:
+def _write_engine(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[str]:
     """The lines of the engine's module."""
     yield '"""Composed by compose.py."""'
     yield "from __future__ import annotations"
@@ -173,14 +173,14 @@ def _engine_lines(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[
             yield f"{_format_alias(effect, hook)} = {makes}({act.__module__}.{act.__name__})"
     at = make_parameter_slices(effects)
     for hook in HOOKS:
-        yield from _hook_lines(hook, effects, at)
-    yield from _memory_lines(effects, at)
+        yield from _write_hook(hook, effects, at)
+    yield from _write_memory(effects, at)
     for module in MODULES:
-        yield from _module_lines(module)
-    yield from _entry_lines(effects, compiled=compiled)
+        yield from _write_module(module)
+    yield from _write_entry(effects, compiled=compiled)
 
 
-def _hook_lines(hook: str, effects: Mapping[str, Effect], at: Mapping[str, slice]) -> Iterator[str]:
+def _write_hook(hook: str, effects: Mapping[str, Effect], at: Mapping[str, slice]) -> Iterator[str]:
     """The lines of one function that combines a hook of all effects in use."""
     arguments, first, joins = HOOKS[hook]
     yield "@step"
@@ -199,7 +199,7 @@ def _hook_lines(hook: str, effects: Mapping[str, Effect], at: Mapping[str, slice
     yield f"    return {running}"
 
 
-def _memory_lines(effects: Mapping[str, Effect], at: Mapping[str, slice]) -> Iterator[str]:
+def _write_memory(effects: Mapping[str, Effect], at: Mapping[str, slice]) -> Iterator[str]:
     """The lines of the function that updates the memory of each effect in use."""
     yield "@step"
     yield "def update_memory(on, p, memory, dt, u, v, kv):"
@@ -212,7 +212,7 @@ def _memory_lines(effects: Mapping[str, Effect], at: Mapping[str, slice]) -> Ite
             yield f"        memory[{place}] = {answer}"
 
 
-def _entry_lines(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[str]:
+def _write_entry(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[str]:
     """The lines of ``move``, the entry point: constant arrays become tuples for ``step_runs``."""
     names = list(inspect.signature(stepping.step_runs).parameters)
     sizes = {
@@ -237,7 +237,7 @@ def _entry_lines(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[s
         base = {
             **given,
             "w": _format_tuple(["0.0"] * WIRES),
-            "on": _format_tuple(_delay_flags(effects)),
+            "on": _format_tuple(_write_delay_flags(effects)),
         }
         base["base_only"], given["base_only"] = "True", "False"
         yield "    if base_only != 0:  # LLVM removes the code that these constants exclude"
@@ -253,7 +253,7 @@ def _format_tuple(items: Iterable[str]) -> str:
     return f"({', '.join(items)},)"
 
 
-def _delay_flags(effects: Mapping[str, Effect]) -> Iterator[str]:
+def _write_delay_flags(effects: Mapping[str, Effect]) -> Iterator[str]:
     """The flags ``on`` of a model without other effects than delays."""
     names = (*HOOKS, "update_memory")
     delays = [set(effect.hooks) <= DELAY_HOOKS for effect in effects.values()]
@@ -275,7 +275,7 @@ def _format_alias(effect: Effect, hook: str) -> str:
     return f"_{effect.name.replace('-', '_')}_{hook}"
 
 
-def _module_lines(module: ModuleType) -> Iterator[str]:
+def _write_module(module: ModuleType) -> Iterator[str]:
     """A module's text without its imports, each function decorated for compilation."""
     text = inspect.getsource(module)
     head = HEAD.match(text)

@@ -79,16 +79,17 @@ class Kernel:
         if count and not (edges[0] == 0 and edges[-1] == n and (edges[1:] >= edges[:-1]).all()):
             raise TypeError("runs lie one behind the other")
         self._call(
-            count, n, rows, len(kalman_gains), _address(edges), _address(time),
-            _address(commanded), _address(slides), _address(bodies), _address(low), _address(high),
-            _address(frictions), _address(run_lags), _address(memory_groups), _address(c),
-            _address(w), _address(on), _address(p), _address(memory), _address(tables),
-            _address(start_times), _address(steps), base_only, _address(measured),
-            _address(kalman_gains), _address(errors), _address(out),
+            count, n, rows, len(kalman_gains), _get_address(edges), _get_address(time),
+            _get_address(commanded), _get_address(slides), _get_address(bodies),
+            _get_address(low), _get_address(high), _get_address(frictions),
+            _get_address(run_lags), _get_address(memory_groups), _get_address(c), _get_address(w),
+            _get_address(on), _get_address(p), _get_address(memory), _get_address(tables),
+            _get_address(start_times), _get_address(steps), base_only, _get_address(measured),
+            _get_address(kalman_gains), _get_address(errors), _get_address(out),
         )  # fmt: skip
 
 
-def _address(array: Array) -> int:
+def _get_address(array: Array) -> int:
     """The address of an array's data.
 
     Raises:
@@ -169,7 +170,7 @@ def _store_code(code: ObjectCode, kept: Path) -> None:
         cache.write_cached(kept, code.to_bytes())
         if not _works_in_child(kept):
             cache.write_cached(kept, NO_USE)
-        _remove_old(kept.parent)
+        _remove_old_kernels(kept.parent)
     except OSError:  # a home that cannot be written to: compiled anew each time
         return
 
@@ -189,7 +190,7 @@ def _works_in_child(kept: Path) -> bool:
     return done.returncode == 0
 
 
-def _remove_old(where: Path) -> None:
+def _remove_old_kernels(where: Path) -> None:
     """Remove all but the newest engines from the cache, with Numba's files for them."""
     for old in cache.select_older(where.glob("sysid_engine_*.kernel"), than=KEPT):
         compiled = where.glob(f"__pycache__/{old.stem}.*")

@@ -78,13 +78,13 @@ def sum_backlash(model: Model) -> float:
 
 def find_finest_step(model: Model) -> float:
     """[s] longest step that resolves the fastest of a model's effects."""
-    return max(min(COARSEST, STEP_SHARE * _shortest_time(model)), LEAST_STEP)
+    return max(min(COARSEST, STEP_SHARE * _find_shortest_time(model)), LEAST_STEP)
 
 
 def compute_step_limits(model: Model) -> Array:
     """(4,) step limits: longest [s], longest way [unit], shortest [s], largest change [unit/s]."""
-    longest = min(COARSEST, STEP_SHARE * _shortest_time(model, places=False))
-    way = STEP_SHARE * _shortest_length(model)
+    longest = min(COARSEST, STEP_SHARE * _find_shortest_time(model, places=False))
+    way = STEP_SHARE * _find_shortest_length(model)
     return np.array([max(longest, LEAST_STEP), way, LEAST_STEP, math.inf])
 
 
@@ -96,12 +96,12 @@ def compute_search_step_limits(model: Model) -> Array:
     with a short time scale, and therefore short steps, would seem to explain it.
     """
     share = 2.0 * STEP_SHARE
-    longest = min(SEARCHED, share * _shortest_time(model, places=False))
-    way, faster = share * _shortest_length(model), share * _narrowest_speed(model)
+    longest = min(SEARCHED, share * _find_shortest_time(model, places=False))
+    way, faster = share * _find_shortest_length(model), share * _find_narrowest_speed(model)
     return np.array([max(longest, LEAST_SEARCHED), way, LEAST_SEARCHED, faster])
 
 
-def _shortest_time(model: Model, *, places: bool = True) -> float:
+def _find_shortest_time(model: Model, *, places: bool = True) -> float:
     """[s] the shortest time scale of a model.
 
     ``places`` includes effects that depend on the position, whose steps the way limits as well.
@@ -114,13 +114,13 @@ def _shortest_time(model: Model, *, places: bool = True) -> float:
     return min(scales)
 
 
-def _shortest_length(model: Model) -> float:
+def _find_shortest_length(model: Model) -> float:
     """[unit] the shortest length scale of the effects; infinite if none has one."""
     scales = (EFFECTS[part.effect].shortest_length(part.parameters) for part in model.parts)
     return min(scales, default=math.inf)
 
 
-def _narrowest_speed(model: Model) -> float:
+def _find_narrowest_speed(model: Model) -> float:
     """[unit/s] the smallest speed scale of the effects; infinite if none has one."""
     scales = (EFFECTS[part.effect].narrowest_speed(part.parameters) for part in model.parts)
     return min(scales, default=math.inf)

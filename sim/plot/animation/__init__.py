@@ -97,7 +97,7 @@ class Animation:
         return {"text/plain": str(self), "text/html": self.html}
 
 
-def _color_name(at: int) -> str:
+def _get_color_name(at: int) -> str:
     """The name of the CSS variable of a color of the palette."""
     return f"--motion-color-{at}"
 
@@ -106,7 +106,7 @@ def _write_palette() -> str:
     """The colors as CSS variables, by JupyterLab's theme or by the page's color scheme."""
 
     def rule(selector: str, colors: Iterable[str]) -> str:
-        named = (f"{_color_name(at)}:{color}" for at, color in enumerate(colors))
+        named = (f"{_get_color_name(at)}:{color}" for at, color in enumerate(colors))
         return f"{selector}{{{';'.join(named)}}}"
 
     either = (
@@ -170,7 +170,7 @@ def animate_mechanism(
             does not have one value for each time of its scene.
     """
     _check_kind(kind)
-    every = _by_options(scenes, choices)
+    every = _key_by_options(scenes, choices)
     low, high = span or (None, None)
     stage = {
         "low": low,
@@ -195,7 +195,7 @@ def animate_mechanism(
 
 def list_colors() -> list[str]:
     """The colors of the palette, as the page writes them."""
-    return [f"var({_color_name(at)})" for at in range(len(COLORS))]
+    return [f"var({_get_color_name(at)})" for at in range(len(COLORS))]
 
 
 def describe_choices(choices: Sequence[Choice]) -> list[dict[str, object]]:
@@ -213,7 +213,7 @@ def _describe_kind(kind: str) -> dict[str, str]:
     return {"kind": kind, "unit": unit, "words": f"{kind}, drawn at the time of the cursor"}
 
 
-def _by_options(
+def _key_by_options(
     scenes: Scene | Mapping[tuple[str, ...], Scene], choices: Sequence[Choice]
 ) -> dict[tuple[str, ...], Scene]:
     """The scenes by their options, after ``_check_scenes``."""
@@ -271,18 +271,18 @@ def _describe_scene(scene: Scene) -> dict[str, Any]:
                 "plan": _describe_plan(motion.plan),
                 "voltage": _describe_value(motion.voltage)
                 if isinstance(motion.voltage, Gain)
-                else _numbers(motion.voltage),
-                "velocity": _numbers(motion.velocity),
+                else _list_numbers(motion.voltage),
+                "velocity": _list_numbers(motion.velocity),
                 "position": None
                 if motion.gains is not None
-                else _numbers(motion.find_position(scene)),
-                "heading": _numbers(motion.heading),
+                else _list_numbers(motion.find_position(scene)),
+                "heading": _list_numbers(motion.heading),
             }
         )
     return {
         "title": scene.title,
-        "time": _numbers(scene.time),
-        "target": _numbers(scene.target),
+        "time": _list_numbers(scene.time),
+        "target": _list_numbers(scene.target),
         "motions": motions,
     }
 
@@ -314,5 +314,5 @@ def round_numbers(values: Sequence[float] | Array) -> list[float | None]:
     ]
 
 
-def _numbers(values: Array | None) -> list[float | None] | None:
+def _list_numbers(values: Array | None) -> list[float | None] | None:
     return None if values is None else round_numbers(values)

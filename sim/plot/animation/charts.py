@@ -74,7 +74,7 @@ class _Pool:
         return self.numbers.setdefault(text, len(self.numbers))
 
     def list_all(self) -> list[Any]:
-        """All data, by number."""
+        """All stored curves and data, in the order of their numbers."""
         return [json.loads(text) for text in self.numbers]
 
 

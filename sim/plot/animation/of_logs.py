@@ -1,4 +1,4 @@
-"""Animations of the tests in a log: beside what happened, and beside a model with sliders."""
+"""Animations of the tests in a log: the recorded motion, or the log next to an adjustable model."""
 
 from collections.abc import Mapping
 
@@ -42,7 +42,7 @@ def animate_logs(
         span: lowest and highest position drawn.
     """
 
-    def scene(name: str, test: str) -> Scene:
+    def make_scene(name: str, test: str) -> Scene:
         said, real = (log.list_runs_of_test(test)[0] for log in logs[name])
         velocity, position, voltage = (
             np.interp(real.time, said.time, signal)
@@ -54,7 +54,7 @@ def animate_logs(
 
     return animate_mechanism(
         kind,
-        {(name, shown): scene(name, test) for name in logs for shown, test in tests.items()},
+        {(name, shown): make_scene(name, test) for name in logs for shown, test in tests.items()},
         choices=(Choice(label, tuple(logs)), Choice("test", tuple(tests))),
         panels=(Panel("voltage", "voltage [V]"), Panel("velocity", "velocity [m/s]")),
         span=span,
@@ -74,7 +74,7 @@ def animate_model(
         alt: a description of the figure with numbers.
     """
 
-    def scene(test: str, seconds: float) -> Scene:
+    def make_scene(test: str, seconds: float) -> Scene:
         run = log.list_runs_of_test(test)[0]
         run = run.select(run.time - run.time[0] <= seconds)
         knobs = {name: Gain(name) for name in SLIDERS}
@@ -84,7 +84,7 @@ def animate_model(
 
     return animate_mechanism(
         "drivetrain",
-        {(name,): scene(*which) for name, which in tests.items()},
+        {(name,): make_scene(*which) for name, which in tests.items()},
         choices=(Choice("test", tuple(tests)),),
         panels=(Panel("velocity", "velocity [m/s]", low=0.0, high=1.4),),
         knobs=[

@@ -43,7 +43,7 @@ def find_spectral_peak(problem: PredictionErrorProblem, point: Estimate) -> Spec
         problem: the measurements.
         point: the estimate whose residuals are tested.
     """
-    runs = list(_disturbances_by_run(problem, point))
+    runs = list(_list_disturbances(problem, point))
     squares = sum(float(values @ values) for _, values in runs)
     if not squares > 0.0:
         return SpectralPeak()
@@ -65,7 +65,7 @@ def find_spectral_peak(problem: PredictionErrorProblem, point: Estimate) -> Spec
     return max(found, key=lambda one: one.size, default=SpectralPeak())
 
 
-def _disturbances_by_run(
+def _list_disturbances(
     problem: PredictionErrorProblem, point: Estimate
 ) -> Iterator[tuple[Array, Array]]:
     """Per run that is long enough: [s] times, and disturbances minus their mean."""

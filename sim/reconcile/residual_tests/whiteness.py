@@ -49,7 +49,9 @@ def find_worst_window(problem: PredictionErrorProblem, point: Estimate) -> Worst
     moments = []
     for length in (SHORTEST_WINDOW, 2.0 * SHORTEST_WINDOW, 4.0 * SHORTEST_WINDOW):
         count = max(round(length / problem.period), 2)
-        position, velocity = (_window_sizes(problem, white[:, column], count) for column in (0, 1))
+        position, velocity = (
+            _measure_windows(problem, white[:, column], count) for column in (0, 1)
+        )
         for record, one in position.items():
             other = velocity[record]
             combined = np.where(one * other > 0.0, np.hypot(one, other), 0.0)
@@ -63,9 +65,9 @@ def find_worst_window(problem: PredictionErrorProblem, point: Estimate) -> Worst
     return max(moments, key=lambda one: one.size, default=NO_WINDOW)
 
 
-def _window_sizes(problem: PredictionErrorProblem, white: Array, count: int) -> dict[int, Array]:
+def _measure_windows(problem: PredictionErrorProblem, white: Array, count: int) -> dict[int, Array]:
     """Run -> (windows,) sums in robust standard deviations; 0 where samples are missing."""
-    sums = dict(_window_sums(problem, white, count))
+    sums = dict(_sum_windows(problem, white, count))
     every = np.concatenate([*sums.values(), np.zeros(0)])
     every = every[~np.isnan(every)]
     if every.size < FEWEST_SAMPLES:
@@ -73,7 +75,8 @@ def _window_sizes(problem: PredictionErrorProblem, white: Array, count: int) -> 
     spread = ROBUST * float(np.median(np.abs(every - np.median(every))))
     spread = max(spread, count**0.5)  # standard deviation of a sum of independent innovations
     return {
-        record: np.nan_to_num(one) / (spread * _ordinary_size(problem.records[record])[: one.size])
+        record: np.nan_to_num(one)
+        / (spread * _measure_ordinary_size(problem.records[record])[: one.size])
         for record, one in sums.items()
     }
 
@@ -96,7 +99,7 @@ def _remove_clock_errors(problem: PredictionErrorProblem, point: Estimate) -> Ar
     return np.asarray(white)
 
 
-def _ordinary_size(record: RunRecord) -> Array:
+def _measure_ordinary_size(record: RunRecord) -> Array:
     """(n,) [1] ordinary size of a window that begins at a sample, relative to other windows.
 
     It is 2 soon after a voltage step, where effects between two samples, like a short sag of the
@@ -109,7 +112,7 @@ def _ordinary_size(record: RunRecord) -> Array:
     return np.where(since <= AFTER_STEP, 2.0, 1.0)
 
 
-def _window_sums(
+def _sum_windows(
     problem: PredictionErrorProblem, white: Array, count: int
 ) -> Iterator[tuple[int, Array]]:
     """Per run, its index and (windows,) sums of ``count`` innovations; nan if not all compared."""

@@ -97,7 +97,7 @@ class _Child:
         self.process = CONTEXT.Process(
             target=_serve, args=(work, other_end, memory), name=NAME, daemon=True
         )
-        with _blocked_interrupt():
+        with _block_interrupt():
             self.process.start()
         other_end.close()
         self.receive()  # it has started: the time of the start is not that of the first job
@@ -132,7 +132,7 @@ class _Child:
 
 
 @contextmanager
-def _blocked_interrupt() -> Iterator[None]:
+def _block_interrupt() -> Iterator[None]:
     """A context in which a new process begins with Ctrl+C blocked, until it ignores it itself.
 
     The mask is that of this thread alone, and a new process inherits it. Windows has none.

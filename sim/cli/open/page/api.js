@@ -35,7 +35,7 @@ export async function ask(address, options) {
 
 async function fetchOrRefuse(address, options) {
   if (saved) return readSaved(address);
-  const ended = { what: "the program that serves this page has ended", advice: "Start it again: sysid open, or sysid watch" };
+  const ended = { what: "the program behind this page has ended", advice: "Start it again: sysid open, or sysid watch" };
   const answer = await fetch(address, options).catch(() => { throw new Refused(ended); });
   if (answer.headers.get("content-type") === "application/problem+json") throw new Refused((await answer.json()).refusal);
   return answer;
@@ -43,7 +43,7 @@ async function fetchOrRefuse(address, options) {
 
 function readSaved(address) {
   const answer = saved[address];
-  if (answer === undefined) throw new Refused({ what: "this page was saved, and computes nothing new", advice: "Open the log itself with `sysid open`." });
+  if (answer === undefined) throw new Refused({ what: "a saved page cannot compute anything new", advice: "Open the log itself with `sysid open`." });
   if (answer.refusal) throw new Refused(answer.refusal);
   return new Response(typeof answer === "string" ? Uint8Array.from(atob(answer), (one) => one.charCodeAt(0)) : JSON.stringify(answer));
 }

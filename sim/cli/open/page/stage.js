@@ -83,7 +83,7 @@ function showSpans(spans) {
   at("span-text").textContent = words;
   at("span-text").hidden = at("span-copy").hidden = at("span-clear").hidden = !words;
   at("span-leave").hidden = !words || raw;
-  at("span-hint").textContent = words ? pattern.hint : "Drag across a test to mark a part of it. Its times then stand here, ready to copy.";
+  at("span-hint").textContent = words ? pattern.hint : "Drag across a test to mark a part of it. Then you can copy its times from here.";
 }
 
 /** Show the run, the times and the values of all curves at the cursor. */

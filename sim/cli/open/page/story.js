@@ -38,7 +38,7 @@ function storyParts(story, log, choose) {
   const places = story.places.length
     ? [make("p", "quiet places", "Where the base model is wrong most"), make("ul", "doubts", story.places.map((one) => make("li", "busy", one)))]
     : [];
-  const tried = foldedItem("busy", "Tried", `Score of each effect, and what became of it. ${story.tried.join("; ")}.`);
+  const tried = foldedItem("busy", "Tried", `Score of each effect, and whether it was added. ${story.tried.join("; ")}.`);
   const models = story.effects.length && log.plain ? [modelChoice(story, log, choose)] : [];
   return [make("p", "headline", prose(story.headline)), ...models, gapBars(story), ...found, make("ul", "doubts", rest, tried), ...places, make("p", "quiet how", story.how)];
 }

@@ -61,7 +61,7 @@ class CsvTable:
                 test = find_test_name(cell, fillers=())
                 if not test:
                     raise UnreadableFile(
-                        f"test is {cell[:40]!r}, which is no test's name",
+                        f"test is {cell[:40]!r}, which is not the name of a test",
                         where=self.describe_row(row),
                         advice=f"Tests are {'|'.join(KINDS)}, then -{' or -'.join(DIRECTIONS)}.",
                     )
@@ -99,7 +99,7 @@ class CsvTable:
         return values
 
     def find_stated(self, name: str) -> str | None:
-        """What a column says that holds one word for the whole log; None if it is not there.
+        """The word that a constant column holds for the whole log; None if the column is missing.
 
         Raises:
             UnreadableFile: its cells differ.

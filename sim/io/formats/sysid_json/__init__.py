@@ -102,7 +102,7 @@ def _read_header(
     mechanism, scale = document.get("test", ""), document.get("unitsPerRotation", 1.0)
     if not isinstance(mechanism, str):
         raise UnreadableFile(
-            'its "test" is no text, and should name the kind of mechanism',
+            'its "test" must be a text that names the kind of mechanism',
             where=where,
             advice='Write "Simple", "Elevator" or "Arm".',
         )

@@ -35,7 +35,7 @@ APART = 0.2  # [share of the RMS of the mean velocity] a larger RMS difference i
 # Code of a doubt -> what was found and done, and what to do.
 _DOUBTS = {
     "unsigned-voltage": (
-        "the voltage was recorded without a sign; it got that of the velocity",
+        "the voltage was recorded without a sign, so it was given the sign of the velocity",
         "Log the signed voltage next time.",
     ),
     "inverted-voltage": (
@@ -51,7 +51,7 @@ _DOUBTS = {
         "Check which side is inverted.",
     ),
     "sides-differ": (
-        "their velocities are far apart, and their mean stands for both",
+        "their velocities are far apart, and their mean was used for both",
         "Fit each side alone, and compare.",
     ),
 }

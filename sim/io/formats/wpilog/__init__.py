@@ -107,7 +107,7 @@ def _doubt_orphans(count: int, where: str) -> Iterator[Doubt]:
         yield Doubt(
             "orphan-records",
             f"{where}: {count} records come before the record that starts their entry and were "
-            "left out, as in a file that goes on where another one ended.",
+            "left out, as in a file that continues another file.",
         )
 
 

@@ -60,7 +60,7 @@ def encode_signals(groups: Sequence[SignalGroup], units: Mapping[str, str]) -> b
             (name, time, text.encode()) for name, some in group.texts.items() for time, text in some
         ]
         for name, time, values in parts:
-            times.append(_to_microseconds(np.atleast_1d(time)))
+            times.append(_convert_to_microseconds(np.atleast_1d(time)))
             records += pack_records(ids[name], times[-1], values)
     every = np.concatenate(times)
     order = np.argsort(every, kind="stable").tolist()
@@ -72,7 +72,7 @@ def encode_signals(groups: Sequence[SignalGroup], units: Mapping[str, str]) -> b
     return b"".join((FILE_HEADER, *starts, *map(records.__getitem__, order)))
 
 
-def _to_microseconds(time: Array) -> Numbers:
+def _convert_to_microseconds(time: Array) -> Numbers:
     return np.maximum(np.rint(SECOND * time), 0.0).astype(np.int64)
 
 

@@ -55,7 +55,7 @@ def make_motor_groups(logs: Mapping[str, Log]) -> tuple[list[SignalGroup], dict[
     mechanism, unit = first.mechanism or MECHANISM, JAVA[first.units]
     metadata = {"position": unit, "velocity": f"{unit} per Second", "current": "Amp"}
     si = dict.fromkeys(("position", "velocity"), UNITS[first.units].si)
-    times = _order_runs([_to_microseconds(run.time) for run in first.runs])
+    times = _order_runs([_convert_to_microseconds(run.time) for run in first.runs])
     groups: list[SignalGroup] = []
     units: dict[str, str] = {}
     for number, (time, after) in enumerate(zip(times, [*times[1:], None], strict=True)):
@@ -73,7 +73,7 @@ def make_motor_groups(logs: Mapping[str, Log]) -> tuple[list[SignalGroup], dict[
     return groups, units
 
 
-def _to_microseconds(time: Array) -> Numbers:
+def _convert_to_microseconds(time: Array) -> Numbers:
     """Times in whole microseconds, which differ by at least one."""
     steps = np.arange(time.size)
     rounded = np.rint(time * SECOND).astype(np.int64)
