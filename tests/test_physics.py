@@ -12,7 +12,7 @@ from sim.bench.simulate import simulate
 from sim.core.errors import BadRequest
 from sim.core.units import find_unit
 from sim.fit import fit
-from sim.fit.physics import Parts, check_plausibility, compare_sides
+from sim.fit.physics import Parts, check_plausibility, compare_parts
 from sim.physics.motors import MOTORS, find_motor
 
 GENTLE = Routine(ramp=0.5, step=3.5)
@@ -223,7 +223,9 @@ def test_friction_has_a_band_to_watch_and_a_red_flag(kind, ks, code):
         ),
         lambda: check_plausibility(found_in("drivetrain"), parts=Parts(find_motor("neo"), 1, 5.0)),
         lambda: check_plausibility(found_in("turret"), period=0.0),
-        lambda: compare_sides(found_in("turret"), found_in("drivetrain")),
+        lambda: compare_parts(
+            {"left": found_in("turret"), "right": found_in("drivetrain")}, "side"
+        ),
     ],
 )
 def test_incomparable_fit_and_parts_are_refused(ask):

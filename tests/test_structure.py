@@ -137,7 +137,7 @@ SEARCHES = {  # how far and how finely they go decides on time, not on what is r
     "backlash_phase.py", "candidates.py", "cross_validation.py", "forward_selection.py",
     "held_out.py", "local_minimum.py", "onset_scan.py", "search_effort.py", "two_body_starts.py",
 }  # fmt: skip
-SHOWING = {"story_text.py", "model_selection.py", "residual_map.py"}
+SHOWING = {"story_text.py", "model_selection.py"}
 HARMLESS = {0, 0.5, 1, 2}  # halves, doubles and counts
 
 

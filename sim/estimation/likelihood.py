@@ -21,19 +21,20 @@ from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
 from itertools import pairwise
 from threading import Lock
+from typing import Any
 from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sim.core.log import Array
-from sim.estimation.kalman import OPEN_LOOP, GainSchedule, KalmanFilter, make_steady_state_filter
+from sim.estimation.kalman import compute_kalman_gain
 from sim.estimation.measurements import SensorNoise, compute_noise_at_speed, estimate_noise
 from sim.estimation.model_structure import ModelStructure
-from sim.estimation.random_friction import compute_friction_prior, get_friction_sd
-from sim.estimation.run_nuisance import RunNuisance
+from sim.estimation.random_friction import get_friction_sd
+from sim.estimation.run_nuisance import FRICTION, LAG, POSITION, RunNuisance
 from sim.estimation.run_records import RunRecord
-from sim.physics.engine import RunBatch, Track, filter_runs
+from sim.physics.engine import NO_CORRECTION, RunBatch, Track, filter_runs
 from sim.physics.model import Model
 
 START_SD = 2.0  # [noises of a position] standard deviation of a start position
@@ -68,9 +69,8 @@ class Estimate:
         values: parameter -> value.
         nuisance: the nuisance parameters of each run.
         process_noise: [unit²/s³] spectral density of the random acceleration.
-        kalman_filter: the filter that made the innovations.
-        innovations: (n, 2) of position and velocity; 0 where a reading is not compared, scaled
-            where a voltage is uncertain.
+        kalman_gain: (2, 2) gain of the filter that made the innovations.
+        innovations: (n, 2) of position and velocity; 0 where a reading is not compared.
         innovation_cov: (2, 2) covariance of the innovations.
         cost: -2 log L, up to a constant.
     """
@@ -79,7 +79,7 @@ class Estimate:
     values: Mapping[str, float]
     nuisance: RunNuisance
     process_noise: float
-    kalman_filter: KalmanFilter
+    kalman_gain: Array
     innovations: Array
     innovation_cov: Array
     cost: float
@@ -124,13 +124,10 @@ class PredictionErrorProblem:
         backlash_allowance: float = 0.0,
     ) -> "PredictionErrorProblem":
         """The problem of these runs, their noise estimated from their samples."""
-        noise = estimate_noise(tuple(record.measurements for record in records))
         return cls(
-            tuple(records),
-            noise,
-            varying_friction=varying_friction,
-            backlash_allowance=backlash_allowance,
-        )
+            tuple(records), estimate_noise(tuple(record.measurements for record in records)),
+            varying_friction=varying_friction, backlash_allowance=backlash_allowance,
+        )  # fmt: skip
 
     def select_runs(
         self, chosen: Sequence[int], *, compared: Sequence[int] | None = None
@@ -154,43 +151,29 @@ class PredictionErrorProblem:
             ([0], np.cumsum([record.measurements.time.size for record in self.records]))
         )
 
+    def _join(self, name: str) -> NDArray[Any]:
+        """A signal of the measurements, of all runs."""
+        return np.concatenate([getattr(record.measurements, name) for record in self.records])
+
     @cached_property
     def batch(self) -> RunBatch:
         """The runs as contiguous arrays for the engine."""
-        measurements = [record.measurements for record in self.records]
-        return RunBatch(
-            self.run_edges.astype(np.float64),
-            np.concatenate([one.time for one in measurements], dtype=np.float64),
-            np.concatenate([one.voltage for one in measurements], dtype=np.float64),
-            np.concatenate([one.voltage_slide for one in measurements], dtype=np.float64),
-            np.ascontiguousarray(self.measured, dtype=np.float64),
-            np.array([one.position for one in measurements], dtype=np.float64),
-            np.array([one.velocity for one in measurements], dtype=np.float64),
-            np.array([record.low for record in self.records], dtype=np.float64),
-            np.array([record.high for record in self.records], dtype=np.float64),
-            np.array([record.clock for record in self.records], dtype=np.float64),
-            np.array([record.memory_group for record in self.records], dtype=np.float64),
-        )
+        signals = [self._join(one) for one in ("time", "voltage", "voltage_slide", "measured")]
+        starts = [(one.measurements.position, one.measurements.velocity) for one in self.records]
+        numbers = [(one.low, one.high, one.clock, one.memory_group) for one in self.records]
+        each = (*np.transpose(starts), *np.transpose(numbers))
+        arrays = (self.run_edges, *signals, *each)
+        return RunBatch(*(np.ascontiguousarray(one, dtype=np.float64) for one in arrays))
 
     @cached_property
     def measured(self) -> Array:
         """(n, 2) positions and velocities of all runs."""
-        return np.concatenate([record.measurements.measured for record in self.records])
-
-    @cached_property
-    def voltage_error(self) -> Array:
-        """(n,) [V] standard deviation of the mean voltage since the sample before."""
-        errors = [record.measurements.voltage_error for record in self.records]
-        return np.concatenate([np.concatenate(([0.0], one[:-1])) for one in errors])
-
-    @cached_property
-    def _voltage_is_uncertain(self) -> bool:
-        return bool(self.voltage_error.any())
+        return self._join("measured")
 
     @cached_property
     def informative(self) -> NDArray[np.bool_]:
         """(n,) whether a sample is compared; the first of a run is not, the run starts from it."""
-        informative = np.concatenate([record.measurements.informative for record in self.records])
+        informative = self._join("informative")
         informative[self.run_edges[:-1]] = False
         return informative & ~np.isnan(self.measured).all(axis=1)
 
@@ -198,7 +181,7 @@ class PredictionErrorProblem:
     def ignored_readings(self) -> NDArray[np.bool_]:
         """(n, 2) whether a reading is not compared."""
         ignored = np.isnan(self.measured) | ~self.informative[:, None]
-        ignored[:, 0] |= np.concatenate([record.measurements.at_rest for record in self.records])
+        ignored[:, 0] |= self._join("at_rest")
         return ignored
 
     @cached_property
@@ -215,7 +198,7 @@ class PredictionErrorProblem:
     @cached_property
     def moving(self) -> NDArray[np.bool_]:
         """(n,) whether the mechanism moves at each sample."""
-        return np.concatenate([record.measurements.moving for record in self.records])
+        return self._join("moving")
 
     @cached_property
     def sample_count(self) -> int:
@@ -225,11 +208,8 @@ class PredictionErrorProblem:
     @cached_property
     def period(self) -> float:
         """[s] median time between samples."""
-        return float(
-            np.median(
-                np.concatenate([np.diff(record.measurements.time) for record in self.records])
-            )
-        )
+        steps = [np.diff(record.measurements.time) for record in self.records]
+        return float(np.median(np.concatenate(steps)))
 
     @cached_property
     def top_speed(self) -> float:
@@ -261,22 +241,22 @@ class PredictionErrorProblem:
     # -- simulate --------------------------------------------------------------------------------
 
     def simulate(
-        self, model: Model, nuisance: RunNuisance, kalman_filter: KalmanFilter = OPEN_LOOP
+        self, model: Model, nuisance: RunNuisance, kalman_gain: Array = NO_CORRECTION
     ) -> Track:
         """Simulate all runs, one after another.
 
         Args:
             model: the model.
             nuisance: the nuisance parameters of each run.
-            kalman_filter: corrects the state; the default is an open-loop simulation.
+            kalman_gain: corrects the state; the default is an open-loop simulation.
         """
-        return Track(*self._filter_runs(model, nuisance, kalman_filter, self.batch).T)
+        return Track(*self._filter_runs(model, nuisance, kalman_gain, self.batch).T)
 
     def predict_errors(
         self,
         model: Model,
         nuisance: RunNuisance,
-        kalman_filter: KalmanFilter,
+        kalman_gain: Array,
         clocks: Array | None = None,
     ) -> Array:
         """(n, 2) innovations: measured minus predicted; 0 where nothing is compared.
@@ -284,54 +264,25 @@ class PredictionErrorProblem:
         Args:
             model: the model.
             nuisance: the nuisance parameters of each run.
-            kalman_filter: corrects the state.
+            kalman_gain: corrects the state.
             clocks: (runs,) [s] start time of each run; None takes the recorded one.
         """
         batch = self.batch if clocks is None else replace(self.batch, clocks=clocks)
         errors = np.empty(self.measured.shape)
-        self._filter_runs(model, nuisance, kalman_filter, batch, errors)
+        self._filter_runs(model, nuisance, kalman_gain, batch, errors)
         errors.reshape(-1)[self._ignored_places] = 0.0
-        if (schedule := self._schedule_gains(kalman_filter)) is not None:
-            rows = schedule.uncertain
-            errors[rows] = (schedule.scales @ errors[rows, :, None])[..., 0]
-            errors.reshape(-1)[self._ignored_places] = 0.0
         return np.asarray(errors)
 
     def _filter_runs(
-        self, model: Model, nuisance: RunNuisance, kalman_filter: KalmanFilter, batch: RunBatch,
+        self, model: Model, nuisance: RunNuisance, kalman_gain: Array, batch: RunBatch,
         errors: Array | None = None,
     ) -> Array:  # fmt: skip
-        schedule = self._schedule_gains(kalman_filter)
-        gain = kalman_filter.steady if schedule is None else schedule.gains
         self.simulated.add(batch.time.size)
         return filter_runs(
-            model, batch, kalman_gain=gain,
+            model, batch, kalman_gain=kalman_gain,
             position_offset=nuisance.position_offset, backlash_phase=nuisance.backlash_phase,
             friction_offset=nuisance.friction_offset, lag_offset=nuisance.lag_offset, errors=errors,
         )  # fmt: skip
-
-    def _log_scale(self, kalman_filter: KalmanFilter) -> float:
-        """The log determinant, as -2 log L, of the innovations whose voltage is uncertain."""
-        if (schedule := self._schedule_gains(kalman_filter)) is None:
-            return 0.0
-        scales = schedule.scales[self.informative[schedule.uncertain]]
-        return float(-2.0 * np.sum(np.log(scales[:, 0, 0] * scales[:, 1, 1])))  # triangular
-
-    def _schedule_gains(self, kalman_filter: KalmanFilter) -> GainSchedule | None:
-        """The gain at each sample; None if no voltage is uncertain, so that it is constant."""
-        if not self._voltage_is_uncertain:
-            return None
-        found = self._schedules.get(kalman_filter)
-        if found is None:
-            starts = self.run_edges[:-1].tolist()
-            found = kalman_filter.schedule(self.voltage_error, starts)
-            self._schedules[kalman_filter] = found
-        return found
-
-    @cached_property
-    def _schedules(self) -> WeakKeyDictionary[KalmanFilter, GainSchedule]:
-        """Kalman filter -> its schedule; all derivatives at one estimate share one."""
-        return WeakKeyDictionary()
 
     def evaluate(
         self,
@@ -350,42 +301,41 @@ class PredictionErrorProblem:
         """
         if not structure.has_backlash:
             nuisance = nuisance.without_backlash_phase
-        nowhere = Estimate(
-            structure,
-            values,
-            nuisance,
-            process_noise,
-            OPEN_LOOP,
-            np.empty((0, 2)),
-            np.eye(2),
-            math.inf,
-        )
-        if not (values["kV"] > 0.0 and values["kA"] > SHORTEST * self.period * values["kV"]):
-            return nowhere
-        if not self.sample_count:
+        given = (structure, values, nuisance, process_noise)
+        nowhere = Estimate(*given, NO_CORRECTION, np.empty((0, 2)), np.eye(2), math.inf)
+        possible = values["kV"] > 0.0 and values["kA"] > SHORTEST * self.period * values["kV"]
+        if not (possible and self.sample_count):
             return nowhere
         model = structure.model(values)
         with np.errstate(
             over="ignore", invalid="ignore"
         ):  # a diverging simulation has an infinite cost
-            kalman_filter = make_steady_state_filter(
+            kalman_gain = compute_kalman_gain(
                 model, noise=self.noise, process_noise=process_noise, period=self.period
             )
-            innovations = self.predict_errors(model, nuisance, kalman_filter)
+            innovations = self.predict_errors(model, nuisance, kalman_gain)
             cov = self.compute_covariance(innovations)
-            start_cost = float(np.sum((nuisance.position_offset / self.start_sd) ** 2))
-            cost = self._compute_cost(cov) + start_cost + compute_friction_prior(values, nuisance)
-            cost += float(np.sum(nuisance.backlash_phase_costs))
-            if self.lag_sd:
-                cost += float(np.sum((nuisance.lag_offset / self.lag_sd) ** 2))
+            cost = self._compute_cost(cov) + float(np.sum(nuisance.backlash_phase_costs))
+            cost += sum(
+                float(np.sum((getattr(nuisance, name) / sd) ** 2))
+                for name, sd in self.list_random_effects(values).items()
+            )
             cost += sum(
                 (values[name] / sd) ** 2 for name, sd in self.select_priors(structure).items()
             )
-            cost += self._log_scale(kalman_filter)
         if not math.isfinite(cost):
             return nowhere
-        return Estimate(
-            structure, values, nuisance, process_noise, kalman_filter, innovations, cov, cost
+        return Estimate(*given, kalman_gain, innovations, cov, cost)
+
+    def change(
+        self, point: Estimate, *, structure: ModelStructure | None = None,
+        values: Mapping[str, float] | None = None, nuisance: RunNuisance | None = None,
+        process_noise: float | None = None,
+    ) -> Estimate:  # fmt: skip
+        """An estimate evaluated on these measurements, some of its arguments changed."""
+        q = point.process_noise if process_noise is None else process_noise
+        return self.evaluate(
+            structure or point.structure, values or point.values, nuisance or point.nuisance, q
         )
 
     # -- compare ---------------------------------------------------------------------------------
@@ -462,16 +412,8 @@ class PredictionErrorProblem:
             table[len(names) :] = known.T[len(names) :]
             self._fill_parameter_rows(table[: len(names)], point, names, known=known)
             return table.T
-        model = point.structure.model(point.values)
-        moved = point.nuisance.shift_positions(np.full(len(self.records), self.noise.position))
-        starts = self.predict_errors(model, moved, point.kalman_filter)
-        with np.errstate(over="ignore", invalid="ignore"):  # diverging ones are clipped by whiten
-            starts = (starts - point.innovations) / self.noise.position
-        changes = [self.whiten(point, starts)]
-        if self.varying_friction:
-            changes.append(self._compute_friction_change(point))
-        if self.lag_sd:
-            changes.append(self._compute_lag_change(point))
+        effects = self.list_random_effects(point.values)
+        changes = [self._compute_run_change(point, name) for name in effects]
         runs, count = len(self.records), len(names)
         table = np.zeros((count + runs * len(changes), point.innovations.size))
         self._fill_parameter_rows(table[:count], point, names)
@@ -487,7 +429,7 @@ class PredictionErrorProblem:
             known: (2 n, others + nuisance) the fine Jacobian at it in a structure without them.
         """
         every, parameters = point.structure.searched_names, point.structure.parameters
-        nuisance = len(self.records) * len(self.list_nuisance_priors(point))
+        nuisance = len(self.records) * len(self.list_random_effects(point.values))
         others = known.shape[1] - nuisance
         # an absent effect's other parameters change nothing: their derivatives are zero
         sizes = [name for name in every[others:] if parameters[name].neutral == 0.0]
@@ -496,26 +438,19 @@ class PredictionErrorProblem:
         self._fill_parameter_rows([table[every.index(name)] for name in sizes], point, sizes)
         self._keep_jacobian(point, {True: table.T})
 
-    def compute_parameter_jacobian(
-        self, point: Estimate, names: Sequence[str], *, known: Array | None = None
-    ) -> Array:
-        """(2 n, names) derivatives of the whitened innovations by some parameters.
-
-        Args:
-            point: the estimate.
-            names: the parameters.
-            known: (2 n, names or more) these derivatives as one-sided differences. If given, the
-                mean with the difference to the other side is returned.
-        """
-        rows = np.empty((len(names), point.innovations.size))
-        self._fill_parameter_rows(rows, point, names, known=known)
-        return rows.T
-
     def _fill_parameter_rows(
         self, rows: Sequence[Array] | Array, point: Estimate, names: Sequence[str], *,
         known: Array | None = None,
     ) -> None:  # fmt: skip
-        """Write the columns of ``compute_parameter_jacobian`` into ``rows``, (2 n,) each."""
+        """Write derivatives of the whitened innovations by some parameters into rows.
+
+        Args:
+            rows: (2 n,) for each parameter.
+            point: the estimate.
+            names: the parameters.
+            known: (2 n, names or more) these derivatives as one-sided differences. If given, the
+                mean with the difference to the other side is written.
+        """
         sides = [
             self._compute_difference_step(point, name, back=known is not None) for name in names
         ]
@@ -525,7 +460,7 @@ class PredictionErrorProblem:
             if value is not None
         ]
         with np.errstate(over="ignore", invalid="ignore"):  # diverging ones are clipped by whiten
-            results = self._simulate_in_parallel(tried, point.kalman_filter)
+            results = self._simulate_in_parallel(tried, point.kalman_gain)
             for place, (row, name, value) in enumerate(zip(rows, names, sides, strict=True)):
                 if value is not None:
                     change = next(results)
@@ -536,42 +471,40 @@ class PredictionErrorProblem:
                     column = known[:, place]
                     row[:] = column if value is None else 0.5 * (column + row)
 
-    def compute_lag_jacobian(self, point: Estimate) -> Array:
-        """(2 n, runs) derivatives of the whitened innovations by each run's own lag."""
-        return self._split_column_by_run(self._compute_lag_change(point))
+    def compute_run_jacobian(self, point: Estimate, name: str) -> Array:
+        """(2 n, runs) derivatives of the whitened innovations by an offset of each run."""
+        table = np.zeros((len(self.records), point.innovations.size))
+        self._fill_run_rows(table, self._compute_run_change(point, name))
+        return table.T
 
-    def compute_friction_jacobian(self, point: Estimate) -> Array:
-        """(2 n, runs) derivatives of the whitened innovations by each run's own friction."""
-        return self._split_column_by_run(self._compute_friction_change(point))
-
-    def _compute_friction_change(self, point: Estimate) -> Array:
-        """(2 n,) derivative of the whitened innovations by the friction of all runs together."""
-        by = np.full(len(self.records), get_friction_sd(point.values))
+    def _compute_run_change(self, point: Estimate, name: str) -> Array:
+        """(2 n,) derivative of the whitened innovations by an offset of all runs together."""
+        by = {
+            POSITION: self.noise.position,
+            FRICTION: get_friction_sd(point.values),
+            LAG: LAG_STEP * self.lag_sd,
+        }[name]
+        ways = (by, -by) if name == FRICTION else (by,)  # friction that holds has a kink
         model = point.structure.model(point.values)
-        more, less = self._simulate_in_parallel(
-            [(model, point.nuisance.add_friction(one)) for one in (by, -by)], point.kalman_filter
-        )
-        return self.whiten(point, (more - less) / (2.0 * by[0]))
+        tried = [(model, point.nuisance.add(name, way)) for way in ways]
+        with np.errstate(over="ignore", invalid="ignore"):  # diverging ones are clipped by whiten
+            found = [*self._simulate_in_parallel(tried, point.kalman_gain), point.innovations]
+            return self.whiten(point, (found[0] - found[1]) / (by * len(ways)))
 
-    def _compute_lag_change(self, point: Estimate) -> Array:
-        """(2 n,) derivative of the whitened innovations by the lag of all runs together."""
-        by = LAG_STEP * self.lag_sd
-        later = point.nuisance.add_lag(np.full(len(self.records), by))
-        model = point.structure.model(point.values)
-        moved = self.predict_errors(model, later, point.kalman_filter)
-        return self.whiten(point, (moved - point.innovations) / by)
-
-    def list_nuisance_priors(self, point: Estimate) -> list[tuple[float, Array]]:
-        """Prior standard deviation and (runs,) values of each nuisance parameter.
+    def list_random_effects(self, values: Mapping[str, float]) -> dict[str, float]:
+        """Offset that differs at random from run to run -> standard deviation of its prior.
 
         They have the order of the Jacobian's columns.
+
+        Args:
+            values: the parameters; friction varies by a share of kS.
         """
-        priors = [(self.start_sd, point.nuisance.position_offset)]
+        effects = {POSITION: self.start_sd}
         if self.varying_friction:
-            priors.append((get_friction_sd(point.values), point.nuisance.friction_offset))
+            effects[FRICTION] = get_friction_sd(values)
         if self.lag_sd:
-            priors.append((self.lag_sd, point.nuisance.lag_offset))
-        return priors
+            effects[LAG] = self.lag_sd
+        return effects
 
     def _compute_difference_step(self, point: Estimate, name: str, *, back: bool) -> float | None:
         """The value of a parameter at which to simulate for a finite difference.
@@ -591,20 +524,14 @@ class PredictionErrorProblem:
         return below if structure.clamp_value(name, below) == below else None
 
     def _simulate_in_parallel(
-        self, tried: Sequence[tuple[Model, RunNuisance]], kalman_filter: KalmanFilter
+        self, tried: Sequence[tuple[Model, RunNuisance]], kalman_gain: Array
     ) -> Iterator[Array]:
         """The innovations of several simulations, in threads if the log is long."""
 
         def one(each: tuple[Model, RunNuisance]) -> Array:
-            return self.predict_errors(*each, kalman_filter)
+            return self.predict_errors(*each, kalman_gain)
 
         return (_make_thread_pool().map if len(self.measured) > PARALLEL else map)(one, tried)
-
-    def _split_column_by_run(self, change: Array) -> Array:
-        """(2 n, runs) block-diagonal: each run's part of the changes (2 n,) in its own column."""
-        table = np.zeros((len(self.records), change.size))
-        self._fill_run_rows(table, change)
-        return table.T
 
     def _fill_run_rows(self, rows: Array, change: Array) -> None:
         """Copy each run's part of the changes (2 n,) into that run's row; its rest stays zero.

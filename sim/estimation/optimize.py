@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
+from sim.estimation.run_nuisance import FRICTION
 
 FIRST_DAMPING, LEAST_DAMPING, TRIES = 1e-3, 1e-9, 5
 ENOUGH = 0.5  # [of -2 log L] a step that gains less ends the search
@@ -65,10 +66,8 @@ class JointJacobian:
             columns: (2 n, m) their derivatives by the further parameters.
             sd: standard deviation of the further parameters' normal prior.
         """
-        projected = self._project_data(columns)
-        square = columns.T @ columns - projected.T @ projected
-        square += np.eye(columns.shape[1]) / sd**2
-        slope = columns.T @ white - projected.T @ self.project(white)
+        slope, square = self._compute_products(columns, white)
+        square = square + np.eye(columns.shape[1]) / sd**2
         return float(slope @ np.linalg.solve(square, slope))
 
     def compute_shift(self, change: Array) -> Array:
@@ -77,9 +76,14 @@ class JointJacobian:
 
     def compute_residual_products(self, change: Array, white: Array) -> tuple[float, float]:
         """Products of a change with innovations and itself, the Jacobian projected out."""
-        projected = self._project_data(change)
-        product = float(change @ white - projected @ self.project(white))
-        return product, float(change @ change - projected @ projected)
+        product, square = self._compute_products(change, white)
+        return float(product), float(square)
+
+    def _compute_products(self, columns: Array, white: Array) -> tuple[Array, Array]:
+        """(m,) and (m, m) the same of some changes (2 n, m)."""
+        projected = self._project_data(columns)
+        product = columns.T @ white - projected.T @ self.project(white)
+        return product, columns.T @ columns - projected.T @ projected
 
 
 def make_joint_jacobian(
@@ -99,15 +103,16 @@ def make_prior_rows(problem: PredictionErrorProblem, point: Estimate) -> tuple[A
     Rows of nuisance parameters come first.
     """
     runs, names = len(problem.records), point.structure.searched_names
-    nuisance = problem.list_nuisance_priors(point)
+    effects = problem.list_random_effects(point.values)
     known = problem.select_priors(point.structure)
-    count, columns = runs * len(nuisance), len(names)
+    count, columns = runs * len(effects), len(names)
     rows = np.zeros((count + len(known), columns + count))
-    rows[:count, columns:] = np.diag(np.repeat([1.0 / sd for sd, _ in nuisance], runs))
+    rows[:count, columns:] = np.diag(np.repeat([1.0 / sd for sd in effects.values()], runs))
     for row, (name, sd) in enumerate(known.items(), count):
         rows[row, names.index(name)] = 1.0 / sd
     values = [point.values[name] / sd for name, sd in known.items()]
-    return rows, np.concatenate([*(offset / sd for sd, offset in nuisance), values])
+    offsets = (getattr(point.nuisance, name) / sd for name, sd in effects.items())
+    return rows, np.concatenate([*offsets, values])
 
 
 def levenberg_marquardt(
@@ -177,17 +182,15 @@ def _take_step(problem: PredictionErrorProblem, point: Estimate, by: Array) -> E
     searched = structure.searched_names
     for name, step in zip(searched, by.tolist(), strict=False):
         values[name] = structure.step_value(name, values[name], step)
-    own = iter(by[len(searched) :].reshape(-1, len(problem.records)))
-    nuisance = point.nuisance.shift_positions(next(own))
+    own, nuisance = by[len(searched) :].reshape(-1, len(problem.records)), point.nuisance
+    for name, offsets in zip(problem.list_random_effects(point.values), own, strict=True):
+        nuisance = nuisance.add(name, offsets)
     if problem.varying_friction:
-        nuisance = nuisance.add_friction(next(own))
         # the mean of the runs' frictions belongs to kS: the priors alone hardly keep it zero
         common = float(np.mean(nuisance.friction_offset))
         values["kS"] = max(values["kS"] + common, 0.0)
-        nuisance = nuisance.add_friction(np.full_like(nuisance.friction_offset, -common))
-    if problem.lag_sd:
-        nuisance = nuisance.add_lag(next(own))
-    return problem.evaluate(structure, values, nuisance, point.process_noise)
+        nuisance = nuisance.add(FRICTION, -common)
+    return problem.change(point, values=values, nuisance=nuisance)
 
 
 def tune_process_noise(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
@@ -195,9 +198,7 @@ def tune_process_noise(problem: PredictionErrorProblem, point: Estimate) -> Esti
     least = LEAST_Q * problem.noise.velocity**2
 
     def at(factor: float) -> Estimate:
-        return problem.evaluate(
-            point.structure, point.values, point.nuisance, point.process_noise * factor
-        )
+        return problem.change(point, process_noise=point.process_noise * factor)
 
     neighbor = {factor: at(factor) for factor in (FACTOR, 1.0 / FACTOR)}
     for factor in (FACTOR, 1.0 / FACTOR):

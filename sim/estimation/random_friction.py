@@ -14,7 +14,6 @@ from collections.abc import Mapping
 import numpy as np
 
 from sim.core.log import Array
-from sim.estimation.run_nuisance import RunNuisance
 
 VARIES = 0.04  # [of kS] τ; measured on logs of one day, it is 0.02 to 0.06
 LEAST_KS = 0.05  # [V] a smaller kS has the priors of friction of this one
@@ -23,11 +22,6 @@ LEAST_KS = 0.05  # [V] a smaller kS has the priors of friction of this one
 def get_friction_sd(values: Mapping[str, float]) -> float:
     """[V] τ, the standard deviation of friction between runs."""
     return VARIES * max(values["kS"], LEAST_KS)
-
-
-def compute_friction_prior(values: Mapping[str, float], nuisance: RunNuisance) -> float:
-    """Σ (δ/τ)², the prior cost of the runs' friction offsets, as -2 log L."""
-    return float(np.sum(np.square(nuisance.friction_offset / get_friction_sd(values))))
 
 
 def compute_laplace_correction(sd: float, slopes: Array) -> float:

@@ -2,11 +2,14 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
 from sim.core.log import Array
+
+POSITION, FRICTION, LAG = "position_offset", "friction_offset", "lag_offset"
+"""Names of the offsets that differ at random from run to run."""
 
 ON_ONE_SIDE = 2.0 * math.log(3.0)
 """[of -2 log L] Prior cost of a backlash phase at one of the two ends of the backlash."""
@@ -45,38 +48,25 @@ class RunNuisance:
     def select_runs(self, chosen: Sequence[int]) -> "RunNuisance":
         """A copy with some of the runs."""
         places = list(chosen)
-        return RunNuisance(
-            self.position_offset[places],
-            self.backlash_phase[places],
-            self.friction_offset[places],
-            self.lag_offset[places],
-        )
+        return RunNuisance(*(getattr(self, one.name)[places] for one in fields(self)))
+
+    def add(self, name: str, by: Array | float) -> "RunNuisance":
+        """A copy with ``by``, for all runs or (runs,), added to one of the offsets."""
+        return replace(self, **{name: getattr(self, name) + by})
 
     def shift_positions(self, by: Array) -> "RunNuisance":
         """A copy with positions shifted by ``by`` (runs,) [unit]."""
-        return replace(self, position_offset=self.position_offset + by)
-
-    def add_friction(self, by: Array) -> "RunNuisance":
-        """A copy with ``by`` (runs,) [V] more friction in each run."""
-        return replace(self, friction_offset=self.friction_offset + by)
-
-    def add_lag(self, by: Array) -> "RunNuisance":
-        """A copy in which each run lags ``by`` (runs,) [s] more."""
-        return replace(self, lag_offset=self.lag_offset + by)
+        return self.add(POSITION, by)
 
     @property
     def with_common_friction(self) -> "RunNuisance":
         """A copy with one friction for all runs."""
         return replace(self, friction_offset=np.zeros_like(self.friction_offset))
 
-    def with_backlash_phase(self, phase: Array) -> "RunNuisance":
-        """A copy with these backlash phases (runs,)."""
-        return replace(self, backlash_phase=phase)
-
     @property
     def without_backlash_phase(self) -> "RunNuisance":
         """A copy in which the load's weight decides where in its backlash a run starts."""
-        return self.with_backlash_phase(np.full_like(self.backlash_phase, np.nan))
+        return replace(self, backlash_phase=np.full_like(self.backlash_phase, np.nan))
 
     @property
     def backlash_phase_costs(self) -> Array:

@@ -81,9 +81,7 @@ def compute_run_variation_covariance(problem: PredictionErrorProblem, point: Est
     """
     if problem.varying_friction:  # T contains the variance of the friction
         problem = replace(problem, varying_friction=False)
-        point = problem.evaluate(
-            point.structure, point.values, point.nuisance.with_common_friction, point.process_noise
-        )
+        point = problem.change(point, nuisance=point.nuisance.with_common_friction)
     sizes = _list_parameter_sizes(problem, point)
     runs = _run_information(problem, point, sizes)
     known = problem.select_priors(point.structure)
@@ -114,7 +112,7 @@ def _compute_voltage_shift(problem: PredictionErrorProblem, point: Estimate) -> 
         return np.zeros(count)
     raised = replace(problem, records=tuple(one.raise_voltage() for one in problem.records))
     model = point.structure.model(point.values)
-    innovations = raised.predict_errors(model, point.nuisance, point.kalman_filter)
+    innovations = raised.predict_errors(model, point.nuisance, point.kalman_gain)
     change = problem.whiten(point, innovations - point.innovations)
     return make_joint_jacobian(problem, point, fine=True).compute_shift(change)[:count]
 
@@ -203,9 +201,9 @@ def _run_information(
     jacobian = problem.compute_jacobian(point, fine=True)
     innovations = problem.whiten(point, point.innovations)
     count, runs = sizes.size, []
-    nuisance = problem.list_nuisance_priors(point)
-    known = np.array([1.0 / sd**2 for sd, _ in nuisance])
-    places = count + len(problem.records) * np.arange(len(nuisance))
+    effects = problem.list_random_effects(point.values)
+    known = np.array([1.0 / sd**2 for sd in effects.values()])
+    places = count + len(problem.records) * np.arange(len(effects))
     for number, (first, last) in enumerate(
         zip(problem.run_edges, problem.run_edges[1:], strict=False)
     ):
@@ -214,7 +212,7 @@ def _run_information(
         if not columns.any():
             continue
         moved = jacobian[rows][:, places + number]
-        own = np.array([offset[number] for _, offset in nuisance]) * known
+        own = np.array([getattr(point.nuisance, name)[number] for name in effects]) * known
         shares = np.linalg.solve(moved.T @ moved + np.diag(known), moved.T @ columns)
         free = columns - moved @ shares
         information = free.T @ columns

@@ -11,7 +11,7 @@ nonsense, it refuses or warns, and says why.
 
 from sim.core.advice import Action
 from sim.core.doubt import Doubt
-from sim.core.errors import BadRequest
+from sim.core.errors import BadRequest, refuse_unknown
 from sim.core.log import Log
 from sim.core.vocabulary import METHODS, TYPES
 from sim.fit.result import Fit
@@ -47,12 +47,8 @@ def fit(log: Log, *, type: str = "", method: str = METHODS[0], median: int = 1) 
         2.52
     """
     chosen = type or log.type or "simple"
-    if chosen not in TYPES:
-        raise BadRequest(f"unknown type {chosen!r}", advice=f"Choose one of: {', '.join(TYPES)}.")
-    if method not in METHODS:
-        raise BadRequest(
-            f"unknown method {method!r}", advice=f"Choose one of: {', '.join(METHODS)}."
-        )
+    refuse_unknown("type", chosen, TYPES)
+    refuse_unknown("method", method, METHODS)
     if not type and chosen != "simple" and chosen in log.mechanism.lower():
         log = log.add_doubts(_type_from_name(log))
     if method == "sysid":

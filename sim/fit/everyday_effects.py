@@ -89,7 +89,7 @@ def add_everyday_effects(
         size = (FIRST if shape else first if known.least >= 0.0 else 0.0) * sd
         values[name] = min(max(size, known.least), known.most)
     extended = replace(problem, priors=priors)
-    wide = extended.evaluate(structure, values, point.nuisance, point.process_noise)
+    wide = extended.change(point, structure=structure, values=values)
     if first == 0.0:
         extended.extend_jacobian(wide, problem.compute_jacobian(point, fine=True))
     return extended, wide
@@ -113,7 +113,7 @@ def fit_everyday_effects(
     size = problem.noise.velocity**2
     extended, begin = add_everyday_effects(problem, point, first=FIRST)
     q = min(point.process_noise, TRACKING * size)
-    begin = extended.evaluate(begin.structure, begin.values, begin.nuisance, q)
+    begin = extended.change(begin, process_noise=q)
     begin = levenberg_marquardt(extended, begin, steps=STEPS, enough=ROUGHLY)
     found = fit_open_loop(extended, begin)
     return (extended, found) if found.cost < point.cost - WORTH else (problem, point)

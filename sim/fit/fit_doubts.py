@@ -1,4 +1,4 @@
-"""Warnings about an output-error fit: opposed signs, lags, and a model that does not fit."""
+"""Warnings about an output-error fit: lags, and a model that does not fit."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -16,24 +16,6 @@ STRONG = 2.5  # [standard deviations of the prior] from which an effect is no lo
 LEAST_LAG = 0.004  # [s] a longer delay or average is mentioned
 MISFIT = frozenset({"model-strays", "small-misfit", "strong-effect"})
 """Warnings that kS, kV, kA and kG alone do not describe the log; a model with effects may."""
-
-
-def warn_of_opposed_signs(sign: float) -> tuple[Doubt, ...]:
-    """A warning if positive voltage drives the mechanism backward.
-
-    Args:
-        sign: of the velocity under a positive voltage, 1 or -1.
-    """
-    if sign > 0.0:
-        return ()
-    return (
-        Doubt(
-            "sign-opposed",
-            "kV and kA are negative: a positive voltage gives a negative velocity in this log. "
-            "Invert the encoder or the motor, and record again.",
-            grave=True,
-        ),
-    )
 
 
 def warn_of_lags(window: float, lag: float) -> tuple[Doubt, ...]:

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sim.core.errors import BadRequest
+from sim.core.errors import BadRequest, refuse_unknown
 from sim.core.log import Array
 from sim.core.vocabulary import TYPES
 from sim.fit.sysid_rows import Rows
@@ -69,8 +69,7 @@ def compute_information(rows: Mapping[str, Rows], *, type: str, noise: float) ->
         >>> found.information.shape
         (3, 3)
     """
-    if type not in TYPES:
-        raise BadRequest(f"unknown type {type!r}", advice=f"Choose one of: {', '.join(TYPES)}.")
+    refuse_unknown("type", type, TYPES)
     if not (math.isfinite(noise) and noise > 0.0):
         raise BadRequest(f"the noise must be above 0, not {noise:g} V", advice="Give its size.")
     if not any(len(part) for part in rows.values()):

@@ -6,15 +6,13 @@ cause. The innovations of a correct model are white (Ljung, *System Identificati
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from sim.core.log import Array, Log
-from sim.core.units import find_unit
-from sim.estimation.measurements import MIN_SAMPLES, measure_runs
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import tune_process_noise
 from sim.fit import Fit
-from sim.fit.replay import make_fit_model
+from sim.fit.replay import measure_as_fitted
 from sim.fit.search import TRACKING, make_fit_problem
 
 
@@ -48,19 +46,15 @@ def compute_innovations(found: Fit, log: Log) -> tuple[RunInnovations, ...]:
     Raises:
         BadRequest: one measures a length, the other an angle, or kV or kA is not positive.
     """
-    fitted = found.in_units("radians" if find_unit(log.units).angular else "meters")
-    sign, model = make_fit_model(fitted)
-    long = (run for run in log.runs if len(run) >= MIN_SAMPLES)
-    log = replace(log, runs=tuple(replace(run, voltage=sign * run.voltage) for run in long))
-    friction = None if fitted.type == "simple" else model.gains["kS"]
-    problem = make_fit_problem(log, measure_runs(log, friction=friction))
+    model, log, measured = measure_as_fitted(found, log)
+    problem = make_fit_problem(log, measured)
     values = dict(model.gains)
-    if fitted.type == "arm":
+    if found.type == "arm":
         size, angle = values.pop("kG"), values.pop("offset_rad")
         values |= {"level": size * math.cos(angle), "upright": -size * math.sin(angle)}
     for part in model.parts:
         values |= {f"{part.effect}.{name}": value for name, value in part.parameters.items()}
-    structure = ModelStructure(fitted.type, tuple(part.effect for part in model.parts))
+    structure = ModelStructure(found.type, tuple(part.effect for part in model.parts))
     noise = TRACKING * problem.noise.velocity**2
     point = problem.evaluate(structure, values, problem.initial_nuisance, noise)
     if math.isfinite(point.cost):

@@ -11,7 +11,6 @@ its figures.
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 
@@ -53,11 +52,7 @@ def score_simulated_velocity(
     """
     missed, total, count = 0.0, 0.0, 0
     for part in rows:
-        decay, gain = _discretize(np.diff(part.time), gains)
-        if type == "arm":
-            model = _simulate_arm(part, decay, gain, gains)
-        else:
-            model = _simulate_without_gravity_angle(part, decay, gain, gains)
+        model = _simulate(part, gains, turns=type == "arm")
         with np.errstate(over="ignore", invalid="ignore"):  # with wrong gains it may diverge
             error = part.velocity - model
             missed += float(error @ error)
@@ -69,41 +64,30 @@ def score_simulated_velocity(
     return SimulationScore(1.0 - rmse / math.sqrt(total / count), rmse)
 
 
-def _discretize(period: Array, gains: Mapping[str, float]) -> tuple[list[float], list[float]]:
-    """Exact step of v' = (V - kV·v)/kA: v⁺ = decay·v + gain·V."""
+def _simulate(part: Rows, gains: Mapping[str, float], *, turns: bool) -> Array:
+    """Velocities of a test, simulated from its first sample by exact steps of v' = (V - kV·v)/kA.
+
+    Plain floats: one step needs the last.
+
+    Args:
+        part: the rows of the test.
+        gains: the gains.
+        turns: whether the weight depends on the angle.
+    """
+    periods = np.diff(part.time)
     rate = -gains["kV"] / gains["kA"]
     with np.errstate(over="ignore", invalid="ignore"):
-        decay = np.exp(rate * period)
-        gain = np.expm1(rate * period) / -gains["kV"] if gains["kV"] else period / gains["kA"]
-    return decay.tolist(), gain.tolist()
-
-
-def _simulate_without_gravity_angle(
-    part: Rows, decay: list[float], gain: list[float], gains: Mapping[str, float]
-) -> Array:
-    """Velocities of a simple mechanism or an elevator. Plain floats: one step needs the last."""
-    ks, kg = gains["kS"], gains.get("kG", 0.0)
-    v = float(part.velocity[0])
+        decay = np.exp(rate * periods)
+        gain = np.expm1(rate * periods) / -gains["kV"] if gains["kV"] else periods / gains["kA"]
+    steps = zip(decay.tolist(), gain.tolist(), periods.tolist(), part.voltage.tolist())  # noqa: B905 - nothing follows the last voltage
+    ks, kg, offset = gains["kS"], gains.get("kG", 0.0), gains.get("offset_rad", 0.0)
+    x, v, weight = float(part.position[0]), float(part.velocity[0]), kg
     model = [v]
-    for keep, push, volts in zip(decay, gain, part.voltage.tolist(), strict=False):
+    for keep, push, dt, volts in steps:
         friction = ks if v > 0.0 else -ks if v < 0.0 else 0.0
-        v = keep * v + push * (volts - friction - kg)
-        model.append(v)
-    return np.array(model)
-
-
-def _simulate_arm(
-    part: Rows, decay: list[float], gain: list[float], gains: Mapping[str, float]
-) -> Array:
-    """The velocities of an arm simulated with the gains, from the first sample of a test."""
-    ks, kg, offset = gains["kS"], gains["kG"], gains["offset_rad"]
-    x, v = float(part.position[0]), float(part.velocity[0])
-    model = [v]
-    periods = (late - early for early, late in pairwise(part.time.tolist()))
-    for keep, push, dt, volts in zip(decay, gain, periods, part.voltage.tolist(), strict=False):
-        friction = ks if v > 0.0 else -ks if v < 0.0 else 0.0
-        angle = x + 0.5 * dt * v + offset
-        weight = kg * math.cos(angle) if math.isfinite(angle) else math.nan
+        if turns:
+            angle = x + 0.5 * dt * v + offset
+            weight = kg * math.cos(angle) if math.isfinite(angle) else math.nan
         after = keep * v + push * (volts - friction - weight)
         x += 0.5 * dt * (v + after)
         v = after

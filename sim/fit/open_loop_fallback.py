@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.optimize import levenberg_marquardt
+from sim.estimation.run_nuisance import LAG
 from sim.fit.search import TRACKING
 
 MISFIT = 2.0  # [1] open-loop velocity error over the sensor noise; more is a misfit
@@ -98,7 +99,7 @@ def replay_open_loop(
         point: the estimate.
         velocity_only: as in ``OpenLoopReplay``.
     """
-    nuisance = problem.initial_nuisance.add_lag(point.nuisance.lag_offset)
+    nuisance = problem.initial_nuisance.add(LAG, point.nuisance.lag_offset)
     track = problem.simulate(point.structure.model(point.values), nuisance)
     both = np.column_stack([problem.measured[:, 1], track.seen])
     fresh = ~np.isnan(both[:, 0])
@@ -117,26 +118,52 @@ def replay_open_loop(
     )  # fmt: skip
 
 
-def fit_velocity_only(
-    problem: PredictionErrorProblem, point: Estimate, before: OpenLoopReplay
-) -> tuple[PredictionErrorProblem, Estimate, OpenLoopReplay]:
-    """Fit the open-loop velocity alone, if the likeliest estimate has a misfit.
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """The measurements, the best estimate so far, and its open-loop replay.
+
+    Args:
+        problem: the measurements.
+        point: the estimate.
+        velocity_only: as in ``OpenLoopReplay``.
+    """
+
+    problem: PredictionErrorProblem
+    point: Estimate
+    velocity_only: bool = False
+
+    @cached_property
+    def replay(self) -> OpenLoopReplay:
+        """The open-loop replay of the estimate."""
+        return replay_open_loop(self.problem, self.point, velocity_only=self.velocity_only)
+
+    def needs_noise(self, q: float) -> bool:
+        """Whether the process noise is more than ``q`` [1/s] times the velocity's variance."""
+        return self.point.process_noise > q * self.problem.noise.velocity**2
+
+    @property
+    def is_incomplete(self) -> bool:
+        """Whether so much is missing that lags and small effects would only imitate it."""
+        return self.needs_noise(TRACKING) and self.replay.has_misfit
+
+
+def fit_velocity_only(found: Solution) -> Solution:
+    """Fit the open-loop velocity alone, if the likeliest estimate is incomplete.
 
     The lags are kept: a delay of the velocity shows in comparison with the position. Without the
     position it could not be told from inertia.
 
     Args:
-        problem: the measurements.
-        point: the likeliest estimate.
-        before: its open-loop replay.
+        found: the likeliest estimate.
 
     Returns:
-        The problem without positions, the new estimate, and its replay. All are unchanged if there
-        is no misfit, if the new RMS error is not smaller, or if the process noise is so small that
-        the estimate already fits the open-loop simulation.
+        The new estimate, of the problem without positions. ``found`` is returned if its process
+        noise is so small that it fits the open-loop simulation already, if it has no misfit, or if
+        the new RMS error is not smaller.
     """
-    if point.process_noise <= TRACKING * problem.noise.velocity**2 or not before.has_misfit:
-        return problem, point, before
+    if not found.is_incomplete:
+        return found
+    problem, point = found.problem, found.point
     records = []
     for record in problem.records:
         measured = record.measurements.measured.copy()
@@ -145,13 +172,9 @@ def fit_velocity_only(
         records.append(replace(record, measurements=run))
     velocities = replace(problem, records=tuple(records), lag_sd=0.0)
     structure = replace(point.structure, fixed=LAGS)
-    nuisance = velocities.initial_nuisance.add_lag(point.nuisance.lag_offset)
-    found = levenberg_marquardt(
-        velocities,
-        velocities.evaluate(structure, point.values, nuisance, 0.0),
-        steps=STEPS,
-        enough=0.01,
-    )
-    after = replay_open_loop(problem, found, velocity_only=True)
+    nuisance = velocities.initial_nuisance.add(LAG, point.nuisance.lag_offset)
+    begin = velocities.evaluate(structure, point.values, nuisance, 0.0)
+    other = levenberg_marquardt(velocities, begin, steps=STEPS, enough=0.01)
+    after = Solution(velocities, other, velocity_only=True)
     # samples that are not compared count in the replay, so its error may have grown
-    return (velocities, found, after) if after.rmse < before.rmse else (problem, point, before)
+    return after if after.replay.rmse < found.replay.rmse else found

@@ -11,9 +11,8 @@ from itertools import product
 
 import numpy as np
 
-from sim.core.advice import Action
 from sim.core.doubt import Doubt
-from sim.core.errors import BadRequest, NotIdentifiable
+from sim.core.errors import NotIdentifiable
 from sim.core.log import Array, Log, Run
 from sim.core.units import find_unit
 from sim.estimation.initial_guess import clamp_to_physical, orient_forward
@@ -32,7 +31,6 @@ from sim.fit.everyday_effects import (
 from sim.fit.fit_doubts import (
     warn_of_lags,
     warn_of_misfit,
-    warn_of_opposed_signs,
     warn_of_strong_effects,
 )
 from sim.fit.gravity_type_hint import hint_gravity_type
@@ -40,11 +38,11 @@ from sim.fit.identifiability import doubt_undetermined, moves_both_ways, refuse_
 from sim.fit.open_loop_fallback import (
     HOLDS,
     LAGS,
-    OpenLoopReplay,
+    Solution,
     fit_velocity_only,
     replay_open_loop,
 )
-from sim.fit.result import Fit
+from sim.fit.result import Fit, refuse_length_of_arm
 from sim.fit.run_differences import fit_run_differences
 from sim.fit.search import (
     TRACKING,
@@ -55,6 +53,7 @@ from sim.fit.search import (
     predict_improvement,
     refine,
 )
+from sim.fit.sysid_doubts import warn_of_opposed_signs
 
 PENALTY = 4.0  # [of -2 log L] more for a window below a sample period, which noise can imitate
 HINT = 2.0  # [of -2 log L] predicted improvement by short lags from which on longer ones are tried
@@ -83,13 +82,7 @@ def fit_output_error(log: Log, *, type: str) -> Fit:  # noqa: A002 - SysId's wor
         BadRequest: an arm whose position is not an angle.
         NotIdentifiable: the log does not determine these gains; the message says which test would.
     """
-    per = find_unit(log.units)
-    if type == "arm" and not per.angular:
-        raise BadRequest(
-            f"an arm's position must be an angle, and this log is in {per.name}",
-            where=log.source,
-            advice=Action("angle"),
-        )
+    refuse_length_of_arm(log, type=type)
     _check_times(log)
     log, still = _leave_out_still_runs(log, type=type)
     try:
@@ -160,13 +153,12 @@ def _fit_problem(log: Log, *, type: str) -> Fit:  # noqa: A002 - as above
     plain = fit_tracking(problem, ModelStructure(type), begin)
     if not math.isfinite(plain.cost):
         raise _refuse_motion(log)
-    every = problem
-    problem, likeliest, replay = _choose_lags(problem, plain)
-    problem, likeliest, replay = _add_run_differences(
-        problem, likeliest, replay, every=every, period=_sample_period(log.runs)
+    likeliest = _add_run_differences(
+        _choose_lags(problem, plain), every=problem, period=_sample_period(log.runs)
     )
-    problem, likeliest, replay = _add_everyday_effects(problem, likeliest, replay)
-    searched, point, replay = fit_velocity_only(problem, likeliest, replay)
+    likeliest = _add_everyday_effects(likeliest)
+    found = fit_velocity_only(likeliest)
+    searched, point, replay = found.problem, found.point, found.replay
     gains, by_noise = compute_gains_with_errors(
         point, compute_parameter_covariance(searched, point), type=type
     )
@@ -176,7 +168,7 @@ def _fit_problem(log: Log, *, type: str) -> Fit:  # noqa: A002 - as above
     both_ways = moves_both_ways([record.measurements for record in searched.records])
     if type == "elevator" and not both_ways:
         least |= {"kS": math.inf, "kG": math.inf}
-    hint = hint_gravity_type(log, problem, replay, type=type)
+    hint = hint_gravity_type(log, likeliest.problem, replay, type=type)
     unknown = doubt_undetermined(gains, least, log=log, type=type, both_ways=both_ways, hint=hint)
     refuse_unrelated(replay, log=log, hint=hint)
     whole = (searched, point) if searched.priors else add_absent_effects(searched, point)
@@ -191,9 +183,7 @@ def _fit_problem(log: Log, *, type: str) -> Fit:  # noqa: A002 - as above
         *warn_of_misfit(replay, gains_only, per=find_unit(log.units), hint=hint),
         *warn_of_strong_effects(list_everyday_effects(point), searched.priors),
     )
-    return _make_result(
-        log, problem, point, sign=sign, gains=gains, errors=errors, replay=replay, said=said
-    )
+    return _make_result(log, found, sign=sign, gains=gains, errors=errors, said=said)
 
 
 def _sample_period(runs: Sequence[Run]) -> float:
@@ -201,71 +191,48 @@ def _sample_period(runs: Sequence[Run]) -> float:
     return float(np.median(np.concatenate([np.diff(run.time) for run in runs])))
 
 
-def _choose_lags(
-    problem: PredictionErrorProblem, plain: Estimate
-) -> tuple[PredictionErrorProblem, Estimate, OpenLoopReplay]:
+def _choose_lags(problem: PredictionErrorProblem, plain: Estimate) -> Solution:
     """The best estimate, with an averaged velocity, a delay, or both, if they improve it enough."""
     point = _add_lags(problem, plain, FIRST_LAGS, refit=fit_tracking)
-    everything, problem = problem, drop_outliers(problem, point)
+    kept = drop_outliers(problem, point)
 
-    def fit_without_filter(first: Estimate) -> Estimate:
-        if problem is not everything:
-            first = fit_tracking(problem, first.structure, first.values)
-        return fit_open_loop(problem, first)
+    def fit_without_outliers(first: Estimate) -> Solution:
+        if kept is not problem:
+            first = fit_tracking(kept, first.structure, first.values)
+        return Solution(kept, fit_open_loop(kept, first))
 
-    found = fit_without_filter(point)
+    found = fit_without_outliers(point)
     if point is not plain:
-        without = fit_without_filter(plain)
-        found = found if found.cost < without.cost - WORTH else without
-    replay = replay_open_loop(problem, found)
-    if replay.has_misfit or found.process_noise > HOLDS * problem.noise.velocity**2:
-        other = fit_without_filter(_fit_both_lags(problem, plain))
-        more = len(other.structure.effects) - len(found.structure.effects)
-        if other.cost < found.cost - WORTH * max(more, 0):
-            found, replay = other, replay_open_loop(problem, other)
-    if replay.has_misfit:  # short lags are not the cause
-        return problem, found, replay
-    best = _add_short_lags(problem, found)
-    return problem, best, replay if best is found else replay_open_loop(problem, best)
+        without = fit_without_outliers(plain)
+        found = found if found.point.cost < without.point.cost - WORTH else without
+    if found.needs_noise(HOLDS) or found.replay.has_misfit:
+        other = fit_without_outliers(_fit_both_lags(kept, plain))
+        more = len(other.point.structure.effects) - len(found.point.structure.effects)
+        if other.point.cost < found.point.cost - WORTH * max(more, 0):
+            found = other
+    # with a misfit, short lags are not the cause
+    return found if found.replay.has_misfit else _add_short_lags(found)
 
 
 def _add_run_differences(
-    problem: PredictionErrorProblem,
-    point: Estimate,
-    replay: OpenLoopReplay,
-    *,
-    every: PredictionErrorProblem,
-    period: float,
-) -> tuple[PredictionErrorProblem, Estimate, OpenLoopReplay]:
-    """Problem, estimate and replay with runs that differ, or unchanged if it is no better."""
-    if _is_incomplete(problem, point, replay):
-        return problem, point, replay
-    extended, found = fit_run_differences(problem, point, every=every, period=period)
-    if found is point:
-        return problem, point, replay
-    found = _add_short_lags(extended, found)
-    after = replay_open_loop(extended, found)
-    if _is_incomplete(extended, found, after):
-        return problem, point, replay
-    return extended, found, after
+    found: Solution, *, every: PredictionErrorProblem, period: float
+) -> Solution:
+    """The solution with runs that differ, or unchanged if it is no better."""
+    if found.is_incomplete:
+        return found
+    problem, point = fit_run_differences(found.problem, found.point, every=every, period=period)
+    if point is found.point:
+        return found
+    other = _add_short_lags(Solution(problem, point))
+    return found if other.is_incomplete else other
 
 
-def _is_incomplete(
-    problem: PredictionErrorProblem, point: Estimate, replay: OpenLoopReplay
-) -> bool:
-    """Whether a model is so incomplete that lags and small effects would only imitate the rest."""
-    return replay.has_misfit and point.process_noise > TRACKING * problem.noise.velocity**2
-
-
-def _add_everyday_effects(
-    problem: PredictionErrorProblem, point: Estimate, replay: OpenLoopReplay
-) -> tuple[PredictionErrorProblem, Estimate, OpenLoopReplay]:
-    """Problem, estimate and replay with small effects, or unchanged if that is not enough."""
-    extended, found = fit_everyday_effects(problem, point)
+def _add_everyday_effects(found: Solution) -> Solution:
+    """The solution with small effects, or unchanged if that is not enough."""
+    problem, point = fit_everyday_effects(found.problem, found.point)
+    other = Solution(problem, point)
     # if more is missing, or the runs differ, small effects would only imitate that
-    if found is point or found.process_noise > TRACKING * problem.noise.velocity**2:
-        return problem, point, replay
-    return extended, found, replay_open_loop(extended, found)
+    return found if point is found.point or other.needs_noise(TRACKING) else other
 
 
 def _fit_both_lags(problem: PredictionErrorProblem, plain: Estimate) -> Estimate:
@@ -291,16 +258,18 @@ def _fit_both_lags(problem: PredictionErrorProblem, plain: Estimate) -> Estimate
     return min(best, key=lambda one: one.cost)
 
 
-def _add_short_lags(problem: PredictionErrorProblem, found: Estimate) -> Estimate:
-    """An estimate with nearly correct gains, with those short lags that improve it enough."""
+def _add_short_lags(found: Solution) -> Solution:
+    """A solution with nearly correct gains, with those short lags that improve it enough."""
+    before = found.point
 
     def refit(
         problem: PredictionErrorProblem, structure: ModelStructure, values: Mapping[str, float]
     ) -> Estimate:
-        first = problem.evaluate(structure, values, found.nuisance, found.process_noise)
+        first = problem.change(before, structure=structure, values=values)
         return fit_open_loop(problem, refine(problem, first))
 
-    return _add_lags(problem, found, SHORT_LAGS, refit=refit)
+    point = _add_lags(found.problem, before, SHORT_LAGS, refit=refit)
+    return found if point is before else Solution(found.problem, point)
 
 
 def _add_lags(
@@ -373,11 +342,11 @@ def compute_gains_with_errors(
 
 
 def _make_result(
-    log: Log, problem: PredictionErrorProblem, point: Estimate, *, sign: float,
-    gains: Mapping[str, float], errors: Mapping[str, float], replay: OpenLoopReplay,
-    said: tuple[Doubt, ...],
+    log: Log, found: Solution, *, sign: float, gains: Mapping[str, float],
+    errors: Mapping[str, float], said: tuple[Doubt, ...],
 ) -> Fit:  # fmt: skip
     """The result: gains, goodness of fit, and warnings."""
+    point, replay = found.point, found.replay
     change = replay.acceleration_scores
     window, lag = (point.values.get(name, 0.0) for name in LAGS)
     signed = {
@@ -394,16 +363,16 @@ def _make_result(
         acceleration_rmse=change[1],
         simulated_velocity_r2=replay.r2,
         simulated_velocity_rmse=replay.rmse,
-        samples_used=_count_samples(log, problem),
+        samples_used=_count_samples(log, found.problem),
         position_delay=lag,
         velocity_delay=lag + 0.5 * window,
         velocity_threshold=0.0,
         step_duration=0.0,
-        lag_differs=problem.lag_sd > 0.0,
+        lag_differs=bool(point.nuisance.lag_offset.any()),
         parts=list_everyday_effects(point),
         doubts=(
             *log.doubts,
-            *warn_of_opposed_signs(sign),
+            *(warn_of_opposed_signs() if sign < 0.0 else ()),
             *warn_of_lags(window, lag),
             *said,
         ),

@@ -68,25 +68,22 @@ def replay_fit(found: Fit, log: Log) -> tuple[RunReplay, ...]:
     Raises:
         BadRequest: one measures a length, the other an angle, or kV or kA is not positive.
     """
-    fitted = found.in_units("radians" if find_unit(log.units).angular else "meters")
-    sign, model = make_fit_model(fitted)
-    runs = [run for run in log.runs if len(run) >= MIN_SAMPLES]
-    friction = None if fitted.type == "simple" else model.gains["kS"]
-    measured = measure_runs(replace(log, runs=tuple(runs)), friction=friction)
+    model, _, measured = measure_as_fitted(found, log)
     if not measured:
         return ()
     tracks = [
         simulate_run(
-            model, time=part.time, voltage=sign * part.voltage,
+            model, time=part.time, voltage=part.voltage,
             state=State.cold_at(part.position, part.velocity),
         )
         for part in measured
     ]  # fmt: skip
+    runs = [run for run in log.runs if len(run) >= MIN_SAMPLES]
     position_noise = _measure_position_noise(measured, tracks)
     velocity_noise = estimate_noise(measured).velocity
     return tuple(
         RunReplay(
-            _take_last_samples(run, part.time.size),
+            run.select(slice(len(run) - part.time.size, None)),
             track.position,
             track.seen,
             part.moving,
@@ -95,6 +92,20 @@ def replay_fit(found: Fit, log: Log) -> tuple[RunReplay, ...]:
         )
         for run, part, track in zip(runs, measured, tracks, strict=True)
     )
+
+
+def measure_as_fitted(found: Fit, log: Log) -> tuple[Model, Log, tuple[RunMeasurements, ...]]:
+    """The model of a fit, the long runs with voltages that drive forward, their measurements.
+
+    Raises:
+        BadRequest: one measures a length, the other an angle, or kV or kA is not positive.
+    """
+    fitted = found.in_units("radians" if find_unit(log.units).angular else "meters")
+    sign, model = make_fit_model(fitted)
+    long = (run for run in log.runs if len(run) >= MIN_SAMPLES)
+    log = replace(log, runs=tuple(replace(run, voltage=sign * run.voltage) for run in long))
+    friction = None if fitted.type == "simple" else model.gains["kS"]
+    return model, log, measure_runs(log, friction=friction)
 
 
 def make_fit_model(found: Fit) -> tuple[float, Model]:
@@ -145,8 +156,3 @@ def _measure_position_noise(measured: Sequence[RunMeasurements], tracks: Sequenc
         for run, track in zip(measured, tracks, strict=True)
     ]
     return compute_noise_deviation([third[~np.isnan(third)] for third in thirds])
-
-
-def _take_last_samples(run: Run, count: int) -> Run:
-    """The last samples of a run."""
-    return run.select(slice(len(run) - count, None))

@@ -4,8 +4,10 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
+from sim.core.advice import Action
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
+from sim.core.log import Log
 from sim.core.units import Unit, convert_gains, find_unit
 from sim.feedback import (
     PRESETS,
@@ -202,6 +204,20 @@ class Fit:
     def format_gain_unit(self, gain: str) -> str:
         """The unit of a gain, as printed: ``V·s/m``."""
         return format_gain_unit(gain, find_unit(self.units))
+
+
+def refuse_length_of_arm(log: Log, *, type: str) -> None:  # noqa: A002 - the field's own word
+    """Refuse an arm whose position is a length.
+
+    Raises:
+        BadRequest: it is.
+    """
+    if type == "arm" and not find_unit(log.units).angular:
+        raise BadRequest(
+            f"an arm's position must be an angle, and this log is in {log.units}",
+            where=log.source,
+            advice=Action("angle"),
+        )
 
 
 def format_gain_unit(gain: str, per: Unit) -> str:

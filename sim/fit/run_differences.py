@@ -39,6 +39,7 @@ from sim.estimation.optimize import (
     make_joint_jacobian,
 )
 from sim.estimation.random_friction import get_friction_sd
+from sim.estimation.run_nuisance import FRICTION, LAG
 from sim.fit.everyday_effects import FIRST, WORTH, add_everyday_effects
 from sim.fit.search import ROUGHLY, STEPS, drop_outliers, fit_open_loop, fit_tracking, refine
 
@@ -74,9 +75,9 @@ def fit_run_differences(
     joint = make_joint_jacobian(problem, point, fine=True)
     lagged = replace(problem, lag_sd=lag_sd)
     hints = (
-        joint.compute_improvement(white, lagged.compute_lag_jacobian(point), lag_sd),
+        joint.compute_improvement(white, lagged.compute_run_jacobian(point, LAG), lag_sd),
         joint.compute_improvement(
-            white, problem.compute_friction_jacobian(point), get_friction_sd(point.values)
+            white, problem.compute_run_jacobian(point, FRICTION), get_friction_sd(point.values)
         ),
     )
     if not max(hints) > WORTH:
@@ -93,18 +94,16 @@ def fit_run_differences(
         return problem, point
     extended, tracked = best.problem, best.estimate
     extended = drop_outliers(extended, tracked)
-    tracked = levenberg_marquardt(
-        extended, _evaluate_anew(extended, tracked), steps=STEPS, enough=ROUGHLY
-    )
+    tracked = levenberg_marquardt(extended, extended.change(tracked), steps=STEPS, enough=ROUGHLY)
     found = fit_open_loop(extended, tracked)
     framed = _correct_jitter(extended, found) if extended.lag_sd else extended
     if framed is extended:
         return extended, found
-    regular = refine(framed, _evaluate_anew(framed, found))
+    regular = refine(framed, framed.change(found))
     if not regular.cost < found.cost - WORTH:
         return extended, found
     framed = _correct_jitter(extended, regular)
-    return framed, fit_open_loop(framed, _evaluate_anew(framed, regular))
+    return framed, fit_open_loop(framed, framed.change(regular))
 
 
 class _Rival(NamedTuple):
@@ -123,7 +122,7 @@ def _fit_rival(problem: PredictionErrorProblem, common: Estimate, period: float)
         common: the best estimate without differences.
         period: [s] time between samples of the log.
     """
-    begin = _evaluate_anew(problem, common)
+    begin = problem.change(common)
     if problem.lag_sd:
         begin = _add_shared_lag(problem, common, least=0.5 * period)
     found = levenberg_marquardt(problem, begin, steps=2 * STEPS, enough=ROUGHLY)
@@ -146,10 +145,10 @@ def _compute_occam_factor(problem: PredictionErrorProblem, point: Estimate) -> f
     _, information = compute_gradient_and_information(problem, point)
     names, runs = point.structure.searched_names, len(problem.records)
     known = problem.select_priors(point.structure)
-    own = problem.list_nuisance_priors(point)[1:]  # the runs' starts are the same in all rivals
+    _, *own = problem.list_random_effects(point.values).values()  # all rivals have equal starts
     first = len(names) + runs
     chosen = [names.index(name) for name in known] + [*range(first, first + runs * len(own))]
-    sds = np.array([*known.values(), *np.repeat([sd for sd, _ in own], runs)])
+    sds = np.array([*known.values(), *np.repeat(own, runs)])
     posterior = invert_symmetric(information)[np.ix_(chosen, chosen)] / np.outer(sds, sds)
     return -float(np.linalg.slogdet(posterior)[1])
 
@@ -160,7 +159,7 @@ def _add_shared_lag(problem: PredictionErrorProblem, point: Estimate, *, least: 
     if SHARED not in structure.effects:
         structure += SHARED
     values = {**point.values, "delay.lag": max(point.values.get("delay.lag", 0.0), least)}
-    return problem.evaluate(structure, values, point.nuisance, point.process_noise)
+    return problem.change(point, structure=structure, values=values)
 
 
 def _correct_jitter(problem: PredictionErrorProblem, point: Estimate) -> PredictionErrorProblem:
@@ -187,11 +186,8 @@ def _correct_jitter(problem: PredictionErrorProblem, point: Estimate) -> Predict
 def _compute_reading_slopes(problem: PredictionErrorProblem, point: Estimate) -> Array:
     """(n, 2) derivative of the simulated readings by time [unit/s, unit/s²]."""
     model = point.structure.model(point.values)
-    base = problem.initial_nuisance.add_lag(point.nuisance.lag_offset)
-    readings = [
-        problem.simulate(model, base.add_lag(np.full(len(problem.records), by)))
-        for by in (-SLOPE_STEP, SLOPE_STEP)
-    ]
+    base = problem.initial_nuisance.add(LAG, point.nuisance.lag_offset)
+    readings = [problem.simulate(model, base.add(LAG, by)) for by in (-SLOPE_STEP, SLOPE_STEP)]
     early, late = (np.column_stack((one.expected, one.seen)) for one in readings)
     return np.asarray((early - late) / (2.0 * SLOPE_STEP))
 
@@ -202,8 +198,3 @@ def _compute_deviation_from_even(time: Array) -> Array:
     index = np.concatenate(([0.0], np.cumsum(np.round(steps / np.median(steps)))))
     line = np.polynomial.Polynomial.fit(index, time, 1)
     return np.asarray(time - line(index))
-
-
-def _evaluate_anew(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
-    """The estimate with the same values, evaluated on these measurements."""
-    return problem.evaluate(point.structure, point.values, point.nuisance, point.process_noise)

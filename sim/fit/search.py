@@ -75,13 +75,13 @@ def fit_open_loop(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
     less likely, the noise is reduced in steps as long as the likelihood grows.
     """
     size = problem.noise.velocity**2
-    open_loop = refine(problem, _set_process_noise(problem, point, OPEN_LOOP * size))
+    open_loop = refine(problem, problem.change(point, process_noise=OPEN_LOOP * size))
     if open_loop.cost < point.cost:
-        others = [_set_process_noise(problem, open_loop, q * size) for q in BETWEEN]
+        others = [problem.change(open_loop, process_noise=q * size) for q in BETWEEN]
         best = tune_process_noise(problem, min(open_loop, *others, key=lambda one: one.cost))
         return best if best is open_loop else refine(problem, best)
     for _ in range(MOST_ROUNDS):
-        other = _set_process_noise(problem, point, point.process_noise / COARSE)
+        other = problem.change(point, process_noise=point.process_noise / COARSE)
         other = levenberg_marquardt(problem, other, steps=1)
         if not other.cost < point.cost - 0.5:
             break
@@ -114,7 +114,7 @@ def predict_improvement(
     for name, value in more:
         structure = point.structure + name.partition(".")[0]
         values = {**point.values, name: value}
-        other = problem.evaluate(structure, values, point.nuisance, point.process_noise)
+        other = problem.change(point, structure=structure, values=values)
         gains.append(
             square - kept.compute_residual_square(problem.whiten(point, other.innovations))
         )
@@ -148,8 +148,3 @@ def drop_outliers(problem: PredictionErrorProblem, point: Estimate) -> Predictio
         for one, other in zip(kept, problem.records, strict=True)
     )
     return problem if same else replace(problem, records=tuple(kept))
-
-
-def _set_process_noise(problem: PredictionErrorProblem, point: Estimate, q: float) -> Estimate:
-    """The estimate with another process noise [unit²/s³]."""
-    return problem.evaluate(point.structure, point.values, point.nuisance, q)

@@ -102,14 +102,7 @@ def _doubt_signs(
 ) -> list[Doubt]:
     """Doubts about gains with a wrong sign."""
     if gains["kV"] < 0 and gains["kA"] < 0:
-        return [
-            Doubt(
-                "sign-opposed",
-                "kV and kA are negative: a positive voltage gives a negative velocity in this "
-                "log. Invert the encoder or the motor, and record again.",
-                grave=True,
-            )
-        ]
+        return [*warn_of_opposed_signs()]
     cause = {
         "kS": "friction cannot push. Look for noise in the velocity, for a mechanism that was "
         "moved by hand, or for gravity that the type leaves out",
@@ -129,6 +122,15 @@ def _doubt_signs(
         for gain, why in cause.items()
         if gains.get(gain, 1.0) < 0
     ]
+
+
+def warn_of_opposed_signs() -> tuple[Doubt, ...]:
+    """The warning that positive voltage drives the mechanism backward."""
+    text = (
+        "kV and kA are negative: a positive voltage gives a negative velocity in this log. Invert "
+        "the encoder or the motor, and record again."
+    )
+    return (Doubt("sign-opposed", text, grave=True),)
 
 
 def _doubt_low_r2(r2: float, simulated: tuple[SimulationScore, ...]) -> list[Doubt]:

@@ -6,7 +6,7 @@ reason. Otherwise the rows are those that SysId uses.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
@@ -45,14 +45,7 @@ class Rows:
 
     def select(self, keep: "np.ndarray[tuple[int], np.dtype[np.bool_]] | slice") -> "Rows":
         """The rows that a mask or a slice keeps."""
-        return Rows(
-            self.time[keep],
-            self.period[keep],
-            self.voltage[keep],
-            self.position[keep],
-            self.velocity[keep],
-            self.acceleration[keep],
-        )
+        return Rows(*(getattr(self, one.name)[keep] for one in fields(self)))
 
 
 @dataclass(frozen=True, eq=False)

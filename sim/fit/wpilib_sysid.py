@@ -1,12 +1,11 @@
 """WPILib SysId's recipe from end to end (method ``sysid``)."""
 
-from sim.core.advice import Action
-from sim.core.errors import BadRequest, NotIdentifiable
+from sim.core.errors import NotIdentifiable
 from sim.core.log import DIRECTIONS, FOUR_TESTS, Log
 from sim.core.units import find_unit
 from sim.fit.metrics import score_simulated_velocity
 from sim.fit.regression import regress_acceleration
-from sim.fit.result import Fit
+from sim.fit.result import Fit, refuse_length_of_arm
 from sim.fit.sysid_doubts import list_sysid_doubts
 from sim.fit.sysid_rows import prepare_rows
 
@@ -24,12 +23,7 @@ def fit_wpilib_sysid(log: Log, *, type: str, median: int = 1) -> Fit:  # noqa: A
         NotIdentifiable: the log does not determine these gains.
     """
     per = find_unit(log.units)
-    if type == "arm" and not per.angular:
-        raise BadRequest(
-            f"an arm's position must be an angle, and this log is in {per.name}",
-            where=log.source,
-            advice=Action("angle"),
-        )
+    refuse_length_of_arm(log, type=type)
     try:
         prepared = prepare_rows(log, median=median)
         found = regress_acceleration(prepared.rows, type=type)

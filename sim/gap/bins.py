@@ -1,120 +1,90 @@
 """Ways to bin the residuals: by run, speed, position, time after a step, voltage at rest."""
 
-from collections.abc import Sequence
-from functools import cached_property
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sim.core.log import DIRECTIONS, STANDSTILL, Array
-from sim.estimation.measurements import SensorNoise
-from sim.gap.binned_residuals import FEWEST, BinnedResiduals, SampleTable
 from sim.gap.place import POSITION, REST, RUN, SPEED, STEPS
 from sim.gap.residuals import Residuals
 
+FEWEST = 4  # samples of a bin with a mean
 LEAST_TIMES, TIMES, SPEEDS, POSITIONS, VOLTS = 6, 12, 8, 12, 4  # numbers of columns
 AFTER = (0.0, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6)  # [s] edges since a step: narrow just after it
 JUMPS = ("the voltage jumps up", "the voltage jumps down")
 RESTS = ("at rest under forward voltage", "at rest under reverse voltage")
 
 
-class ResidualBins:
-    """The residuals of some runs, binned in several ways.
+@dataclass(frozen=True, eq=False)
+class Bins:
+    """The samples of all runs, binned in one way.
 
     Args:
-        runs: residuals of the runs, each with at least one compared sample.
-        noise: standard deviations of a position and a velocity.
+        what: ``run``, ``direction-speed``, ``direction-position``, ``after-steps``, ``at-rest``.
+        rows: name of each row.
+        edges: (rows, columns + 1) [s, unit/s, unit or V] edges of the columns, increasing.
+        row: (n,) row of each sample; negative for none.
+        value: (n,) value that is binned, in the unit of ``edges``; nan for none.
+        way: (n,) ±1, the positive direction of each residual.
     """
 
-    def __init__(self, runs: Sequence[Residuals], *, noise: SensorNoise) -> None:
-        self.runs = runs
-        self.predicted = np.concatenate([run.predicted for run in runs])
-        self.voltage = np.concatenate([run.voltage for run in runs])
-        self.run_index = np.repeat(np.arange(len(runs)), [run.time.size for run in runs])
-        residuals = np.concatenate([run.error for run in runs])
-        self.compared = ~np.isnan(residuals).all(axis=1)
-        self.samples = SampleTable(
-            residuals / np.array([noise.position, noise.velocity]), self.run_index
-        )
-        self.speed = np.abs(self.predicted[:, 1])
-        self.top = float(self.speed[self.compared].max())
-        self.rests = self.speed <= STANDSTILL * self.top
+    what: str
+    rows: tuple[str, ...]
+    edges: Array
+    row: NDArray[np.intp]
+    value: Array
+    way: Array
 
-    @cached_property
-    def direction(self) -> Array:
-        """(n,) ±1, the direction of motion, or of the voltage while at rest."""
-        way = np.sign(np.where(self.rests, self.voltage, self.predicted[:, 1]))
-        way[way == 0.0] = 1.0
-        return np.asarray(way)
+    @property
+    def cells(self) -> NDArray[np.intp]:
+        """(n,) bin of each sample, counted through all rows; -1 outside of them."""
+        columns = self.edges.shape[1] - 1
+        cells = np.full(self.value.size, -1, dtype=np.intp)
+        for number, edges in enumerate(self.edges):
+            inside = (self.row == number) & (self.value >= edges[0]) & (self.value <= edges[-1])
+            found = np.searchsorted(edges, self.value[inside], side="right") - 1
+            cells[inside] = columns * number + np.minimum(found, columns - 1)
+        return cells
 
-    @cached_property
-    def direction_row(self) -> NDArray[np.intp]:
-        """(n,) row of each sample's direction: 0 forward, 1 reverse."""
-        return np.where(self.direction > 0.0, 0, 1)
 
-    @cached_property
-    def moving_row(self) -> NDArray[np.intp]:
-        """(n,) row of the direction of each sample that moves; -1 while at rest."""
-        return np.where(self.rests, -1, self.direction_row)
+def list_bins(runs: Sequence[Residuals]) -> Iterator[Bins]:
+    """Bin the samples of runs, each of which has a compared sample, in every way."""
+    position, velocity = np.concatenate([run.predicted for run in runs]).T
+    voltage, since = (
+        np.concatenate([getattr(run, name) for run in runs]) for name in ("voltage", "run_time")
+    )
+    compared = np.concatenate([run.compared for run in runs])
+    speed = np.abs(velocity)
+    top = float(speed[compared].max())
+    rests = speed <= STANDSTILL * top
+    way = np.sign(np.where(rests, voltage, velocity))  # of the motion, at rest of the voltage
+    way[way == 0.0] = 1.0
+    direction = np.where(way > 0.0, 0, 1)
+    moving = np.where(rests, -1, direction)
 
-    def bin_by_run(self) -> BinnedResiduals:
-        """The residuals binned by run and time."""
-        ends = [run.run_time[run.compared][[0, -1]] for run in self.runs]
-        shortest = min(int(np.count_nonzero(run.compared)) for run in self.runs)
-        columns = min(max(shortest // FEWEST, LEAST_TIMES), TIMES)
-        edges = np.stack([np.linspace(start, end, columns + 1) for start, end in ends])
-        since = np.concatenate([run.run_time for run in self.runs])
-        names = _name_runs([run.test for run in self.runs])
-        return self.samples.bin_samples(
-            RUN, names, edges, row=self.run_index, value=since, way=self.direction
-        )
+    times = [run.run_time[run.compared] for run in runs]
+    columns = min(max(min(time.size for time in times) // FEWEST, LEAST_TIMES), TIMES)
+    edges = np.stack([np.linspace(time[0], time[-1], columns + 1) for time in times])
+    index = np.repeat(np.arange(len(runs)), [run.time.size for run in runs])
+    yield Bins(RUN, _name_runs([run.test for run in runs]), edges, index, since, way)
 
-    def bin_by_speed(self) -> BinnedResiduals:
-        """The residuals binned by direction and speed."""
-        edges = _make_even_edges(0.0, self.top, SPEEDS)
-        return self.samples.bin_samples(
-            SPEED,
-            DIRECTIONS,
-            edges,
-            row=self.moving_row,
-            value=self.speed,
-            way=self.direction,
-            shares=True,
-        )
+    edges = _make_even_edges(0.0, top, SPEEDS)
+    yield Bins(SPEED, DIRECTIONS, edges, moving, speed, way)
 
-    def bin_by_position(self) -> BinnedResiduals:
-        """The residuals binned by direction and position."""
-        position = self.predicted[:, 0]
-        kept = position[self.compared]
-        edges = _make_even_edges(float(kept.min()), float(kept.max()), POSITIONS)
-        return self.samples.bin_samples(
-            POSITION,
-            DIRECTIONS,
-            edges,
-            row=self.moving_row,
-            value=position,
-            way=self.direction,
-            shares=True,
-        )
+    kept = position[compared]
+    edges = _make_even_edges(float(kept.min()), float(kept.max()), POSITIONS)
+    yield Bins(POSITION, DIRECTIONS, edges, moving, position, way)
 
-    def bin_after_steps(self) -> BinnedResiduals:
-        """The residuals after a voltage step, binned by its direction and the time since."""
-        largest = float(np.abs(self.voltage).max())
-        found = [run.find_steps(largest=largest, still=STANDSTILL * self.top) for run in self.runs]
-        since, jump = (np.concatenate([one[part] for one in found]) for part in (0, 1))
-        row = np.where(jump > 0.0, 0, 1)
-        return self.samples.bin_samples(
-            STEPS, JUMPS, np.tile(AFTER, (2, 1)), row=row, value=since, way=jump
-        )
+    largest = float(np.abs(voltage).max())
+    steps = [run.find_steps(largest=largest, still=STANDSTILL * top) for run in runs]
+    since, jump = (np.concatenate([one[part] for one in steps]) for part in (0, 1))
+    yield Bins(STEPS, JUMPS, np.tile(AFTER, (2, 1)), np.where(jump > 0.0, 0, 1), since, jump)
 
-    def bin_at_rest(self) -> BinnedResiduals:
-        """The residuals at rest, binned by direction and voltage."""
-        held = np.where(self.rests & self.compared, np.abs(self.voltage), np.nan)
-        most = float(np.max(held, initial=0.0, where=~np.isnan(held)))
-        row = np.where(self.rests, self.direction_row, -1)
-        return self.samples.bin_samples(
-            REST, RESTS, _make_even_edges(0.0, most, VOLTS), row=row, value=held, way=self.direction
-        )
+    held = np.where(rests & compared, np.abs(voltage), np.nan)
+    edges = _make_even_edges(0.0, float(np.nanmax(held, initial=0.0)), VOLTS)
+    yield Bins(REST, RESTS, edges, np.where(rests, direction, -1), held, way)
 
 
 def _name_runs(tests: Sequence[str]) -> tuple[str, ...]:

@@ -21,9 +21,8 @@ class Residuals:
         time: (n,) [s] on any clock.
         voltage: (n,) [V].
         predicted: (n, 2) [unit, unit/s] predicted position and velocity. The residuals are binned
-            by
-            these: with measured values, their noise would bias the means.
-        error: (n, 2) [unit, unit/s] measured minus predicted; nan where nothing is compared.
+            by these: with measured values, their noise would bias the means.
+        error: (n,) [unit/s] measured minus predicted velocity; nan where it is not compared.
     """
 
     test: str
@@ -34,8 +33,8 @@ class Residuals:
 
     @cached_property
     def compared(self) -> NDArray[np.bool_]:
-        """(n,) whether a position or a velocity is compared."""
-        return np.asarray(~np.isnan(self.error).all(axis=1))
+        """(n,) whether a velocity is compared."""
+        return np.asarray(~np.isnan(self.error))
 
     @cached_property
     def run_time(self) -> Array:

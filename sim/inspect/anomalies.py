@@ -55,16 +55,15 @@ class Anomaly:
         """Candidate (begin, end) samples of the disturbance within the anomaly.
 
         Args:
-            margin: [samples] largest distance from its first and last sample.
+            margin: [samples] largest distance from its first and last sample, 3 or more.
         """
-        stride = max(1, margin // 3)
-        return self._list_spans(self.first, self.last + 1, reach=margin, stride=stride)
+        return self._list_spans(self.first, self.last + 1, reach=margin, stride=margin // 3)
 
     def refine_spans(self, span: tuple[int, int], *, margin: int) -> list[tuple[int, int]]:
         """Candidate spans at sample resolution around the best of ``list_candidate_spans``."""
         first, last = span
         return self._list_spans(
-            self.begin + first, self.begin + last, reach=max(1, margin // 3) - 1, stride=1
+            self.begin + first, self.begin + last, reach=margin // 3 - 1, stride=1
         )
 
     def _list_spans(

@@ -36,14 +36,12 @@ class BaselineModel:
         ka: [V·s²/m or V·s²/rad] positive.
         ks: [V] not negative.
         gravity_terms: (3,) [V] coefficients of 1, cos x and sin x.
-        spread: [V] robust standard deviation of the residuals.
     """
 
     kv: float
     ka: float
     ks: float
     gravity_terms: Array
-    spread: float
 
     def compute_steady_speed(self, voltage: Array, position: Array) -> Array:
         """(n,) [m/s or rad/s] steady-state velocity under each voltage (n,) at a position (n,)."""
@@ -123,10 +121,8 @@ def fit_baseline(runs: Sequence[Run], *, still: float, period: float) -> Baselin
     kv, ka = float(gains[0]), float(gains[1])
     if not (kv > 0.0 and ka > 0.0):
         return None
-    left = volts - terms @ gains
     ka = float(np.clip(ka, FASTEST * kv, SLOWEST * kv))
-    spread = float(np.median(np.abs(left)) / 0.6745)
-    return BaselineModel(kv, ka, max(float(gains[2]), 0.0), gains[3:], spread)
+    return BaselineModel(kv, ka, max(float(gains[2]), 0.0), gains[3:])
 
 
 def _make_rows(run: Run, *, still: float, period: float) -> Array:

@@ -167,12 +167,17 @@ def find_held_samples(values: Array) -> tuple[Counts, Counts]:
     return starts, np.diff(np.append(starts, values.size))
 
 
+def find_driven_samples(run: Run) -> Counts:
+    """Indices of the samples at which a run has a voltage, without those before and after it."""
+    size = np.abs(run.voltage)
+    return np.flatnonzero(size > DRIVEN * size.max(initial=0.0))
+
+
 def _recognize_test(run: Run) -> str:
     """The test recognized from voltage and motion; see ``LogFeatures.recognized_tests``."""
     if run.kind not in ("quasistatic", "dynamic"):
         return run.test
-    size = np.abs(run.voltage)
-    driven = np.flatnonzero(size > DRIVEN * size.max(initial=0.0))
+    size, driven = np.abs(run.voltage), find_driven_samples(run)
     if driven.size < FEWEST:
         return run.test
     first, last = np.array_split(driven, 2)  # without the samples at rest before and after
@@ -228,6 +233,5 @@ def _copy_factor(run: Run) -> float:
 
 def _find_smallest_step(signals: list[Array]) -> float:
     """The smallest change between two samples of any signal; inf if none changes."""
-    steps = np.concatenate([np.abs(np.diff(values)) for values in signals] or [np.zeros(0)])
-    steps = steps[steps > 0.0]
-    return float(steps.min()) if steps.size else float("inf")
+    steps = np.concatenate([np.zeros(0), *(np.abs(np.diff(values)) for values in signals)])
+    return float(np.min(steps, where=steps > 0.0, initial=np.inf))

@@ -13,7 +13,7 @@ After the prediction-error method (Kristensen, Madsen and Jørgensen 2004).
 
 from collections.abc import Callable, Mapping, Sequence
 
-from sim.core.errors import BadRequest
+from sim.core.errors import refuse_unknown
 from sim.core.log import Log
 from sim.core.vocabulary import TYPES
 from sim.estimation.likelihood import PredictionErrorProblem
@@ -81,8 +81,7 @@ def reconcile(
         >>> story.findings[0].effect
         'velocity-filter'
     """
-    if type not in TYPES:
-        raise BadRequest(f"unknown type {type!r}", advice=f"Choose one of: {', '.join(TYPES)}.")
+    refuse_unknown("type", type, TYPES)
     damage = judge_damage(damages or {})
     recordings = Recordings(log, validation, held_out, type=type, damage=damage)
     check_logs(recordings, travel=travel)

@@ -5,6 +5,7 @@ run starts depends on the motion before it, which is not recorded.
 """
 
 import math
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -42,14 +43,14 @@ def estimate_backlash_phase(
     model = point.structure.model(point.values)
     costs = [_compute_costs_by_run(problem, point, point.innovations, old)]
     for each in others:
-        other = old.with_backlash_phase(each)
-        innovations = problem.predict_errors(model, other, point.kalman_filter)
+        other = replace(old, backlash_phase=each)
+        innovations = problem.predict_errors(model, other, point.kalman_gain)
         costs.append(_compute_costs_by_run(problem, point, innovations, other))
     tried, chosen = np.stack([before, *others]), np.argmin(np.stack(costs), axis=0)
     if not chosen.any():
         return point
-    nuisance = old.with_backlash_phase(tried[chosen, np.arange(before.size)])
-    found = problem.evaluate(point.structure, point.values, nuisance, point.process_noise)
+    nuisance = replace(old, backlash_phase=tried[chosen, np.arange(before.size)])
+    found = problem.change(point, nuisance=nuisance)
     return min(point, found, key=lambda one: one.cost)
 
 
@@ -57,7 +58,7 @@ def halve_backlash(problem: PredictionErrorProblem, point: Estimate) -> Estimate
     """The estimate with half the backlash, and new estimates of each run's phase."""
     halves = {name: 0.5 * point.values[name] for name in point.structure.backlash_names}
     values, nuisance = {**point.values, **halves}, point.nuisance.without_backlash_phase
-    start = problem.evaluate(point.structure, values, nuisance, point.process_noise)
+    start = problem.change(point, values=values, nuisance=nuisance)
     return estimate_backlash_phase(problem, start)
 
 

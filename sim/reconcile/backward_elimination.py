@@ -93,7 +93,7 @@ def refit_without_effect(
     point = candidate.estimate
     structure = point.structure - effect
     values = {name: point.values[name] for name in structure.names}
-    start = problem.evaluate(structure, values, point.nuisance, point.process_noise)
+    start = problem.change(point, structure=structure, values=values)
     return score_estimate(problem, minimize(problem, start))
 
 

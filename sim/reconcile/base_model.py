@@ -7,7 +7,6 @@ from sim.estimation.initial_guess import clamp_to_physical
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import levenberg_marquardt
-from sim.estimation.run_nuisance import RunNuisance
 from sim.reconcile.cross_validation import Fold, make_folds, select_usable_folds
 from sim.reconcile.local_minimum import minimize_fully, scan_process_noise
 from sim.reconcile.recordings import Recordings
@@ -44,11 +43,11 @@ def fit_base_model(problem: PredictionErrorProblem, recordings: Recordings) -> E
     """
     guess = clamp_to_physical(recordings.initial_gains)
     structure = ModelStructure(recordings.type)
-    nuisance = RunNuisance.at_first_samples(len(problem.records))
 
     def fit_from_inertia(ka: float) -> Estimate:
         values = {name: {**guess, "kA": ka}[name] for name in structure.names}
-        start = problem.evaluate(structure, values, nuisance, problem.noise.velocity**2)
+        noise = problem.noise.velocity**2
+        start = problem.evaluate(structure, values, problem.initial_nuisance, noise)
         found = levenberg_marquardt(problem, start, steps=STEPS, enough=1.0)
         return minimize_fully(problem, scan_process_noise(problem, found))
 

@@ -13,7 +13,8 @@ from dataclasses import dataclass
 
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.optimize import levenberg_marquardt, make_joint_jacobian
-from sim.estimation.random_friction import compute_laplace_correction, get_friction_sd
+from sim.estimation.random_friction import compute_laplace_correction
+from sim.estimation.run_nuisance import POSITION
 from sim.physics.effect import Effect, are_compatible
 from sim.physics.effects import EFFECTS
 from sim.physics.voltage_residual import VoltageResidual
@@ -65,11 +66,11 @@ class Candidate:
 def score_estimate(problem: PredictionErrorProblem, point: Estimate, effect: str = "") -> Candidate:
     """An estimate with its BIC: -2 log L + k·ln N (Schwarz, 1978)."""
     penalty = point.structure.free_count * math.log(max(problem.sample_count, 2))
-    sd = get_friction_sd(point.values)
-    integral = compute_laplace_correction(sd, problem.compute_friction_jacobian(point))
-    if problem.lag_sd:
-        lags = problem.compute_lag_jacobian(point)
-        integral += compute_laplace_correction(problem.lag_sd, lags)
+    integral = sum(
+        compute_laplace_correction(sd, problem.compute_run_jacobian(point, name))
+        for name, sd in problem.list_random_effects(point.values).items()
+        if name != POSITION  # the starts are the same in all models
+    )
     return Candidate(effect, point, point.cost + integral + penalty)
 
 
@@ -140,7 +141,7 @@ def _minimize_nested(problem: PredictionErrorProblem, point: Estimate, start: Es
         return _refine_motor_friction(problem, found) if _is_much_likelier(found, point) else found
     if found.cost <= point.cost:
         return found
-    noisy = problem.evaluate(start.structure, start.values, start.nuisance, point.process_noise)
+    noisy = problem.change(start, process_noise=point.process_noise)
     return min(found, minimize_fully(problem, noisy), key=lambda one: one.cost)
 
 
@@ -155,10 +156,7 @@ def refine_threshold(problem: PredictionErrorProblem, point: Estimate) -> Estima
         {name: structure.clamp_value(name, point.values[name] * share) for name in names}
         for share in (THRESHOLD_SHARES if names else ())
     ]
-    tried = [
-        problem.evaluate(structure, {**point.values, **one}, point.nuisance, point.process_noise)
-        for one in moved
-    ]
+    tried = [problem.change(point, values={**point.values, **one}) for one in moved]
     best = min([point, *tried], key=lambda one: one.cost)
     return point if best is point else minimize(problem, best)
 
@@ -176,10 +174,7 @@ def _refine_motor_friction(problem: PredictionErrorProblem, point: Estimate) -> 
     """
     name = f"{point.structure.effects[-1]}.motor_friction"
     moved = (
-        problem.evaluate(
-            point.structure, {**point.values, name: share}, point.nuisance, point.process_noise
-        )
-        for share in FRICTION_SHARES
+        problem.change(point, values={**point.values, name: share}) for share in FRICTION_SHARES
     )
     descended = [levenberg_marquardt(problem, one, steps=FURTHER) for one in moved]
     best = min(descended, key=lambda one: one.cost)
@@ -201,9 +196,7 @@ def descend_candidate(problem: PredictionErrorProblem, start: Estimate) -> Estim
     found = levenberg_marquardt(problem, start, steps=FURTHER)
     if not start.nuisance.has_backlash_phase:
         return found
-    again = problem.evaluate(
-        start.structure, start.values, start.nuisance.without_backlash_phase, start.process_noise
-    )
+    again = problem.change(start, nuisance=start.nuisance.without_backlash_phase)
     return min(found, levenberg_marquardt(problem, again, steps=FURTHER), key=lambda one: one.cost)
 
 
@@ -217,7 +210,7 @@ def _find_calmer_estimate(problem: PredictionErrorProblem, point: Estimate) -> E
     calm = CALM * problem.noise.velocity**2
     if point.process_noise <= AGITATED * calm:
         return None
-    calmer = problem.evaluate(point.structure, point.values, point.nuisance, calm)
+    calmer = problem.change(point, process_noise=calm)
     calmer = levenberg_marquardt(problem, calmer, steps=FEW_STEPS)
     return calmer if math.isfinite(calmer.cost) else None
 
@@ -250,7 +243,7 @@ def simplify_effect(
         for one, value in values.items()
     }
     kept = {one: point.values[one] for one in (point.structure - old.name).names}
-    return problem.evaluate(structure, {**kept, **added}, point.nuisance, point.process_noise)
+    return problem.change(point, structure=structure, values={**kept, **added})
 
 
 def _choose_best_of_each_effect(points: Iterable[Estimate]) -> list[Estimate]:

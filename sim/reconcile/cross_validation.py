@@ -11,7 +11,7 @@ from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.optimize import levenberg_marquardt
 from sim.estimation.random_friction import get_friction_sd
-from sim.estimation.run_nuisance import RunNuisance
+from sim.estimation.run_nuisance import FRICTION, RunNuisance
 from sim.physics.effects import EFFECTS
 from sim.physics.engine import Track
 from sim.reconcile.search_effort import STEPS
@@ -92,7 +92,7 @@ def compute_validation_gap(
     errors = [np.empty((0, 2))]
     for fold in folds:
         fitted, nuisance = _select_runs(problem, point, fold.fitted)
-        start = fitted.evaluate(point.structure, point.values, nuisance, point.process_noise)
+        start = fitted.change(point, nuisance=nuisance)
         found = levenberg_marquardt(fitted, start, steps=STEPS // 2)
         predicted, nuisance = _select_runs(problem, point, fold.predicted)
         errors.append(
@@ -155,7 +155,7 @@ def _with_run_friction(
 
     def compute_errors(frictions: Array) -> Array:
         other = (
-            problem.simulate(model, nuisance.add_friction(frictions)) if frictions.any() else track
+            problem.simulate(model, nuisance.add(FRICTION, frictions)) if frictions.any() else track
         )
         return _open_loop_errors(problem, other)
 

@@ -44,10 +44,6 @@ class DamagedInterval:
     sentence: str
     advice: str
 
-    def is_within(self, other: "DamagedInterval") -> bool:
-        """Whether another interval contains this one."""
-        return self.run == other.run and other.start <= self.start and self.end <= other.end
-
 
 @dataclass(frozen=True)
 class DamageDecision:

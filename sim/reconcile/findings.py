@@ -12,7 +12,7 @@ from sim.physics.effect import LATER, UNTIL
 from sim.physics.effects import EFFECTS
 from sim.reconcile.backlash_phase import reverses_within_run
 from sim.reconcile.backward_elimination import find_separating_test
-from sim.reconcile.cross_validation import Gap, count_noise_floors
+from sim.reconcile.cross_validation import count_noise_floors
 from sim.reconcile.damage import DamagedInterval
 from sim.reconcile.judgement import is_narrower_with, judge_effects
 from sim.reconcile.probability import JudgedEffect, compute_log_ratio
@@ -132,7 +132,10 @@ def _classify_size(
     ]
     closed = rounds[-1].gap.velocity <= least * rounds[0].gap.velocity
     if closed and not incomplete and all(one.size != "major" for one in found):
-        ratios = [_compute_gap_ratio(before.gap, one.gap) for before, one in pairwise(rounds)]
+        ratios = [
+            compute_log_ratio(one.gap.velocity, before.gap.velocity)
+            for before, one in pairwise(rounds)
+        ]
         if ratios:
             most = ratios.index(min(ratios))
             found[most] = replace(found[most], size="major")
@@ -142,11 +145,6 @@ def _classify_size(
 def _demote_if_not_narrower(one: Finding) -> Finding:
     """The finding; a minor one if the gap on the shown log is not narrower with it."""
     return one if one.gap_after <= NARROWER * one.gap_before else replace(one, size="minor")
-
-
-def _compute_gap_ratio(before: Gap, after: Gap) -> float:
-    """[1] velocity gap after a round over that before it; inf if there was none."""
-    return after.velocity / before.velocity if before.velocity > 0.0 else math.inf
 
 
 def _sort_key(one: Finding) -> int:

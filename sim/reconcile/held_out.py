@@ -13,18 +13,16 @@ from sim.core.log import Array, Log
 from sim.core.units import find_unit
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
-from sim.estimation.run_nuisance import RunNuisance
-from sim.gap import Place
+from sim.estimation.run_nuisance import LAG, RunNuisance
+from sim.gap import Place, Residuals, find_gap_places
 from sim.reconcile.backlash_phase import estimate_backlash_phase
 from sim.reconcile.cross_validation import compute_open_loop_errors, compute_rms_gap
 from sim.reconcile.recordings import Recordings
-from sim.reconcile.residual_map import map_residuals
 from sim.reconcile.search_effort import ROUNDS
 from sim.reconcile.selection_round import SelectionRound
 from sim.reconcile.story import Chapter
 from sim.reconcile.thresholds import VISIBLE_FLOORS
 
-PLACES_SHOWN = 5  # largest differences that are listed
 LOG_USES: Mapping[str, str] = {
     "held_out": "The gap is shown on the held-out log, which was not used for any fit.",
     "validation": (
@@ -120,9 +118,16 @@ class HeldOutLog:
 
     def find_gap_places(self, base: Chapter) -> tuple[Place, ...]:
         """Where the base model's velocity is wrong, the most significant place first."""
-        noise = self.problem.velocity_floor
-        found = map_residuals(self.log, base.tracks, compared=self.compared_samples, floor=noise)
-        return found.find_places(PLACES_SHOWN, signal="velocity") if found else ()
+        residuals = []
+        for record, track in zip(self.problem.records, base.tracks, strict=True):
+            run = record.measurements
+            error = run.measured[:, 1] - track[:, 1]
+            error[~run.informative | ~np.isfinite(track).all(axis=1)] = np.nan  # it diverged
+            predicted = np.nan_to_num(track)
+            residuals.append(Residuals(record.test, run.time, run.voltage, predicted, error))
+        if not any(one.compared.any() for one in residuals):
+            return ()
+        return find_gap_places(residuals, noise=self.problem.velocity_floor)
 
     def make_chapters(self, rounds: Sequence[SelectionRound]) -> tuple[Chapter, ...]:
         """Each model's gap and simulated runs."""
@@ -165,8 +170,7 @@ def measure_open_loop_gap(problem: PredictionErrorProblem, point: Estimate) -> f
 
 def estimate_initial_nuisance(problem: PredictionErrorProblem, point: Estimate) -> RunNuisance:
     """Initial values of each run: its first samples, and an estimated backlash phase."""
-    first = problem.initial_nuisance
-    found = problem.evaluate(point.structure, point.values, first, point.process_noise)
+    found = problem.change(point, nuisance=problem.initial_nuisance)
     for _ in range(ROUNDS):
         found = estimate_backlash_phase(problem, found)
         if problem.lag_sd:
@@ -176,12 +180,11 @@ def estimate_initial_nuisance(problem: PredictionErrorProblem, point: Estimate) 
 
 def _estimate_lags(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
     """The estimate after a Gauss-Newton step of the lag of each run."""
-    slopes = problem.compute_lag_jacobian(point)
+    slopes = problem.compute_run_jacobian(point, LAG)
     lags, known = point.nuisance.lag_offset, 1.0 / problem.lag_sd**2
     gradient = slopes.T @ problem.whiten(point, point.innovations) + known * lags
     step = -gradient / (np.sum(np.square(slopes), axis=0) + known)
-    nuisance = point.nuisance.add_lag(step)
-    found = problem.evaluate(point.structure, point.values, nuisance, point.process_noise)
+    found = problem.change(point, nuisance=point.nuisance.add(LAG, step))
     return min(point, found, key=lambda one: one.cost)
 
 

@@ -5,12 +5,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from sim.core.advice import Action
 from sim.core.errors import BadRequest, NotIdentifiable
 from sim.core.log import STANDSTILL, Log
 from sim.core.units import Unit, find_unit
 from sim.estimation.measurements import MIN_SAMPLES
 from sim.estimation.model_structure import ModelStructure
+from sim.fit.result import refuse_length_of_arm
 from sim.physics.voltage_residual import VoltageResidual, compute_voltage_residual
 from sim.reconcile.recordings import Recordings
 from sim.reconcile.thresholds import FEWEST_SAMPLES, LOST, OTHER_UNITS
@@ -29,16 +29,11 @@ def check_logs(recordings: Recordings, *, travel: float | None) -> None:
         BadRequest: units or gains that do not fit together, or positions far beyond the travel.
         NotIdentifiable: too few runs, samples, or voltages.
     """
-    log, base, unit = recordings.log, recordings.type, recordings.unit
+    log, base = recordings.log, recordings.type
     for one in recordings.logs_by_name.values():
         _check_samples(one)
     _check_size(log)
-    if base == "arm" and not unit.angular:
-        raise BadRequest(
-            f"an arm's position must be an angle, and this log is in {log.units}",
-            where=log.source,
-            advice=Action("angle"),
-        )
+    refuse_length_of_arm(log, type=base)
     _check_voltage(log)
     guess = recordings.initial_gains
     _check_direction(log, guess, type=base)
@@ -47,11 +42,11 @@ def check_logs(recordings: Recordings, *, travel: float | None) -> None:
             continue
         _check_units(log, other)
         _check_voltage(other)
-        _check_moves(other, than=_find_top_speed(log))
+        _check_moves(other, than=log.top_speed)
         if _follows_voltage(log, guess, type=base):
             _check_same(log, other, guess, type=base)
     if travel is not None:
-        _check_travel(log, travel, unit)
+        _check_travel(log, travel, recordings.unit)
 
 
 def _check_samples(log: Log) -> None:
@@ -111,17 +106,12 @@ def _check_units(log: Log, other: Log) -> None:
 
 
 def _check_moves(log: Log, *, than: float) -> None:
-    if not _find_top_speed(log) > STANDSTILL * than:
+    if not log.top_speed > STANDSTILL * than:
         raise NotIdentifiable(
             "the mechanism hardly moves in this log",
             where=log.source,
             advice="Use a log with the four tests, recorded with another step.",
         )
-
-
-def _find_top_speed(log: Log) -> float:
-    """[m/s or rad/s] top speed of the fastest run that is long enough."""
-    return max((run.top_speed for run in log.runs if len(run) >= MIN_SAMPLES), default=0.0)
 
 
 def _check_same(log: Log, other: Log, guess: Mapping[str, float], *, type: str) -> None:  # noqa: A002 - field's word

@@ -52,9 +52,7 @@ def judge_effects(
         for before, now in pairwise(rounds)
         if not is_ordinary_size(now.candidate.effect, last.values)
         and not is_contradicted(now.candidate.effect, problem, last, residuals)
-        and not oscillates_within_sample(now.candidate.effect, problem, last.values)
-        and not is_within_sensor_step(now.candidate.effect, problem, last.values)
-        and divides_motion(now.candidate.effect, problem, last.values)
+        and is_observable(now.candidate.effect, problem, last.values)
     ]
     found = []
     for place, (before, now) in enumerate(possible):
@@ -78,60 +76,35 @@ def judge_effects(
     return tuple(found)
 
 
-def oscillates_within_sample(
+def is_observable(
     effect: str, problem: PredictionErrorProblem, values: Mapping[str, float]
 ) -> bool:
-    """Whether a soft joint oscillates at least once between two samples, which no log can show.
+    """Whether these samples can show an effect at all.
 
-    The angular frequency is 1/√(softness·share·(1 - share)·kA) [rad/s].
+    They do not show a soft joint that oscillates at least once between two samples, with the
+    angular frequency 1/√(softness·share·(1 - share)·kA) [rad/s], nor a velocity scale that changes
+    even the top speed by less than a step of the sensor. An effect with an onset that acts on no
+    sample in motion, or on all of them, cannot be told from the model without it.
 
     Args:
         effect: name of the effect.
         problem: the measurements.
         values: parameter values of the model, in SI.
     """
-    if "joint_compliance" not in EFFECTS[effect].hooks:
-        return False
-    share, soft = values[f"{effect}.share"], values[f"{effect}.softness"]
-    reduced = share * (1.0 - share) * values["kA"]
-    return 2.0 * math.pi * math.sqrt(max(soft * reduced, 0.0)) < problem.period
-
-
-def is_within_sensor_step(
-    effect: str, problem: PredictionErrorProblem, values: Mapping[str, float]
-) -> bool:
-    """Whether a velocity scale changes even the top speed by less than a step of the sensor.
-
-    Args:
-        effect: name of the effect.
-        problem: the measurements.
-        values: parameter values of the model, in SI.
-    """
-    if effect != "velocity-scale":
-        return False
-    velocities = problem.measured[problem.moving, 1]
-    step = find_sensor_step([velocities[~np.isnan(velocities)]])
-    return abs(values["velocity-scale.scale"] - 1.0) * problem.top_speed < step
-
-
-def divides_motion(
-    effect: str, problem: PredictionErrorProblem, values: Mapping[str, float]
-) -> bool:
-    """Whether an effect with an onset acts on some samples in motion, and on others not.
-
-    One that acts on none of them, or on all of them, cannot be told from the model without it.
-
-    Args:
-        effect: name of the effect.
-        problem: the measurements.
-        values: parameter values of the model, in SI.
-    """
+    if "joint_compliance" in EFFECTS[effect].hooks:
+        share, soft = values[f"{effect}.share"], values[f"{effect}.softness"]
+        reduced = share * (1.0 - share) * values["kA"]
+        return 2.0 * math.pi * math.sqrt(max(soft * reduced, 0.0)) >= problem.period
+    if effect == "velocity-scale":
+        velocities = problem.measured[problem.moving, 1]
+        step = find_sensor_step([velocities[~np.isnan(velocities)]])
+        return abs(values["velocity-scale.scale"] - 1.0) * problem.top_speed >= step
     if not EFFECTS[effect].has_onset:
         return True
-    times = [one.measurements.time - one.measurements.time[0] for one in problem.records]
-    clock = np.concatenate(
-        [record.clock + time for record, time in zip(problem.records, times, strict=True)]
-    )[problem.moving]
+    clocks = [
+        one.clock + one.measurements.time - one.measurements.time[0] for one in problem.records
+    ]
+    clock = np.concatenate(clocks)[problem.moving]
     acts = (values[f"{effect}.{ONSET}"] <= clock) & (clock < values[f"{effect}.{UNTIL}"])
     return bool(acts.any() and not acts.all())
 

@@ -59,7 +59,7 @@ def minimize_fully(problem: PredictionErrorProblem, point: Estimate) -> Estimate
     found = [minimize_repeatedly(problem, point)]
     calm = CALM * problem.noise.velocity**2
     if found[0].process_noise > AGITATED * calm:
-        calmer = problem.evaluate(point.structure, found[0].values, found[0].nuisance, calm)
+        calmer = problem.change(found[0], process_noise=calm)
         calmer = levenberg_marquardt(problem, calmer, steps=STEPS)
         found.append(minimize_repeatedly(problem, calmer))
     best = min(found, key=lambda one: one.cost)
@@ -109,9 +109,7 @@ def rate_starts(
     """
 
     def rate(one: Mapping[str, float]) -> RatedStart:
-        other = problem.evaluate(
-            structure, {**point.values, **one}, point.nuisance, point.process_noise
-        )
+        other = problem.change(point, structure=structure, values={**point.values, **one})
         if not point.structure.has_backlash:  # else the phases are estimated already
             other = estimate_backlash_phase(problem, other, ends_only=not as_given)
         if not math.isfinite(other.cost):
@@ -186,9 +184,7 @@ def _scale_start(
 def scan_process_noise(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
     """The likeliest of an estimate and of five with less process noise."""
     tried = [
-        problem.evaluate(
-            point.structure, point.values, point.nuisance, point.process_noise * FACTOR**power
-        )
+        problem.change(point, process_noise=point.process_noise * FACTOR**power)
         for power in SCANNED
     ]
     return min([point, *tried], key=lambda one: one.cost)

@@ -8,9 +8,10 @@ late in a step the acceleration is small, but the position still shows the diffe
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from itertools import pairwise, product
+from typing import NamedTuple
 
 import numpy as np
 
@@ -31,36 +32,6 @@ LEAST, MOST = -0.5, 2.0  # [kA] smallest and largest size of a start
 INDEPENDENT = 1e-9  # [1] least share of a change's square that no other parameter can cause
 
 
-@dataclass(frozen=True, eq=False)
-class _Sums:
-    """Scalar products of a change of the whitened innovations, summed over some runs.
-
-    Args:
-        product: with the residual of the estimate.
-        square: with itself.
-        projection: (k,) with the orthonormal basis of the joint Jacobian.
-    """
-
-    product: float
-    square: float
-    projection: Array
-
-    def __add__(self, other: "_Sums") -> "_Sums":
-        return _Sums(
-            self.product + other.product,
-            self.square + other.square,
-            self.projection + other.projection,
-        )
-
-    def best_size(self, least: float, most: float) -> tuple[float, float]:
-        """Largest predicted decrease of -2 log L for sizes within two limits, and the size."""
-        square = self.square - float(self.projection @ self.projection)
-        if not square > INDEPENDENT * self.square:
-            return 0.0, 0.0
-        size = min(max(-self.product / square, least), most)
-        return -size * (2.0 * self.product + size * square), size
-
-
 def scan_onsets(
     problem: PredictionErrorProblem, point: Estimate, effect: Effect, *, jacobian: JointJacobian
 ) -> Iterator[dict[str, float]]:
@@ -75,11 +46,9 @@ def scan_onsets(
     scan = _Scan(problem, point, effect, jacobian)
     for kind in list_fixed_choices(effect):
         likeliest = sorted(scan.scan_coarsely(kind), key=lambda one: -one.improvement)
-        likeliest = likeliest[:STARTS_PER_KIND]
-        for one in map(scan.refine, likeliest):
-            yield {
-                f"{effect.name}.{name}": value for name, value in scan.parameter_values(one).items()
-            }
+        for one in likeliest[:STARTS_PER_KIND]:
+            values = scan.parameter_values(scan.refine(one))
+            yield {f"{effect.name}.{name}": value for name, value in values.items()}
 
 
 def flip_duration(problem: PredictionErrorProblem, point: Estimate) -> Iterator[Estimate]:
@@ -102,7 +71,7 @@ def flip_duration(problem: PredictionErrorProblem, point: Estimate) -> Iterator[
             changed = {f"{name}.{one}": value for one, value in {**kind, UNTIL: until}.items()}
             values = {**point.values, **changed}
             if values != point.values:
-                yield problem.evaluate(point.structure, values, point.nuisance, point.process_noise)
+                yield problem.change(point, values=values)
 
 
 def refine_onset(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
@@ -115,14 +84,10 @@ def refine_onset(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
             continue
         onset, step, structure = f"{name}.{ONSET}", problem.period, point.structure
         for _ in range(HALVINGS):
-            around = (
+            around = [
                 structure.clamp_value(onset, point.values[onset] + by) for by in (-step, step)
-            )
-            moved = ({**point.values, onset: time} for time in around)
-            tried = [
-                problem.evaluate(structure, one, point.nuisance, point.process_noise)
-                for one in moved
             ]
+            tried = [problem.change(point, values={**point.values, onset: t}) for t in around]
             point = min(point, *tried, key=lambda one: one.cost)
             step *= 0.5
     return point
@@ -139,39 +104,33 @@ def list_fixed_choices(effect: Effect) -> Iterator[Mapping[str, float]]:
         yield dict(zip(ends, chosen, strict=True))
 
 
-@dataclass(frozen=True, eq=False)
-class _Onset:
+class _Onset(NamedTuple):
     """An onset time that was tried.
 
     Args:
+        improvement: [of -2 log L] predicted decrease at the best size.
+        size: [V·s²/unit] that size.
         kind: fixed values, one of ``list_fixed_choices``.
         run: index of the run that contains the onset.
         share: [1] onset as a share of that run's duration.
-        here: sums over that run.
         later: sums over all later runs; None if the effect ends with its run.
-        ka: [V·s²/unit] inertia of the estimate, limited by the bounds of the size.
     """
 
+    improvement: float
+    size: float
     kind: Mapping[str, float]
     run: int
     share: float
-    here: _Sums
-    later: _Sums | None
-    ka: float
-
-    @cached_property
-    def best(self) -> tuple[float, float]:
-        """Predicted decrease of -2 log L, and size; only added inertia can share momentum."""
-        sums = self.here + self.later if self.later else self.here
-        least = 0.0 if any(self.kind.values()) else LEAST * self.ka
-        return sums.best_size(least, MOST * self.ka)
-
-    @property
-    def improvement(self) -> float:
-        return self.best[0]
+    later: Array | None
 
 
 class _Scan:
+    """Sums of the effect's changes of the whitened innovations, for an onset in each run.
+
+    Sums are (2 + k,) arrays: the scalar products of a change with the residual of the estimate and
+    with itself, and its projection on the orthonormal basis of the joint Jacobian.
+    """
+
     def __init__(
         self,
         problem: PredictionErrorProblem,
@@ -182,10 +141,7 @@ class _Scan:
         self.problem, self.point, self.effect, self.basis = problem, point, effect, jacobian.basis
         most = min(one.most for one in effect.parameters if one.searched)
         self.ka = min(point.values["kA"], most / MOST)  # kA has no limit of its own
-        self.durations = [
-            float(record.measurements.time[-1] - record.measurements.time[0])
-            for record in problem.records
-        ]
+        self.durations = [float(np.ptp(record.measurements.time)) for record in problem.records]
         self._isolated: dict[tuple[int, ...], tuple[PredictionErrorProblem, RunNuisance]] = {}
         white = problem.whiten(point, point.innovations)
         self.residual = white - jacobian.basis @ jacobian.project(white)
@@ -199,7 +155,7 @@ class _Scan:
         shares_momentum = any(kind.values())
         shares = [0.0] if shares_momentum else [0.0, *((n + 0.5) / CELLS for n in range(CELLS))]
         table = [self._sum_effect(kind, share, every) for share in shares]
-        later = _Sums(0.0, 0.0, np.zeros(self.basis.shape[1]))
+        later = np.zeros_like(table[0][0])
         for run in reversed(every):
             sums = [(share, row[run]) for share, row in zip(shares, table, strict=True)]
             if shares_momentum:
@@ -209,24 +165,26 @@ class _Scan:
                 ]
             for after in (None, later) if run < every[-1] else (None,):
                 tried = (
-                    _Onset(kind, run, share, here, after, self.ka)
+                    self._rate(kind, run, share, here, after)
                     for share, here in sums
                     if share or run or after is None  # else it acts on all samples, as kA does
                 )
                 yield max(tried, key=lambda one: one.improvement)
-            later += table[0][run]
+            later = later + table[0][run]
 
     def refine(self, one: _Onset) -> _Onset:
         """The likeliest onset nearby."""
         step = 1.0 / CELLS
         for _ in range(HALVINGS if one.share else 0):
             step *= 0.5
-            shares = (one.share - step, one.share + step)
             tried = [
-                replace(one, share=share, here=self._sum_effect(one.kind, share, (one.run,))[0])
-                for share in shares
+                self._rate(
+                    one.kind, one.run, share, self._sum_effect(one.kind, share, (one.run,))[0],
+                    one.later,
+                )
+                for share in (one.share - step, one.share + step)
                 if 0.0 < share < 1.0
-            ]
+            ]  # fmt: skip
             one = max((one, *tried), key=lambda one: one.improvement)
         return one
 
@@ -234,18 +192,32 @@ class _Scan:
         """Values of all parameters of the effect with this onset."""
         start = self.problem.records[one.run].clock
         return {
-            **self._make_size_parameters(one.best[1]),
+            **self._make_size_parameters(one.size),
             **one.kind,
             ONSET: start + one.share * self.durations[one.run],
-            UNTIL: LATER if one.later else start + self.durations[one.run] + MOMENT,
+            UNTIL: start + self.durations[one.run] + MOMENT if one.later is None else LATER,
         }
+
+    def _rate(
+        self, kind: Mapping[str, float], run: int, share: float, here: Array, later: Array | None
+    ) -> _Onset:
+        """An onset with its best size; only added inertia can share momentum."""
+        sums = here if later is None else here + later
+        product, own = sums[:2].tolist()
+        square = own - float(sums[2:] @ sums[2:])
+        improvement = size = 0.0
+        if square > INDEPENDENT * own:
+            least = 0.0 if any(kind.values()) else LEAST * self.ka
+            size = min(max(-product / square, least), MOST * self.ka)
+            improvement = -size * (2.0 * product + size * square)
+        return _Onset(improvement, size, kind, run, share, later)
 
     def _compute_velocity_losses(self, run: int) -> list[float]:
         """Shares of a run's duration around its sharpest loss of speed, which a grid would miss.
 
         The innovations are correlated with the response to a loss of speed (a matched filter).
         """
-        residual = self.residual[slice(*self._edges[run : run + 2])].reshape(-1, 2)
+        residual = self.residual[self._rows(run)].reshape(-1, 2)
         speed = self.problem.measured[slice(*self.problem.run_edges[run : run + 2]), 1]
         response = self._velocity_response[: len(residual)]
         size = np.cumsum(np.sum(np.square(response), axis=1))
@@ -265,7 +237,7 @@ class _Scan:
         rate, dt = self.point.values["kV"] / self.ka, self.problem.period
         decay = math.exp(-rate * dt)
         step = np.array([[1.0, (1.0 - decay) / rate], [0.0, decay]]) @ (
-            np.eye(2) - self.point.kalman_filter.steady
+            np.eye(2) - self.point.kalman_gain
         )
         error, errors = np.array([0.0, 1.0]), []
         for _ in range(RESPONSE):
@@ -278,7 +250,7 @@ class _Scan:
 
     def _sum_effect(
         self, kind: Mapping[str, float], share: float, runs: Sequence[int]
-    ) -> list[_Sums]:
+    ) -> list[Array]:
         """For each run, the sums of the effect from that share of the run to its end."""
         isolated, nuisance = self._isolate_runs(tuple(runs))
         onset = max(self.durations)  # the same in all runs, whose clocks are shifted to it
@@ -286,18 +258,16 @@ class _Scan:
         size = PROBE * self.ka
         given = {**self._make_size_parameters(size), **kind, ONSET: onset, UNTIL: LATER}
         model = self.point.structure.model(self.point.values)
+        found = []
         with np.errstate(over="ignore", invalid="ignore"):  # a diverged simulation explains nothing
             model += Part(self.effect.name, given)
-            found = isolated.predict_errors(model, nuisance, self.point.kalman_filter, clocks)
-            return [
-                self._sum_rows(run, (found[slice(*rows)] - self._run_innovations[run]) / size)
-                for run, rows in zip(runs, pairwise(isolated.run_edges.tolist()), strict=True)
-            ]
-
-    def _sum_rows(self, run: int, change: Array) -> _Sums:
-        white, rows = self.problem.whiten(self.point, change), slice(*self._edges[run : run + 2])
-        product = float(white @ self.residual[rows])
-        return _Sums(product, float(white @ white), self.basis[rows].T @ white)
+            errors = isolated.predict_errors(model, nuisance, self.point.kalman_gain, clocks)
+            for run, part in zip(runs, pairwise(isolated.run_edges.tolist()), strict=True):
+                change = (errors[slice(*part)] - self._run_innovations[run]) / size
+                white, rows = self.problem.whiten(self.point, change), self._rows(run)
+                products = white @ self.residual[rows], white @ white
+                found.append(np.concatenate((products, self.basis[rows].T @ white)))
+        return found
 
     def _isolate_runs(self, runs: tuple[int, ...]) -> tuple[PredictionErrorProblem, RunNuisance]:
         """The problem of these runs, none of which heats the motor for another; their nuisance."""
@@ -307,16 +277,15 @@ class _Scan:
             self._isolated[runs] = isolated, self.point.nuisance.select_runs(runs)
         return self._isolated[runs]
 
-    @property
-    def _edges(self) -> list[int]:
-        """(runs + 1,) index of each run's first value in whitened innovations."""
-        edges: list[int] = (2 * self.problem.run_edges).tolist()
-        return edges
+    def _rows(self, run: int) -> slice:
+        """The rows of a run among whitened innovations."""
+        first, last = self.problem.run_edges[run : run + 2].tolist()
+        return slice(2 * first, 2 * last)
 
     @cached_property
     def _run_innovations(self) -> list[Array]:
         """Per run, (n, 2) innovations without the effect."""
         alone, nuisance = self._isolate_runs(tuple(range(len(self.problem.records))))
         model = self.point.structure.model(self.point.values)
-        found = alone.predict_errors(model, nuisance, self.point.kalman_filter)
+        found = alone.predict_errors(model, nuisance, self.point.kalman_gain)
         return [found[slice(*rows)] for rows in pairwise(self.problem.run_edges.tolist())]

@@ -106,12 +106,6 @@ def describe_size(one: Finding) -> str:
     return f"{size}, {'over 99 %' if share == '100 %' else share} likely"
 
 
-def describe_parameter(effect: str, parameter: str) -> str:
-    """The meaning of an effect's parameter; empty if none is known."""
-    known = EFFECTS[effect].parameters if effect in EFFECTS else ()
-    return next((one.what for one in known if one.name == parameter), "")
-
-
 def format_estimate(one: ParameterEstimate) -> tuple[str, str]:
     """An estimate and its standard error, as text with as many digits as they deserve."""
     if one.error is None or not (math.isfinite(one.error) and one.error > 0.0):

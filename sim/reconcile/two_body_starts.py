@@ -39,9 +39,7 @@ class TwoBodyStarts:
         if not chosen:
             return
         self.problem = problem.select_runs(chosen)
-        self.point = self.problem.evaluate(
-            point.structure, point.values, point.nuisance.select_runs(chosen), point.process_noise
-        )
+        self.point = self.problem.change(point, nuisance=point.nuisance.select_runs(chosen))
         if isfinite(self.point.cost):  # else all samples are excluded, or it diverges
             self.available = True
             self.jacobian = make_joint_jacobian(self.problem, self.point)

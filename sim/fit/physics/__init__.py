@@ -10,7 +10,7 @@ from dataclasses import replace
 
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
-from sim.fit.physics.compare import compare_directions, compare_parts, compare_sides
+from sim.fit.physics.compare import compare_directions, compare_parts
 from sim.fit.physics.parts import Parts, fit_in_si
 from sim.fit.physics.self_consistency import check_friction, check_gravity, check_timescale
 from sim.fit.physics.theory import check_theory, describe_theory
@@ -21,7 +21,6 @@ __all__ = [
     "check_plausibility",
     "compare_directions",
     "compare_parts",
-    "compare_sides",
     "compare_with_theory",
 ]
 

@@ -23,20 +23,6 @@ SUSPECTS = {
 }
 
 
-def compare_sides(left: Fit, right: Fit) -> tuple[Doubt, ...]:
-    """Doubts if two sides of a drivetrain, or two equal mechanisms, differ.
-
-    Args:
-        left: the fit of one side, in any unit.
-        right: the fit of the other side.
-
-    Raises:
-        BadRequest: one measures a length, the other an angle.
-    """
-    one = fit_in_si(left)
-    return _doubt_differing_gains(one, right.in_units(one.units), ("left", "right"), "side")
-
-
 def compare_parts(fits: Mapping[str, Fit], what: str) -> tuple[Doubt, ...]:
     """Doubts if equal parts of a robot differ, about the lowest and the highest value of each gain.
 

@@ -51,7 +51,7 @@ def _model(found: Fit) -> BaselineModel | None:
         return None
     kg, tilt = gains.get("kG", 0.0), gains.get("offset_rad")
     load = (kg, 0.0, 0.0) if tilt is None else (0.0, kg * np.cos(tilt), -kg * np.sin(tilt))
-    return BaselineModel(gains["kV"], gains["kA"], max(gains["kS"], 0.0), np.array(load), 0.0)
+    return BaselineModel(gains["kV"], gains["kA"], max(gains["kS"], 0.0), np.array(load))
 
 
 def _replay_errors(run: Run, model: BaselineModel, period: float) -> Array:

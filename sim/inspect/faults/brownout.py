@@ -205,9 +205,8 @@ def _fit_cut(features: LogFeatures, anomaly: Anomaly) -> tuple[float, int, int]:
     if float(anomaly.residual @ np.sign(anomaly.expected)) >= 0.0:
         return best
     margin = max(3, round(SLACK / features.period))
-    stride = max(1, margin // 3)
     ends = np.unique(np.linspace(anomaly.first + 1, anomaly.last + 1, ENDS).astype(int))
-    for first in range(anomaly.first - margin, anomaly.first + 1, stride):
+    for first in range(anomaly.first - margin, anomaly.first + 1, margin // 3):
         if first >= anomaly.begin:
             best = max(
                 best,

@@ -31,7 +31,7 @@ from sim.inspect.fault import (
     replace_run,
     rescale_motion,
 )
-from sim.inspect.log_features import DRIVEN, LogFeatures
+from sim.inspect.log_features import LogFeatures, find_driven_samples
 from sim.inspect.step_rise import StepRise, find_rise, spin_wheels
 
 KEEPS = (
@@ -108,7 +108,7 @@ def _detect_limit(index: int, run: Run, rise: StepRise) -> Damage | None:
 def _clip_voltage(features: LogFeatures, index: int, *, keeps: float) -> Run | None:
     """The run with ``keeps`` [share] of its acceleration at the start; None if it has no step."""
     run, baseline = features.log.runs[index], features.baseline
-    driven = np.flatnonzero(np.abs(run.voltage) > DRIVEN * np.abs(run.voltage).max(initial=0.0))
+    driven = find_driven_samples(run)
     if baseline is None or driven.size < FEWEST:
         return None
     first, last = int(driven[0]), int(driven[-1]) + 1
@@ -141,8 +141,7 @@ def _clip_voltage(features: LogFeatures, index: int, *, keeps: float) -> Run | N
 
 def _is_exact_step(run: Run) -> bool:
     """Whether the voltage is that of a command: the same from the first sample to the last."""
-    size = np.abs(run.voltage)
-    driven = np.flatnonzero(size > DRIVEN * size.max(initial=0.0))
+    driven = find_driven_samples(run)
     if driven.size < FEWEST:
         return False
     inside = run.voltage[driven[0] : driven[-1] + 1]

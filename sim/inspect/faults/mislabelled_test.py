@@ -17,7 +17,7 @@ import numpy as np
 
 from sim.core.log import FOUR_TESTS, Log, Run
 from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterval
-from sim.inspect.log_features import DRIVEN, RAMP, LogFeatures
+from sim.inspect.log_features import RAMP, LogFeatures, find_driven_samples
 
 ALL = 2.0  # [severity] from which on no test keeps its name
 CONFIDENCE = 0.95  # [1] a ramp cannot look like a step, but forward is a convention
@@ -73,8 +73,7 @@ def _are_directions_exchanged(features: LogFeatures) -> bool:
 
 def _describe_run(run: Run) -> str:
     """Half a sentence about the voltage and the distance of a run."""
-    size = np.abs(run.voltage)
-    driven = run.voltage[size > DRIVEN * size.max(initial=0.0)]
+    driven = run.voltage[find_driven_samples(run)]
     first, last = (float(np.median(part)) for part in np.array_split(driven, 2))
     does = "rises" if abs(first) < RAMP * abs(last) else "stays"
     return (

@@ -13,6 +13,7 @@ import numpy as np
 from sim.core.log import Array
 from sim.core.units import ROBUST
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
+from sim.estimation.run_nuisance import LAG
 from sim.estimation.run_records import RunRecord
 from sim.reconcile.thresholds import FEWEST_SAMPLES, SHORTEST_WINDOW, STEP_VOLTAGE
 
@@ -86,9 +87,9 @@ def _remove_clock_errors(problem: PredictionErrorProblem, point: Estimate) -> Ar
 
     The voltage of a step is logged up to a sample early or late, which is not physics.
     """
-    later = point.nuisance.add_lag(np.full(len(problem.records), 0.5 * problem.period))
+    later = point.nuisance.add(LAG, 0.5 * problem.period)
     model = point.structure.model(point.values)
-    shifted = problem.predict_errors(model, later, point.kalman_filter)
+    shifted = problem.predict_errors(model, later, point.kalman_gain)
     white = point.innovations @ point.whitening.T
     change = np.nan_to_num(shifted - point.innovations) @ point.whitening.T
     for first, last in pairwise(problem.run_edges.tolist()):
