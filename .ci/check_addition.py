@@ -3,7 +3,7 @@
     python .ci/check_addition.py sim/bench/mechanisms/wrist.py
     python .ci/check_addition.py exercises/exercise14
 
-It runs the tests of that folder's contract for what was added, then the linters.
+It runs the linters, then the tests of that folder's contract for what was added.
 """
 
 import shlex
@@ -28,8 +28,8 @@ class Contract(NamedTuple):
 
 
 CONTRACTS = {
-    "sim/bench/mechanisms": Contract("simulate physics wpilib_simulations"),
-    "sim/physics/effects": Contract("effects"),
+    "sim/bench/mechanisms": Contract("simulate physics wpilib_simulations by_mujoco faults"),
+    "sim/physics/effects": Contract("effects engine by_mujoco"),
     "sim/inspect/faults": Contract(
         "faults contaminate sentences", "struck sound catalogue sentences_of_inspect"
     ),
@@ -39,7 +39,10 @@ CONTRACTS = {
         "exercises traceability instructors readme package_keys package_files guessing",
         "every_exercise guide item list_of_starters",
     ),
-    "lessons": Contract("lessons traceability readme", "lessons"),
+    "lessons": Contract(
+        "lessons traceability readme",
+        "is_its_text links_to pictures_of there_are guide_lists every_exercise pinned",
+    ),
     "tests/robotcode": Contract("robotcode_corpus", "every_row"),
     "grader/classroom/exports": Contract("class_exports instructors", "export"),
 }
@@ -72,8 +75,9 @@ def run_module(command: list[str]) -> bool:
 
 
 if __name__ == "__main__":
-    commands = [one for given in sys.argv[1:] for one in list_tests(Path(given))]
-    failed = [one for one in (*commands, *LINTERS) if not run_module(one)]
-    for one in failed:
-        print(f"not in order, see above: python -m {shlex.join(one)}")
+    paths = sys.argv[1:] or sys.exit(__doc__)
+    commands = [one for given in paths for one in list_tests(Path(given))]
+    failed = [shlex.join(one) for one in (*LINTERS, *commands) if not run_module(one)]
+    told = [f"not in order, see above: python -m {one}" for one in failed]
+    print("\n".join(told) or "all in order")
     sys.exit(1 if failed else 0)

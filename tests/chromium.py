@@ -46,6 +46,12 @@ FAINTEST = """(selector) => {
     }));
 }"""
 
+SETTLED = """() => new Promise(done => {  // when no color changes any more
+    setTimeout(done, 400);
+    const finish = () => Promise.all(document.getAnimations().map(one => one.finished));
+    setTimeout(() => finish().then(done, done), 20);
+})"""
+
 
 @contextlib.contextmanager
 def launched():
@@ -67,15 +73,20 @@ def least_contrast(page, selector):
     return page.evaluate(FAINTEST, selector)
 
 
+def require_axe():
+    """Skip the test without axe-core, which .ci/prepare_machine.py installs."""
+    if not AXE.is_file():
+        pytest.skip("axe-core is not installed: python .ci/prepare_machine.py")
+
+
 def list_violations(page):
     """What axe-core finds wrong with a page for people with disabilities: rule and places.
 
-    Without axe-core, which .ci/prepare_machine.py installs, the test is skipped.
+    Without axe-core the test is skipped.
     """
-    if not AXE.is_file():
-        pytest.skip("axe-core is not installed: python .ci/prepare_machine.py")
+    require_axe()
     if not page.evaluate("typeof axe !== 'undefined'"):
         page.evaluate(AXE.read_text("utf-8") + "; 0")
-    page.wait_for_timeout(400)  # [ms] until colors have changed
+    page.evaluate(SETTLED)
     found = page.evaluate("axe.run().then(({violations}) => violations)")
     return [(one["id"], [node["html"][:90] for node in one["nodes"][:3]]) for one in found]

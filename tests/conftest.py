@@ -1,5 +1,6 @@
 """Fixtures everybody uses."""
 
+import gc
 import itertools
 import os
 import re
@@ -41,6 +42,12 @@ def pytest_collection_modifyitems(items):
     items.sort(
         key=lambda one: (not one.get_closest_marker("slow"), "in_browser" not in one.path.stem)
     )
+
+
+def pytest_collection_finish():
+    """Let the garbage collector pass over all that was imported: it stays until the end."""
+    gc.collect()
+    gc.freeze()
 
 
 @pytest.fixture(scope="session")

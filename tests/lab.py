@@ -37,7 +37,7 @@ def serving(home):
             _command(home, token), env=make_environment(home), stdout=log, stderr=log
         )
     try:
-        yield f"http://127.0.0.1:{_port(home, server)}/lab/tree/{{name}}?token={token}"
+        yield f"http://127.0.0.1:{_port(home, server)}/lab/tree/{{name}}?reset&token={token}"
     finally:
         server.terminate()
         with contextlib.suppress(subprocess.TimeoutExpired):

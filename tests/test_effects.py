@@ -344,4 +344,6 @@ def test_an_effect_never_accelerates_a_mechanism_without_voltage(name, kind):
                 ) / (2.0 * step)
             force = asked(found.hooks["force"], x=x, v=way, **values)
             tiny = 1e-6 * abs(force)
-            assert (scale.kv * way + force - slope) * way >= -tiny * abs(way), (x, way)
+            told = f"without voltage it speeds up at {x:g}, {way:g}: turn the sign of force around"
+            told += ", or say stored_energy if it gives back what it took"
+            assert (scale.kv * way + force - slope) * way >= -tiny * abs(way), told

@@ -47,7 +47,7 @@ def truth(student, *, names=None):
 
 def measure_gaps(variant, parts, log):
     """Both gaps of a log, by their names in the answers."""
-    search = variant.make_search()
+    search = DRAWN.make_search(variant)
     fits = {"gap_before": search.fit(), "gap_after": search.fit_gains(parts)}
     return {name: search.measure_gap(one, log) for name, one in fits.items()}
 
@@ -84,7 +84,7 @@ def test_hidden_effects_are_physical_and_the_first_matters_most(kind, effects):
         assert find_effect(name).reason_against(MECHANISMS[kind].scale) == ""
 
     variant = DRAWN.draw_recipe(np.random.default_rng(1), [(kind, effects)])
-    search, truth = variant.make_search(), variant.mechanism.model
+    search, truth = DRAWN.make_search(variant), variant.mechanism.model
     alone = [
         search.measure_gap(search.fit_near(replace(truth, parts=(part,)))) for part in truth.parts
     ]
@@ -217,7 +217,7 @@ def test_reconcile_has_the_same_gap_and_the_same_first_effect():
     story = reconcile(
         variant.log, validation=variant.validation, held_out=variant.held_out, type="simple"
     )
-    hand = variant.make_search()
+    hand = DRAWN.make_search(variant)
     fits = {"gap_before": hand.fit(), "gap_after": hand.fit(variant.hidden)}
 
     assert [one.effect for one in story.findings] == [*variant.hidden]

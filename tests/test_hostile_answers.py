@@ -50,14 +50,14 @@ TOO_LONG = {
 
 @pytest.fixture(scope="module")
 def answered(tmp_path_factory):
-    """The right answer of an exercise, in a folder of its own: the folder and the text."""
+    """Copies an exercise, once, and solves it: the copy and the text of its answers."""
 
     @cache
     def written(one):
         solved = prepare_solved(one, STUDENT, tmp_path_factory.mktemp(one.name))
         for name, text in solved.right.items():
             (solved.exercise.folder / name).write_text(text, encoding="utf-8")
-        return solved.exercise.folder, solved.right["answers.toml"]
+        return solved.exercise, solved.right["answers.toml"]
 
     return written
 
@@ -79,13 +79,13 @@ def may_earn(one, key, value):
 
 @pytest.mark.parametrize("one", ANSWERED_IN_TOML, ids=lambda one: one.name)
 def test_no_value_earns_a_point_breaks_a_check_or_takes_long(one, answered):
-    place, right = answered(one)
+    copy, right = answered(one)
 
     def grade(key, line, value):
         text = line.sub(lambda _: f"{key} = {value}", right)
-        (place / "answers.toml").write_text(text, encoding="utf-8")
+        (copy.folder / "answers.toml").write_text(text, encoding="utf-8")
         begun = time.process_time()
-        return one.grade(place, student=STUDENT, run=False), time.process_time() - begun
+        return copy.grade(copy.folder, student=STUDENT, run=False), time.process_time() - begun
 
     assert len(VALUES) >= 60
     for key, line in single_lines(right):
@@ -102,14 +102,14 @@ def test_no_value_earns_a_point_breaks_a_check_or_takes_long(one, answered):
 
 @pytest.mark.parametrize("one", ANSWERED_IN_TOML, ids=lambda one: one.name)
 def test_the_same_value_everywhere_earns_nothing(one, answered):
-    place, right = answered(one)
+    copy, right = answered(one)
     for value in VALUES:
         text = right
         for key, line in single_lines(right):
             text = line.sub(lambda _, new=f"{key} = {value}": new, text)
-        (place / "answers.toml").write_text(text, encoding="utf-8")
+        (copy.folder / "answers.toml").write_text(text, encoding="utf-8")
 
-        assert one.grade(place, student=STUDENT, run=False).score == 0, value[:60]
+        assert copy.grade(copy.folder, student=STUDENT, run=False).score == 0, value[:60]
 
 
 @pytest.mark.parametrize("text", TOO_LONG.values(), ids=TOO_LONG)
@@ -128,9 +128,9 @@ def test_absurd_value_is_refused_at_once(text, tmp_path):
 )
 def test_unreadable_function_is_reported_and_not_blamed_on_the_learner(content, answered):
     (one,) = (one for one in ANSWERED_IN_TOML if one.name == "exercise9")
-    place, _ = answered(one)
-    (place / "fit.py").write_bytes(content)
-    found = one.grade(place, student=STUDENT)
+    copy, _ = answered(one)
+    (copy.folder / "fit.py").write_bytes(content)
+    found = copy.grade(copy.folder, student=STUDENT)
     (function,) = (check for check in found.checks if check.id == "function")
 
     assert (found.status, function.status, function.points) == ("failed", "not-reached", 0.0)

@@ -28,14 +28,14 @@ def archive(tmp_path_factory):
     return build_wheel(tmp_path_factory.mktemp("wheel"))
 
 
-def make_environment(place, what):
+def make_environment(place, what, *options):
     """An environment into which pip installs something; skipped where pip cannot fetch it."""
     venv.create(place, with_pip=True)
     scripts = place / ("Scripts" if os.name == "nt" else "bin")
     kept = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
     kept |= {"PATH": f"{scripts}{os.pathsep}{kept['PATH']}", "VIRTUAL_ENV": str(place)}
     kept |= {"COLUMNS": "200", "PYTHONUTF8": "1"}
-    done = run(["python", "-m", "pip", "install", "--quiet", what], kept, cwd=place)
+    done = run(["python", "-m", "pip", "install", "--quiet", *options, what], kept, cwd=place)
     if done.returncode:
         pytest.skip(f"pip cannot install here: {done.stderr.strip()[-200:]}")
     return kept
@@ -58,8 +58,9 @@ def bare(archive, tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def whole(archive, tmp_path_factory):
-    """An environment with the course."""
-    return make_environment(tmp_path_factory.mktemp("whole") / "env", f"{archive}[course]")
+    """An environment with the course; Python compiles what is imported, not everything."""
+    place = tmp_path_factory.mktemp("whole") / "env"
+    return make_environment(place, f"{archive}[course]", "--no-compile")
 
 
 def test_the_wheel_holds_the_course_and_no_answers(archive):

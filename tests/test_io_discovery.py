@@ -6,6 +6,7 @@ devices have other names than in any log that the reader was written for.
 
 import json
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -40,8 +41,15 @@ AKIT = tuple(
 TAU = 2.0 * np.pi
 
 
-def recorded(mechanism="shooter", seed=3):
-    return simulate(MECHANISMS[mechanism], ROUTINE, rng=np.random.default_rng(seed))
+@cache
+def recorded(mechanism="shooter"):
+    return simulate(MECHANISMS[mechanism], ROUTINE, rng=np.random.default_rng(3))
+
+
+@cache
+def fit_recorded(mechanism="shooter"):
+    """The fit of a log as it was recorded."""
+    return fit(recorded(mechanism))
 
 
 def samples(log, columns, *, factors=(1.0, 1.0, 1.0), state="", more=()):
@@ -86,9 +94,9 @@ def write(path, log, columns, *, changes=False, **told):
 def same_gains(path, log, **asked):
     """The gains of a file are those of the log that it was written from."""
     read = sim.read(path, **asked)
-    found = fit(read, type=log.type).in_units("radians" if UNITS[log.units].angular else "meters")
-    truth = fit(log).in_units("radians" if UNITS[log.units].angular else "meters")
-    for gain, value in truth.gains.items():
+    unit = "radians" if UNITS[log.units].angular else "meters"
+    found, truth = fit(read, type=log.type).in_units(unit), fit_recorded(log.mechanism)
+    for gain, value in truth.in_units(unit).gains.items():
         assert found.gains[gain] == pytest.approx(value, rel=0.02, abs=0.01), gain
     return read
 
@@ -144,7 +152,7 @@ def test_advantagekit_with_one_file_for_each_test(tmp_path, name):
         assert [found.test for found in one.runs] == [run.test]
         read = one if read is None else read.join(one)
 
-    found, truth = fit(read), fit(log)
+    found, truth = fit(read), fit_recorded()
     for gain, value in truth.gains.items():
         assert found.in_units("radians").gains[gain] == pytest.approx(value, rel=0.03, abs=0.01)
 
@@ -265,7 +273,7 @@ def test_several_mechanisms_are_a_numbered_list_to_pick_from(tmp_path, capsys, s
     for number, mechanism in enumerate(("shooter", "intake"), start=1):
         code, said = ran("--pick", str(number))
         gains = json.loads(said.out)["gains"]
-        truth = fit(recorded(mechanism)).in_units("rotations").gains
+        truth = fit_recorded(mechanism).in_units("rotations").gains
         assert gains["kV"] == pytest.approx(truth["kV"], rel=0.02)
         assert gains["kA"] == pytest.approx(truth["kA"], rel=0.05)
     assert ran("--pick", "3")[0] == 2
@@ -322,6 +330,6 @@ def test_wrong_or_missing_velocity_is_replaced_or_refused(
     found = json.loads(said.out)
     codes = {one["code"] for one in found["warnings"]}
     assert ("velocity-is-position" in codes) == (not asked)
-    truth = fit(log).gains
+    truth = fit_recorded().gains
     assert found["gains"]["kV"] == pytest.approx(truth["kV"], rel=0.02)
     assert found["gains"]["kA"] == pytest.approx(truth["kA"], rel=0.12)

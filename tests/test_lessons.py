@@ -130,8 +130,8 @@ def test_a_lesson_begins_with_a_picture_that_its_page_and_its_slides_show(text):
     head, _, _ = title.source.partition("**At the end you can**")
 
     assert title.source.startswith("# ")
-    (words,) = re.findall(r"!\[([^]]+)\]\(attachment:picture\.png\)", head)
-    assert len(words) > 40
+    words = "".join(re.findall(r"!\[([^]]+)\]\(attachment:picture\.png\)", head))
+    assert len(words) > 40, "the head needs ![what one sees](attachment:picture.png) once"
     for template in (PAGE, SLIDES):
         shown = Page(convert_notebook(notebook, template)).pictures[0]
         assert shown["alt"].split() == words.split()
@@ -216,7 +216,8 @@ def test_a_mechanism_moves_in_the_lessons_that_need_it(number, run):
 def test_a_lesson_has_three_figures_that_move_without_the_kernel(text, run):
     """The page itself draws them whenever a menu, a slider or the time changes."""
     pages = [Page(html) for html in _htmls(run(text))]
-    assert sum(len(page.animations) for page in pages) >= MOVING
+    moving = sum(len(page.animations) for page in pages)
+    assert moving >= MOVING, f"{moving} figures are by sim.plot.animation, and {MOVING} have to be"
 
 
 @each_lesson
@@ -232,8 +233,8 @@ def test_every_detail_is_closed_and_has_a_summary(text):
 def test_a_lesson_has_the_anatomy_of_the_source_lesson(text):
     headings = re.findall(r"^# ## (?:\d+ )?(.+)$", text.read_text(encoding="utf-8"), re.MULTILINE)
     assert headings[0].startswith("Why")
-    for part in ("System check", "Knowledge check", "Practice"):
-        assert part in headings
+    missing = {"System check", "Knowledge check", "Practice"} - {*headings}
+    assert not missing, f"{text.name} has no section {missing}"
 
 
 @pytest.mark.shared
@@ -252,9 +253,10 @@ def test_quotes_are_in_the_source_lesson(text, shared):
 def test_a_lesson_links_to_the_next_one(text):
     source = text.read_text(encoding="utf-8")
     later = [other.with_suffix(".ipynb").name for other in TEXTS if other > text]
-    assert "**Next:**" in source
+    assert "**Next:**" in source, f"{text.name} ends with **Next:**"
     if later:
-        assert f"]({later[0]})" in source.partition("**Next:**")[2]
+        told = f"{text.name} links to {later[0]} after **Next:**"
+        assert f"]({later[0]})" in source.partition("**Next:**")[2], told
 
 
 @each_lesson
@@ -263,8 +265,8 @@ def test_the_practice_of_a_lesson_links_to_its_exercises_and_names_grade_watch(t
     named = set(re.findall(r"grade (exercise\d+|practice)\b", practice)) - {"practice"}
     linked = set(re.findall(r"\]\(\.\./exercises/(\w+)/README\.md\)", practice))
 
-    assert linked - {"practice"} == named
-    assert "`grade watch exercise" in practice
+    assert linked - {"practice"} == named, "Practice links to the exercises that it grades"
+    assert "`grade watch exercise" in practice, "Practice names `grade watch exerciseN`"
 
 
 def run_cell(number, begin, **space):
@@ -405,7 +407,7 @@ def test_visible_code_of_a_lesson_is_short(text):
             assert not re.search(PLUMBING, cell.source, re.MULTILINE), cell.source
             in_sight.append([line for line in cell.source.splitlines() if line.strip()])
 
-    assert in_sight, "no cell has code in sight: one that only imports, asks or shows is folded"
+    assert in_sight, "no cell has code in sight: one that imports, asks or shows a widget is folded"
     assert max(map(len, in_sight)) <= 12
     assert sum(map(len, in_sight)) <= 60
     for cell in cells:

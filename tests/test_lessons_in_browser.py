@@ -49,9 +49,9 @@ ENDS = """figure => figure.querySelectorAll('.motion-knobs input').forEach(knob 
 pytestmark = [pytest.mark.slow, pytest.mark.browser]
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def address(tmp_path_factory):
-    """Where a fresh JupyterLab serves a copy of the lessons."""
+    """Where a JupyterLab serves a copy of the lessons, each in an empty workspace."""
     with serving(tmp_path_factory.mktemp("lab")) as where:
         yield where
 

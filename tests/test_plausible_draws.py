@@ -30,7 +30,7 @@ KS = {  # [V] kS of real mechanisms: shooters 0.11 to elevators and arms 0.74, a
     "most": 0.8,
 }
 STOP = 1.4  # [V] kS of exercise 2's mechanism that must not be tested on
-ANSWERED = [  # exercise 12 takes 20 s, and each student of the instructor's day solves it
+ANSWERED = [  # exercise 12 takes 20 s, and students of the instructor's day solve it
     path.parent.name
     for path in sorted((ROOT / "solutions").glob("*/solve.py"))
     if path.parent.name != "exercise12" or "SYSID_STUDENTS" in os.environ

@@ -55,7 +55,10 @@ def test_a_mechanism_drawn_at_random_is_fitted_to_its_own_truth(name, seed):
     # SysId's recipe reads kA a few percent low where the timescale is hardly longer than a loop,
     # and kS high by what friction and inertia share on a ramp
     slow = drawn.gains["kA"] / drawn.gains["kV"] > 0.05
-    told = "the fit needs a mechanism whose kA/kV is above 40 ms, with every spread"
+    told = (
+        "the fit needs a mechanism whose kA/kV is above 40 ms, with every spread, and an arm "
+        "whose travel does not lie evenly about level"
+    )
     assert gains["kV"] == pytest.approx(drawn.gains["kV"], rel=0.02), told
     assert gains["kA"] == pytest.approx(drawn.gains["kA"], rel=0.05 if slow else 0.1)
     assert gains["kS"] == pytest.approx(drawn.gains["kS"], abs=0.05)

@@ -27,8 +27,8 @@ pytestmark = pytest.mark.robot
 # [share of a signal's range] by which two may differ. Closed forms differ by rounding: 5e-13
 # measured, but 6e-11 in the intake's current on a ramp, the small rest of two large voltages.
 # An arm has no closed form: the bench's middle rule, in steps of at most 2.5 ms, leaves 1.4e-5 of
-# this one and 2.1e-5 of others like it.
-CLOSED, ARM = 1e-10, 3e-5
+# this one, 4.0e-5 of 39 of 40 drawn arms, and more of one that passes upright slowly.
+CLOSED, ARM = 1e-10, 5e-5
 SAME_FORMULA = 1e-12  # [share of a figure, or V] for one formula in two languages
 TEETH = 100.0  # [tolerances]
 
@@ -161,7 +161,8 @@ def test_the_gains_are_those_of_the_plant(name):
 @pytest.mark.parametrize("kind", KINDS)  # ramps, steps, a sine, and voltages that reverse
 @pairs
 def test_a_mechanism_moves_as_in_wpilib(name, twin, tolerance, kind):
-    assert apart_in_tests(bare(name), name, twin, (kind,)) < tolerance
+    told = "its gains are not those of its parts, or it has to be slower for steps of 2.5 ms"
+    assert apart_in_tests(bare(name), name, twin, (kind,)) < tolerance, told
 
 
 @with_stops

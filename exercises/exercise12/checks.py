@@ -21,7 +21,7 @@ from sim.physics.model import Part
 from sim.reconcile.by_hand import HandSearch
 from sim.support.student_names import make_folder_name
 
-from .drawn import FLOOR, HIDDEN, Variant, draw, draw_determined
+from .drawn import FLOOR, HIDDEN, Variant, draw, draw_determined, make_search
 from .patch import find_bound, read_names, read_parts
 
 __all__ = ["draw", "make_folder_name", "read_names"]  # what try_it.py uses, too
@@ -39,7 +39,7 @@ LEAST_GAP = 0.5  # [times the noise] noise alone leaves more
 SAME = 1.1  # [1] ratio up to which two gaps are the same: rounding, and a search from elsewhere
 NARROW = 0.95  # [of the gap with gains alone] above which effects do nothing for the held-out log
 REPORTED = 0.5  # points for the two gaps
-REMEMBERED = 16  # searches and fits that are kept while this runs
+REMEMBERED = 16  # fits that are kept while this runs
 
 
 class Answers(StudentAnswers):
@@ -60,7 +60,7 @@ class Answers(StudentAnswers):
     @cached_property
     def search(self) -> HandSearch:
         """The search for effects in the learner's logs."""
-        return _make_search(self.variant)
+        return make_search(self.variant)
 
     @property
     def validation_count(self) -> int:
@@ -80,12 +80,6 @@ class MysteryAnswers(Answers):
 
 
 @lru_cache(maxsize=REMEMBERED)
-def _make_search(variant: Variant) -> HandSearch:
-    """The search in a learner's logs: what does not depend on an answer is fitted once."""
-    return variant.make_search()
-
-
-@lru_cache(maxsize=REMEMBERED)
 def _fit_gains(search: HandSearch, effects: Effects) -> Estimate:
     """The gains of the model with effects, as the answer states them."""
     return search.fit_gains([Part(name, dict(values)) for name, values in effects])
@@ -100,7 +94,7 @@ def _measure_gap(search: HandSearch, effects: Effects, log: str) -> float:
 @lru_cache(maxsize=REMEMBERED)
 def _measure_floor(variant: Variant) -> float:
     """The gap that the true model leaves on the held-out log; the noise is at least 1."""
-    search = _make_search(variant)
+    search = make_search(variant)
     truth = search.evaluate_model(variant.mechanism.model)
     return max(1.0, search.measure_gap(truth, "held_out"))
 

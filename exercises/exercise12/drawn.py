@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -65,6 +66,7 @@ SNUG = 0.9  # [of FLOOR] within which the fit of the right effects must be
 MISSED = 1.07  # [of a gap] by which it is wider without an effect, or with a look-alike
 SEEN = 1.08  # [noises] of a gap in which something is visibly missing
 CLEAR = 1.15  # [1] by which the gap without the first effect is wider than without any other
+SEARCHES_KEPT = 4  # while this runs: a search takes some megabytes
 TIMEOUT = 8.0  # [s] of a test of the validation and of the held-out log
 
 
@@ -89,9 +91,14 @@ class Variant:
         """The effects that are hidden, the one that matters most first."""
         return tuple(part.effect for part in self.mechanism.hidden)
 
-    def make_search(self) -> HandSearch:
-        """The search for effects in its logs, whose gaps are those of ``sysid reconcile``."""
-        return HandSearch(self.log, validation=self.validation, held_out=self.held_out)
+
+@lru_cache(maxsize=SEARCHES_KEPT)
+def make_search(variant: Variant) -> HandSearch:
+    """The search for effects in its logs, whose gaps are those of ``sysid reconcile``.
+
+    What does not depend on an answer is fitted once.
+    """
+    return HandSearch(variant.log, validation=variant.validation, held_out=variant.held_out)
 
 
 @cache_draws
@@ -117,7 +124,7 @@ def is_determined(variant: Variant) -> bool:
     Alone, the first must also narrow the gap more than any effect that looks like it: a learner
     adds the one that narrows it most.
     """
-    search, truth = variant.make_search(), variant.mechanism.model
+    search, truth = make_search(variant), variant.mechanism.model
     tried = search.fit(variant.hidden)
     found = search.fit_gains(tried.structure.model(tried.values).parts)  # as it is graded
     floor = max(1.0, search.measure_gap(search.evaluate_model(truth), "held_out"))

@@ -234,7 +234,7 @@ def _are_rivals(one: Damage, other: Damage) -> bool:
     if mine is others or mine.about != others.about or mine.whole or others.whole:
         return False
     shared = min(one.where.end, other.where.end) - max(one.where.start, other.where.start)
-    return one.where.run == other.where.run and shared > 0.0
+    return one.where.run == other.where.run and shared >= 0.0  # one sample is enough
 
 
 def _rate_harm(damage: Damage) -> float:

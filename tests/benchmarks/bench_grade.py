@@ -13,19 +13,18 @@ things (Windows does not tell it).
 """
 
 import os
-import runpy
 import shutil
 import statistics
 import subprocess
 import sys
 import tempfile
 import time
-from contextlib import chdir
 from pathlib import Path
 
 import psutil
 
 from grader.course import load_progress
+from grader.course_check import solve
 from grader.exercise import find_exercise
 from sim.support.student_names import make_folder_name
 
@@ -58,9 +57,7 @@ def course(folder: Path) -> None:
     for number in SOLVED:
         one = find_exercise(str(number), folder)
         one.prepare(student, say=lambda _: None)
-        solve = runpy.run_path(str(folder / f"solutions/{one.name}/solve.py"))["solve"]
-        with chdir(folder):
-            made = solve(one.folder, one.folder / "data" / make_folder_name(student))
+        made = solve(one, one.folder / "data" / make_folder_name(student))
         (folder / "solved" / one.name).mkdir(parents=True)
         for name, text in made.items():
             (folder / "solved" / one.name / name).write_text(text, encoding="utf-8")

@@ -5,18 +5,17 @@ Exercise 12 takes its authored way seconds: one student of ten solves it, and th
 what that one did, which is mistaken for their own mechanism.
 """
 
-import importlib.util
 import shutil
 from collections.abc import Mapping
 from dataclasses import dataclass
 from difflib import SequenceMatcher
 from functools import cache
 from pathlib import Path
-from types import ModuleType
 
 import numpy as np
 
-from grader.exercise import Exercise, list_exercises
+from grader.course_check import list_mistakes, solve
+from grader.exercise import Exercise, find_exercise, list_exercises
 from grader.student_data.variant import use_class_secret
 from sim.support.student_names import make_folder_name
 from sim.support.work.executor import run_jobs
@@ -110,26 +109,12 @@ def _there(course: Path) -> tuple[Exercise, ...]:
     return asked(course)
 
 
-@cache
-def _loaded(path: Path) -> ModuleType:
-    name = f"_{path.parent.name}_{path.stem}"
-    spec = importlib.util.spec_from_file_location(name, path)
-    if spec is None or spec.loader is None:
-        raise ImportError(f"{path} cannot be loaded")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
 def _right(one: Exercise, who: str) -> Texts:
     """The authored answer."""
-    authored = ROOT / "solutions" / one.name
-    if not (authored / "solve.py").is_file():
-        return {name: (authored / name).read_text(encoding="utf-8") for name in one.files}
     one.prepare(who, say=lambda _: None)
     data = one.folder / "data" / make_folder_name(who)
-    texts: Texts = _loaded(authored / "solve.py").solve(one.folder, data)
-    shutil.rmtree(data)
+    texts = solve(one, data, solution=ROOT / "solutions" / one.name)
+    shutil.rmtree(data, ignore_errors=True)  # not every exercise gives files
     return texts
 
 
@@ -146,7 +131,7 @@ def _spoiled(one: Exercise, texts: Texts, kind: str, rng: np.random.Generator) -
         file = next(iter(texts))
         starter = (one.folder / file).read_text(encoding="utf-8")
         return {**texts, file: _half(texts[file], starter)}
-    mistakes = _loaded(ROOT / "solutions" / one.name / "mistakes.py").MISTAKES
+    mistakes = list_mistakes(find_exercise(one.name, ROOT))
     for index in rng.permutation(len(mistakes)) if kind == "mistaken" else ():
         mistake = mistakes[index]
         if mistake.file not in texts or one.name == SLOW:
