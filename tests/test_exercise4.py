@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -12,6 +13,7 @@ from robot_corpus import whole_corpus
 
 from grader.cli import run_command
 from grader.exercise import Exercise
+from grader.robotcode.checks.causes import FAULTS
 
 JAVA, PYTHON = "ExampleSubsystem.java", "example_subsystem.py"
 EXERCISE = Exercise("exercise4", ROOT / "exercises" / "exercise4")
@@ -383,3 +385,11 @@ def test_code_without_a_routine_gets_few_points_and_no_traceback(
 
     assert run_command(["exercise4", "A.java", "--json"]) == code
     assert json.loads(capsys.readouterr().out)["score"] <= 2
+
+
+def test_each_fault_that_has_words_is_found_by_a_check_and_each_check_has_words():
+    files = (ROOT / "grader" / "robotcode" / "checks").glob("*.py")
+    text = "".join(one.read_text("utf-8") for one in files)
+
+    assert [name for name in FAULTS if f'"{name}"' not in text] == []
+    assert set(re.findall(r'\bfault\(\s*"(\w+)"', text)) <= FAULTS.keys()

@@ -132,6 +132,13 @@ def test_autonomous_command_that_is_a_test_is_reported(tmp_path):
     assert "autonomous runs dynamic forward" in found["guard"].seen
 
 
+def test_button_on_a_dashboard_that_starts_a_test_is_reported(tmp_path):
+    bound = "m_driverController.a().and(testing).whileTrue("
+    found = graded(tmp_path, (bound, 'SmartDashboard.putData("Test",'))
+
+    assert "a dashboard starts quasistatic forward" in str([one.seen for one in found.values()])
+
+
 CONTROLLERS = {  # how a second controller is made, and whether it guards
     "CommandXboxController m_tests = new CommandXboxController(1);": True,
     "CommandXboxController m_tests = new CommandXboxController(0);": False,

@@ -1,16 +1,18 @@
 """The comments of a file, which its syntax tree leaves out, and those that belong to a line."""
 
+import functools
 import io
 import re
 import tokenize
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-_JAVA = re.compile(
-    r"(?P<line>//[^\n]*)|(?P<block>/\*.*?(?:\*/|\Z))"
+JAVA_TOKEN = re.compile(
+    r"(?P<comment>//[^\n]*|/\*(?:.*?\*/|.*))"
     r'|"""(?:\\.|[^\\])*?(?:"""|\Z)'
-    r'|"(?:\\.|[^"\\\n])*"?'
-    r"|'(?:\\.|[^'\\\n])*'?",
+    r'|(?P<quoted>"(?:\\.|[^"\\\n])*(?P<end>")?)'
+    r"|'(?:\\.|[^'\\\n])*'?"
+    r"|->|\w+|[^\s\w]",
     re.DOTALL,
 )
 
@@ -31,14 +33,15 @@ class Comment:
     text: str
 
 
+@functools.lru_cache(maxsize=8)
 def list_comments(text: str, language: str) -> tuple[Comment, ...]:
     """All comments of a file, in order."""
     return tuple(_in_java(text) if language == "java" else _in_python(text))
 
 
 def _in_java(text: str) -> Iterator[Comment]:
-    for match in _JAVA.finditer(text):
-        if match["line"] is None and match["block"] is None:
+    for match in JAVA_TOKEN.finditer(text):
+        if match["comment"] is None:
             continue
         first = text.count("\n", 0, match.start()) + 1
         before = text[text.rfind("\n", 0, match.start()) + 1 : match.start()]

@@ -62,7 +62,7 @@ def _run(path: Path, kind: str, mounts: dict[Any, Mount], *, run: bool) -> Runs:
     for assume in (False, True):
         WORLD.reset("java", assume=assume)
         stored = {port: {"inverted": mount.inverted} for port, mount in mounts.items()}
-        WORLD.singletons["stored"] = stored
+        WORLD.stored = stored
         subject = JavaSubject(path, "SysIdRoutine" if kind == "routine" else "")
         found.append(find_bench(kind)(subject, mounts).run())
         if not WORLD.undecided:

@@ -152,11 +152,11 @@ class ButtonBench(Bench):
     # -- what there is ----------------------------------------------------------------------
 
     def _look(self) -> dict[str, Any]:
-        made = list(WORLD.singletons.get("tests", []))
+        made = list(WORLD.tests)
         factories = self.guard(self.subject.list_factories)
         ports: dict[Any, int] = {}  # a number may be unknown
         shared = []
-        for one in WORLD.singletons.get("controllers", []):
+        for one in WORLD.controllers:
             if one._port in ports and isinstance(one._port, int):
                 shared.append((one._port, int(one._line)))
             ports.setdefault(one._port, int(one._line))
@@ -171,13 +171,11 @@ class ButtonBench(Bench):
     def look_last(self, facts: dict[str, Any]) -> None:
         """Record the bindings and commands that were made meanwhile."""
         facts |= {
-            "routines": len(WORLD.singletons.get("routines", [])),
+            "routines": len(WORLD.routines),
             "released": tuple(self.released.items()),
-            "bindings": tuple((int(b.line), b.how) for b in WORLD.singletons.get("bindings", [])),
+            "bindings": tuple((int(b.line), b.how) for b in WORLD.bindings),
             "uncalled": tuple(self.subject.find_uncalled()),
-            "asked_once": next(
-                (int(at) for at, last in WORLD.singletons.get("asked", {}).items() if last == 0), 0
-            ),
+            "asked_once": next((int(at) for at, last in WORLD.asked.items() if last == 0), 0),
         }
 
     def _find_requested_line(self, lines: list[int]) -> int:
@@ -185,34 +183,30 @@ class ButtonBench(Bench):
         if not lines:
             return 0
         owner = self.subject.owner_at(lines[0])
-        return int(
-            next(
-                (line for line in lines if self.subject.owner_at(line) != owner),
-                lines[-1 if len(lines) == 1 else 1],
-            )
-        )
+        others = [line for line in lines if self.subject.owner_at(line) != owner]
+        return int([*others, *lines[1:2], lines[0]][0])
 
     def _find_elsewhere(self) -> Iterator[tuple[str, int]]:
         """Tests that a click on a dashboard, or autonomous, starts."""
-        for one in WORLD.singletons.get("sendables", []):
-            for test in find_tests(one):
-                yield f"a dashboard starts {test.replace('-', ' ')}", _get_line(one)
-        for one in WORLD.singletons.get("choosers", []):
-            for option in one._options.values():
-                for test in find_tests(option):
-                    yield f"a chooser offers {test.replace('-', ' ')}", _get_line(one)
-        for kind, one, _, line in self.scheduler._events:
-            for test in find_tests(one) if kind == "ask" else ():
-                yield f"the program starts {test.replace('-', ' ')} by itself", int(line)
+        places = [
+            *(("a dashboard starts {}", one, _get_line(one)) for one in WORLD.sendables.values()),
+            *(("a chooser offers {}", one._options, _get_line(one)) for one in WORLD.choosers),
+            *(
+                ("the program starts {} by itself", one, int(line))
+                for kind, one, _, line in self.scheduler._events if kind == "ask"
+            ),
+        ]  # fmt: skip
         command = self.guard(self.subject.autonomous)
-        for test in find_tests(command) if command is not None else ():
-            yield f"autonomous runs {test.replace('-', ' ')}", _get_line(command)
+        places.append(("autonomous runs {}", command, _get_line(command)))
+        for said, thing, line in places:
+            for test in find_tests(thing):
+                yield said.format(test.replace("-", " ")), line
 
     # -- pressing ---------------------------------------------------------------------------
 
     def _set_mode(self, mode: str, state: tuple[str, bool, float] = STATES[0]) -> None:
         self.guard(self.scheduler.cancelAll)
-        WORLD.singletons["running"] = {}
+        WORLD.running = {}
         WORLD.mode, WORLD.fms = mode, mode in MATCH
         WORLD.alliance, sensors, WORLD.battery = state
         devices: list[Any] = list(WORLD.devices)
@@ -247,10 +241,10 @@ class ButtonBench(Bench):
 
     def _run_loop(self) -> frozenset[str]:
         """One loop; the tests that ran in it."""
-        WORLD.singletons["running"] = {}
+        WORLD.running = {}
         self.where = "periodic"
         self.guard(lambda: self.simulation.run_loop(self.scheduler.run))
-        states = WORLD.singletons["running"].values()
+        states = WORLD.running.values()
         return frozenset(state for state in states if state != "none")
 
     def _run_loops(self, count: int) -> frozenset[str]:
@@ -293,15 +287,8 @@ class ButtonBench(Bench):
     def _release_inputs(self, inputs: tuple[Input, ...]) -> None:
         self._hold(inputs, on=False)
         for test in self._run_loops(2) & self._run_loops(2):
-            line = next(
-                (
-                    int(b.line)
-                    for b in WORLD.singletons.get("bindings", [])
-                    if test in find_tests(b.command)
-                ),
-                0,
-            )
-            self.released.setdefault(test, line)
+            lines = (int(b.line) for b in WORLD.bindings if test in find_tests(b.command))
+            self.released.setdefault(test, next(lines, 0))
         self.guard(self.scheduler.cancelAll)
         self._run_loops(1)
 
@@ -312,7 +299,7 @@ class ButtonBench(Bench):
         """The inputs that a program reads; if it reads none, those of every controller."""
         found = [
             (one._port, kind, number)
-            for one in WORLD.singletons.get("controllers", [])
+            for one in WORLD.controllers
             for kind, number in one._used
             if isinstance(one._port, int)
         ]
@@ -324,11 +311,11 @@ class ButtonBench(Bench):
     def _list_switches(self) -> list[tuple[str, Any]]:
         """The dashboard entries that a person can turn on."""
         found: list[tuple[str, Any]] = []
-        for path, one in WORLD.singletons.get("switches", {}).items():
+        for path, one in WORLD.switches.items():
             now = WORLD.network.get(path, next(iter(one.defaults), False))
             if one.defaults:
                 found.append((path, not now))
-        for one in WORLD.singletons.get("choosers", []):
+        for one in WORLD.choosers:
             if one._path:
                 found += [(f"{one._path}/selected", option) for option in one._options]
         return found
@@ -390,12 +377,7 @@ class ButtonBench(Bench):
         stayed, stopped, moved = self._release(inputs, test)
         opened = tuple(self._try_match(test, inputs))
         asked = next(
-            (
-                self._find_requested_line(lines)
-                for t, _, lines in WORLD.singletons.get("tests", [])
-                if t == test
-            ),
-            0,
+            (self._find_requested_line(lines) for t, _, lines in WORLD.tests if t == test), 0
         )
         return Press(
             test,
@@ -453,14 +435,10 @@ class ButtonBench(Bench):
         """The line and the method that bound a test to the pressed button."""
         running = [one for one in self._list_running_commands() if test in find_tests(one)]
         line = int(running[0]._scheduled_line) if running else 0
-        bindings = WORLD.singletons.get("bindings", [])
-        exact = [b for b in bindings if test in find_tests(b.command)]
-        near = (
-            [b for b in exact if int(b.line) == line]
-            or exact
-            or [b for b in bindings if int(b.line) == line]
-        )
-        return (int(near[0].line), near[0].how) if near else (line, "")
+        exact = [b for b in WORLD.bindings if test in find_tests(b.command)]
+        same = [b for b in exact or WORLD.bindings if int(b.line) == line]
+        near = next(iter(same or exact), None)
+        return (int(near.line), near.how) if near else (line, "")
 
     def _find_comment(self, asked: int, line: int) -> str:
         return str(self.subject.comment_at(asked) or self.subject.comment_at(line))
@@ -468,17 +446,17 @@ class ButtonBench(Bench):
     def _is_apart(self, inputs: tuple[Input, ...]) -> bool:
         """Whether the controller of some inputs serves nothing else, and is not the only one."""
         ports = {port for port, _, _ in inputs}
-        others = [one for one in WORLD.singletons.get("controllers", []) if one._port not in ports]
-        own = {one for one in WORLD.singletons.get("controllers", []) if one._port in ports}
+        others = [one for one in WORLD.controllers if one._port not in ports]
+        own = {one for one in WORLD.controllers if one._port in ports}
         used = {(one._port, *key) for one in own for key in one._used}
         return (bool(others) or bool(ports - {0})) and used <= self.test_inputs()
 
     def test_inputs(self) -> set[Input]:
         """The inputs whose triggers belong to bindings of tests."""
-        lines = {int(b.line) for b in WORLD.singletons.get("bindings", []) if find_tests(b.command)}
+        lines = {int(b.line) for b in WORLD.bindings if find_tests(b.command)}
         return {
             (one._port, *key)
-            for one in WORLD.singletons.get("controllers", [])
+            for one in WORLD.controllers
             for key, line in one._used.items()
             if int(line) in lines or not lines
         }
@@ -486,7 +464,7 @@ class ButtonBench(Bench):
 
 def find_tests(command: Any) -> list[str]:
     """The tests of SysId that a command runs, itself or in its parts."""
-    made = {id(one): test for test, one, _ in WORLD.singletons.get("tests", [])}
+    made = {id(one): test for test, one, _ in WORLD.tests}
     if id(command) in made:
         return [made[id(command)]]
     parts = walk_fields(command, leave=is_subsystem)

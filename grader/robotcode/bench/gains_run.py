@@ -40,7 +40,6 @@ RATIOS = ("SensorToMechanismRatio", "RotorToSensorRatio")  # of FeedbackConfigs
 FEEDBACKS = ("Feedback", "ExternalFeedback")
 PID, PIDS = ("kP", "kI", "kD"), ("PIDController", "ProfiledPIDController")
 LETTERS = {"s": "kS", "v": "kV", "a": "kA", "g": "kG", "c": "kCos", "r": "kCosRatio"}
-MADE = {"feedforwards", "configurations", "pids"}  # what the fakes and the bench write down
 OTHER_SLOTS = {"kSlot1", "kSlot2", "kSlot3"}
 
 
@@ -155,7 +154,7 @@ class GainsBench(Bench):
             names = [one.name for one in subject.tree.body if isinstance(one, ast.ClassDef)]
             classes = [getattr(subject.module, rename(name)) for name in names]
         for one in classes:
-            if not WORLD.singletons.keys() & MADE:
+            if not (WORLD.feedforwards or WORLD.pids or WORLD.configurations):
                 subject.instance = subject.make(one)
 
     def _find_comments(self, text: str, first: int, last: int) -> str:
@@ -196,7 +195,7 @@ def watch_configurations() -> None:
             make(self, *args, **named)
             if re.search(r"Config(s|uration)?$", type(self).__name__):
                 self._line = WORLD.where()
-                WORLD.singletons.setdefault("configurations", []).append(self)
+                WORLD.configurations.append(self)
 
         run.watched = True  # type: ignore[attr-defined]
         base.__init__ = run  # type: ignore[method-assign]
@@ -209,7 +208,7 @@ def _name_class(thing: object, names: Collection[str]) -> str:
 
 def list_feedforwards() -> Iterator[Gains]:
     """The feedforwards of WPILib's classes; those without any gain only if there is no other."""
-    made = WORLD.singletons.get("feedforwards", [])
+    made = WORLD.feedforwards
     for one in [one for one in made if one.ks or one.kv or one.ka or one.kg] or made:
         kind = _name_class(one, CLASSES)
         gains = {name: to_number(getattr(one, name.lower())) for name in CLASSES[kind]}
@@ -218,7 +217,7 @@ def list_feedforwards() -> Iterator[Gains]:
 
 def _list_made(kind: type) -> list[Any]:
     """The configurations of a vendor that were made."""
-    made = WORLD.singletons.get("configurations", [])
+    made = WORLD.configurations
     return [one for one in made if isinstance(one, kind)]
 
 
@@ -285,8 +284,7 @@ def list_sparks() -> Iterator[Gains]:
 def list_loops() -> Iterator[Gains]:
     """The feedback loops, in the program and in motor controllers."""
     found: list[tuple[str, Any, Any]] = [
-        (_name_class(one, PIDS), one._line, (one._p, one._i, one._d))
-        for one in WORLD.singletons.get("pids", [])
+        (_name_class(one, PIDS), one._line, (one._p, one._i, one._d)) for one in WORLD.pids
     ]
     for slot, _ in _find_slots():
         found.append((SLOT0, slot._line, [slot._values[name] for name in PID]))

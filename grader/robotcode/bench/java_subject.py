@@ -61,11 +61,8 @@ class JavaSubject(Subject):
     @property
     def season(self) -> int:
         """The season of WPILib whose packages are imported."""
-        return (
-            2027
-            if any(one.full.startswith("org.wpilib.") for one in self.program.unit.imports)
-            else 2026
-        )
+        new = any(one.full.startswith("org.wpilib.") for one in self.program.unit.imports)
+        return 2027 if new else 2026
 
     def _choose(self, wanted: str) -> JavaClass | None:
         classes = list(self.program.unit.classes.values())
@@ -76,14 +73,10 @@ class JavaSubject(Subject):
             return public
         return next((one for one in classes if wanted in (one.node.text or b"").decode()), public)
 
-    def compile(self) -> None:
-        """Compile the graded file, to find its compile errors."""
-        self.program.compile_all()
-
     def start(self) -> None:
         """Make the class, with its constructor or by its own ``getInstance``."""
         STATE.refill(START_STEPS)
-        self.compile()
+        self.program.compile_all()
         if self.java is None:
             return
         _ = self.java.cls
@@ -147,14 +140,10 @@ class JavaSubject(Subject):
         if java.form == "enum":
             java.initialize()
             return next(iter(java.statics.values()), None)
-        if java.form == "class" and "abstract" not in java.modifiers:
+        if _is_concrete(java):
             return self.make(java, depth + 1)
-        children = [
-            one for one in self._list_classes() if one is not java and java in one.ancestors()
-        ]
-        children = [
-            one for one in children if one.form == "class" and "abstract" not in one.modifiers
-        ]
+        every = [one for one in self._list_classes() if one is not java and java in one.ancestors()]
+        children = [one for one in every if _is_concrete(one)]
         children.sort(key=lambda one: bool(re.search(r"Sim|Replay|Mock", one.name)))
         if children or java.form != "class":
             return self.make(children[0], depth + 1) if children else Unknown(java.name)
@@ -315,3 +304,8 @@ class JavaSubject(Subject):
                 if binds and len(re.findall(rf"\b{one.name}\b", whole)) == 1:
                     found.append((one.name, int(one.at)))
         return found
+
+
+def _is_concrete(java: JavaClass) -> bool:
+    """Whether objects of a class can be made."""
+    return java.form == "class" and "abstract" not in java.modifiers

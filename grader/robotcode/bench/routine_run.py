@@ -144,11 +144,10 @@ class RoutineBench(Bench):
         """Find the routine, its settings and its devices."""
         ways = list(walk_fields(self.subject.instance))
         held = {id(one) for _, _, one in ways}
-        made = WORLD.singletons.get("routines", [])
+        made = WORLD.routines
         kept = [one for one in made if id(one) in held]
         if not kept:
             kept = self.guard(self.subject.find_routines)
-            made = WORLD.singletons.get("routines", [])
         if not kept:  # others in the program may have made some of their own
             made = [one for one in made if one._mechanism._subsystem is self.subject.instance]
         names: dict[int, str] = {}

@@ -41,9 +41,9 @@ class Subject:
 
 def list_made(kind: str, make: Callable[[], Any]) -> list[Any]:
     """The ``routines`` or ``tests`` that something makes."""
-    before = len(WORLD.singletons.get(kind, []))
+    made: list[Any] = getattr(WORLD, kind)
+    before = len(made)
     make()
-    made: list[Any] = WORLD.singletons.get(kind, [])
     return made[before:]
 
 

@@ -2,10 +2,15 @@
 
 import re
 from collections.abc import Iterable, Mapping
+from pathlib import Path
 
 from grader.check import NotReachedError, WrongAnswer
 from grader.robotcode.bench.facts import TESTS, Outcome, ProgramFacts
+from grader.texts import read_texts
 from sim.support.printable import join_names
+
+FAULTS = read_texts(Path(__file__).with_name("faults.toml"))
+PHRASES = FAULTS.pop("phrases")
 
 WHEN = {  # where a program stopped, in words
     "start": "when the robot's program starts",
@@ -26,6 +31,26 @@ def quote(line: int) -> str:
     return f" (line {line})" if line else ""
 
 
+def fault(kind: str, line: int = 0, *, earned: float = 0.0, **values: object) -> WrongAnswer:
+    """What is wrong, in the words of ``faults.toml``.
+
+    Args:
+        kind: its row there.
+        line: of the code that does it; 0 if there is none to name.
+        earned: points all the same.
+        values: what the words leave open.
+    """
+    row, values = FAULTS[kind], values | {"at": quote(line), "line": line}
+    whole = {part: re.sub(r"\{(\w+)\}", _put_phrase, text) for part, text in row.items()}
+    seen, hint = (whole[part].format_map(values) for part in ("seen", "hint"))
+    return WrongAnswer(seen, hint=hint, misconception=row.get("misconception", ""), earned=earned)
+
+
+def _put_phrase(gap: re.Match[str]) -> str:
+    """The phrase of a gap's name; another gap stays open."""
+    return str(PHRASES.get(gap[1], gap[0]))
+
+
 def list_tests(tests: Iterable[str]) -> str:
     """Tests in words: ``dynamic forward and dynamic reverse``; all four are ``every test``."""
     asked = set(tests)
@@ -44,12 +69,7 @@ def ask_for_files(unknown: Mapping[str, int], earned: float = 0.0) -> None:
         WrongAnswer: there is such a name.
     """
     for name, line in unknown.items():
-        raise WrongAnswer(
-            f"the grader cannot know what {name.rpartition('.')[2]} does{quote(line)}: it is in no "
-            "file here",
-            hint="Put its file into the same folder, or its class into this file, and grade again.",
-            earned=earned,
-        )
+        raise fault("missing_file", line, name=name.rpartition(".")[2], earned=earned)
 
 
 def check_compiles(facts: ProgramFacts, *, earned: float = 0.0) -> None:
@@ -65,11 +85,10 @@ def check_compiles(facts: ProgramFacts, *, earned: float = 0.0) -> None:
         stops = "the code does not compile" if java else "Python stops with an error"
         more = f" There are {count} such lines." if count > 1 else ""
         other = f" of {one.file}" if one.file else ""
-        raise WrongAnswer(
-            f"line {one.line}{other}: {one.message}",
-            hint=f"With this line {stops}, and the robot does not start. Correct it.{more}",
+        raise fault(
+            "does_not_compile", one.line, message=one.message, stops=stops, other=other, more=more,
             earned=earned,
-        )
+        )  # fmt: skip
 
 
 def check_stop(facts: ProgramFacts, *places: str, earned: float = 0.0) -> None:
@@ -86,15 +105,9 @@ def check_stop(facts: ProgramFacts, *places: str, earned: float = 0.0) -> None:
     check_compiles(facts, earned=earned)
     if stop.outcome is Outcome.CANNOT:
         raise NotReachedError(stop.said)
-    verb = "stops"
-    hint = "On the robot it would stop in the same way. Mend that line, and grade again."
+    kind = "stops"
     if stop.outcome is Outcome.ENDLESS:
-        verb = "hangs"
-        hint = "A robot's loop has 0.02 s. Code that waits or repeats must return at once."
+        kind = "hangs"
     elif re.search(r"(quasistatic|dynamic)\W.*(takes|missing|argument)", stop.said):
-        hint = (
-            "SysIdRoutine is the class, and it has no motors: ask the object that you made, "
-            "as in self.routine.quasistatic(direction)."
-        )
-    seen = f"the program {verb} {WHEN[stop.where]}{quote(stop.line)}: {stop.said}"
-    raise WrongAnswer(seen, hint=hint, earned=earned)
+        kind = "asks_the_class"
+    raise fault(kind, stop.line, when=WHEN[stop.where], said=stop.said, earned=earned)

@@ -4,6 +4,7 @@ import itertools
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
 from grader.check import NotReachedError, WrongAnswer
 from grader.robotcode.bench.facts import DeviceFacts, RoutineFacts, Signal
@@ -12,6 +13,7 @@ from grader.robotcode.checks.causes import (
     check_compiles,
     check_stop,
     explain_doubt,
+    fault,
     list_tests,
     quote,
 )
@@ -33,14 +35,6 @@ NEAR = 2e-3  # [share] how well a factor is known
 PWM_STEP = 0.01  # [share] by which a voltage of a PWM motor may be off
 LONGEST = 2.0  # [m] no wheel or drum lays so much behind it in one rotation of its motor
 LARGE = 1000.0  # [m] from here on a length is written without decimals
-APPLIED = (
-    "Log the voltage that the motor got: getMotorVoltage(), getAppliedOutput() times the bus "
-    "voltage, or in Python getVoltage()."
-)
-SIGNED = "Half of the tests run backward. Log the number with its sign."
-EACH_TIME = "Record every signal each time the callback is called, without a condition."
-COPIED = "Did you copy a line and forget to change it?"
-OWN_VALUES = f"{COPIED} Log for {{}} the values of its own motor and its own encoder."
 SLIPS = {  # what a velocity is of the slope of its position, and how that comes about
     60.0: "One is per minute, the other per second",
     2 * math.pi: "One is in radians, the other in rotations",
@@ -74,25 +68,14 @@ def check_logged(facts: RoutineFacts, *, points: float, demanded: int) -> None:
     if facts.log is False or (
         facts.stop and "'NoneType' object is not callable" in facts.stop.said
     ):
-        seen = "null instead of the log callback: then WPILib records nothing"
-        hint = "null is for robots whose motors a vendor's logger or AdvantageKit records."
-        if facts.language == "python":
-            seen = (
-                "None in place of the log callback: RobotPy stops with a TypeError in the first "
-                "loop"
-            )
-            hint = "Where a vendor's logger records the motors, write `lambda log: None`."
-        raise WrongAnswer(seen, hint=f"{hint} Here, write a callback that fills the log.")
+        raise fault("none_log" if facts.language == "python" else "null_log")
     check_swapped(facts)
     check_stop(facts)
     there = list_signals(facts)
     if not there:
         check_compiles(facts)
         ask_for_files(facts.unknown)
-        raise WrongAnswer(
-            "the log callback records nothing",
-            hint='It gets a log: log.motor("left"), then voltage, position and velocity.',
-        )
+        raise fault("logs_nothing")
     faults = list(_find_log_faults(facts, there))
     if faults:
         lost = {signal: SHARE.get(signal.rpartition(" ")[2], 1 / 6) for signal, _ in faults}
@@ -111,18 +94,18 @@ def _find_log_faults(facts: RoutineFacts, there: Logged) -> Faults:
             many = signals.get(signal, [])
             if len({one.scale > 0 for one in many if one.scale}) > 1:  # forward and reverse differ
                 many = [replace(one, absolute=True) for one in many]
-            faults = (fault for one in many for fault in _list_signal_faults(name, signal, one))
-            if fault := next(faults, None):
-                yield f"{name} {signal}", fault
+            found = (wrong for one in many for wrong in _list_signal_faults(name, signal, one))
+            if worst := next(found, None):
+                yield f"{name} {signal}", worst
     loops = sum(test.logs for test in facts.tests.values())
     rows = {name: sum(one.loops for one in s.get("voltage", [])) for name, s in there.items()}
     few = [name for name, count in rows.items() if 0 < count < loops - FEW * len(facts.tests)]
     if few and (len(there) > MANY or len(few) == len(there)):
-        said = f"{few[0]} is logged in {rows[few[0]]} of {loops} loops"
-        if len(there) > MANY:
-            said = f"{len(there)} names are in the log"
-        hint = "Record every motor in every loop, always under the same name."
-        yield f"{few[0]} voltage", WrongAnswer(said, hint=hint)
+        kind = "too_many_names" if len(there) > MANY else "logged_rarely"
+        yield (
+            f"{few[0]} voltage",
+            fault(kind, count=len(there), name=few[0], rows=rows[few[0]], loops=loops),
+        )
     owners = {name: _find_owners(name, signals) for name, signals in there.items()}
     for name in owners:
         yield from _find_wrong_owners(name, owners, there[name])
@@ -133,23 +116,17 @@ def _find_name_faults(
 ) -> Faults:
     """Faults in the number of signals and of rows under one name."""
     lacking = [signal for signal in NEEDED if signal not in signals]
-    hint = "A fit needs all three of every motor: voltage, position and velocity."
-    if lacking == ["position"]:
-        hint = (
-            "SysId's window refuses a motor without a position. (For a drivetrain, our own fit "
-            "gets by with voltage and velocity; an arm's or elevator's needs the position.)"
-        )
+    kind = "lacks_position" if lacking == ["position"] else "lacks_signals"
     for signal in lacking:
-        seen = f"no {' and no '.join(lacking)} of {name}"
-        yield f"{name} {signal}", WrongAnswer(seen, hint=hint)
+        yield f"{name} {signal}", fault(kind, lacking=" and no ".join(lacking), name=name)
     loops = {one: sum(s.loops for s in signals[one]) for one in NEEDED if one in signals}
     logs = sum(test.logs for test in facts.tests.values())
     least = min(loops, key=lambda key: loops[key], default="")
     if not least or loops[least] >= logs - FEW * len(facts.tests):
         return
-    at = quote(signals[least][0].line)
-    seen = f"{name}'s {least} is logged in {loops[least]} of {logs} loops{at}"
+    kind, silent = "signal_logged_rarely", []
     if loops[least] == max(loops.values()):
+        kind = "silent_in_tests"
         silent = [
             test
             for test, run in facts.tests.items()
@@ -157,83 +134,53 @@ def _find_name_faults(
         ]
         if not silent or len(facts.tests) == 1:
             return
-        seen = f"{name} is not logged in all loops of {list_tests(silent)}{at}"
-    yield f"{name} {least}", WrongAnswer(seen, hint=EACH_TIME)
+    yield f"{name} {least}", fault(
+        kind, signals[least][0].line, name=name, signal=least, count=loops[least], logs=logs,
+        tests=list_tests(silent),
+    )  # fmt: skip
 
 
 def _list_signal_faults(name: str, signal: str, one: Signal) -> Iterator[WrongAnswer]:
     """Faults of a signal in the log, the worst first."""
-    at = quote(one.line)
     if one.twice:
-        yield WrongAnswer(
-            f"{name}'s {signal} is written more than once in a loop{at}",
-            hint="Only one motor may log under a name. Is the name of the second one copied, too?",
-        )
+        yield fault("written_twice", one.line, name=name, signal=signal)
     if one.idle and not one.unknown:
         return
     if one.unknown:
-        yield WrongAnswer(
-            explain_doubt(f"where the {signal} of {name} comes from", f"{one.unknown}{at}"),
-            hint="Ask the motor itself for it, in the log callback, and hand in every file it "
-            "needs.",
-        )
+        where = f"where the {signal} of {name} comes from"
+        yield fault("unknown_source", doubt=explain_doubt(where, f"{one.unknown}{quote(one.line)}"))
     listed = _list_voltage_faults if signal == "voltage" else _list_motion_faults
     yield from listed(name, signal, one)
 
 
 def _list_voltage_faults(name: str, _signal: str, one: Signal) -> Iterator[WrongAnswer]:
     """Faults of a logged voltage, the worst first."""
-    at = quote(one.line)
     if one.asked:
-        yield WrongAnswer(
-            f"{name}'s voltage is the commanded voltage{at}: it stays the same when the motor gets "
-            "less",
-            hint=APPLIED,
-            misconception="M-CMDVOLT",
-        )
+        yield fault("commanded_voltage", one.line, name=name)
     if one.battery and not one.follows:
-        yield WrongAnswer(
-            f"{name}'s voltage is the voltage of the battery{at}",
-            hint=f"The motor gets only a part of it. {APPLIED}",
-        )
+        yield fault("battery_voltage", one.line, name=name)
     if one.absolute:
-        yield WrongAnswer(f"the voltage of {name} loses its sign{at}", hint=SIGNED)
+        yield fault("loses_sign", one.line, name=name, signal="voltage")
     if not one.follows:
-        yield WrongAnswer(f"{name}'s voltage follows no motor's voltage{at}", hint=APPLIED)
+        yield fault("follows_no_voltage", one.line, name=name)
     if one.scale is not None and abs(one.scale - 1.0) > PWM_STEP:
         motor = one.follows.partition(" ")[2]
-        seen = f"{name}'s voltage is {one.scale:.3g} times that of {motor}{at}"
-        yield WrongAnswer(seen, hint=APPLIED)
+        yield fault("scaled_voltage", one.line, name=name, one=one, motor=motor)
 
 
 def _list_motion_faults(name: str, signal: str, one: Signal) -> Iterator[WrongAnswer]:
     """Faults of a logged position or velocity, the worst first."""
-    at, (part, _, motor) = quote(one.line), one.follows.partition(" ")
+    part, _, motor = one.follows.partition(" ")
     if one.still:
-        yield WrongAnswer(
-            f"{name}'s {signal} stays {one.values[0]:.3g} while the motor turns{at}",
-            hint="Something resets it in every loop, or it was read only once. Read the sensor in "
-            "the callback (a status signal that is kept needs refresh()), and reset nothing in a "
-            "test.",
-        )
+        yield fault("stays_still", one.line, name=name, signal=signal, one=one)
     if not part:
-        yield WrongAnswer(
-            f"{name}'s {signal} follows no motor's {signal}{at}",
-            hint="Log what the sensor says now, converted by one factor. Do not filter, round or "
-            "average it.",
-        )
+        yield fault("follows_nothing", one.line, name=name, signal=signal)
     if part != signal:
-        yield WrongAnswer(
-            f"the {signal} of {name} is the {part} of {motor}{at}",
-            hint=f"Log the {signal} there: each value has its own method.",
-        )
+        yield fault("other_signal", one.line, name=name, signal=signal, part=part, motor=motor)
     if one.absolute:
-        yield WrongAnswer(f"the {signal} of {name} loses its sign{at}", hint=SIGNED)
+        yield fault("loses_sign", one.line, name=name, signal=signal)
     if signal == "velocity" and one.scale and abs(one.offset) > NEAR * 10 * abs(one.scale):
-        yield WrongAnswer(
-            f"{name}'s velocity is {one.offset:.3g} too large all the time{at}",
-            hint="An offset in the velocity makes kS wrong. Log the sensor's number.",
-        )
+        yield fault("velocity_offset", one.line, name=name, one=one)
 
 
 def _find_wrong_owners(
@@ -249,35 +196,32 @@ def _find_wrong_owners(
     mine, theirs = owners[name], {other: owners[other] for other in owners if other != name}
     if not mine:
         return
-    at = {signal: quote(signals[signal][0].line) for signal in signals}
+    at = {signal: one[0].line for signal, one in signals.items()}
     (first, motor), *rest = mine.items()
     whole, other_side = len(set(mine.values())) == 1, find_other_side(name, motor)
     named = any(set(one.values()) == {motor} for one in theirs.values())
     if whole and other_side and len(mine) == len(NEEDED) and not named:
-        seen = f"everything that is logged under the name {name} is of {motor}{at[first]}"
-        hint = f"The values are right for {motor}, so the name is wrong. {COPIED}"
-        yield f"{name} {first}", WrongAnswer(seen, hint=hint)
+        yield f"{name} {first}", fault("wrong_name", at[first], name=name, motor=motor)
         return
     for signal, owner in mine.items():
         wrong = find_other_side(name, owner)
         others = [other for other, one in theirs.items() if one.get(signal) == owner]
-        seen = f"{name} gets the {signal} of {owner}{at[signal]}"
+        told: dict[str, Any] = {"name": name, "signal": signal, "motor": owner}
         if wrong:
-            hint = f"{COPIED} Under the name {name}, log the values of the {wrong} motor."
-            yield f"{name} {signal}", WrongAnswer(seen, hint=hint)
+            yield f"{name} {signal}", fault("other_side", at[signal], side=wrong, **told)
         elif others and not whole:
-            hint = OWN_VALUES.format(name)
-            yield f"{name} {signal}", WrongAnswer(f"{seen}, and so does {others[0]}", hint=hint)
+            yield f"{name} {signal}", fault("shared_signal", at[signal], other=others[0], **told)
     if not whole and not any(find_other_side(name, owner) for owner in mine.values()):
         signal, owner = next(pair for pair in rest if pair[1] != motor)
-        seen = f"the {signal} of {name} comes from {owner}, its {first} from {motor}{at[signal]}"
-        hint = "All three signals of a motor must come from the same motor."
-        yield f"{name} {signal}", WrongAnswer(seen, hint=hint)
+        yield f"{name} {signal}", fault(
+            "mixed_motors", at[signal], name=name, signal=signal, motor=owner, first=first,
+            other=motor,
+        )  # fmt: skip
     before = itertools.takewhile(lambda other: other != name, owners)
     twin = next((one for one in before if {*owners[one].values()} == {motor}), None)
     if whole and twin is not None and not other_side:
-        seen = f"{twin} and {name} are the same motor: {motor}{at.get('voltage', '')}"
-        yield f"{name} voltage", WrongAnswer(seen, hint=OWN_VALUES.format(name))
+        line = at.get("voltage", 0)
+        yield f"{name} voltage", fault("same_motor", line, other=twin, name=name, motor=motor)
 
 
 def _find_owners(name: str, signals: Mapping[str, list[Signal]]) -> dict[str, str]:
@@ -305,10 +249,6 @@ def _check_all_logged(facts: RoutineFacts, there: Logged, *, demanded: int, poin
     logged = {
         one[0].follows.partition(" ")[2] for signals in there.values() for one in signals.values()
     }
-    hint = (
-        "The Mechanism drives two sides, and each has its own friction. Log every motor, each "
-        "under its own name."
-    )
     for pair in SIDES:
         sides = {find_side(one.name, pair) for one in driven} - {""}
         told = {find_side(text, pair) for text in (*there, *logged)} - {""}
@@ -318,11 +258,10 @@ def _check_all_logged(facts: RoutineFacts, there: Logged, *, demanded: int, poin
             and sides - told
             and turn_independently(facts.name, pair)
         ):
-            seen = f"no {min(sides - told)} motor in the log"
-            raise WrongAnswer(seen, hint=hint, earned=round(points / 2, 1))
+            raise fault("side_missing", side=min(sides - told), earned=round(points / 2, 1))
     if len(there) < min(demanded, len(driven)):
-        seen = f"{len(there)} of {len(driven)} motors in the log"
-        raise WrongAnswer(seen, hint=hint, earned=round(points * len(there) / len(driven), 1))
+        earned = round(points * len(there) / len(driven), 1)
+        raise fault("motors_missing", count=len(there), driven=len(driven), earned=earned)
 
 
 def check_units(facts: RoutineFacts, *, mechanism: str, scales: dict[str, float]) -> None:
@@ -350,12 +289,10 @@ def check_units(facts: RoutineFacts, *, mechanism: str, scales: dict[str, float]
     families = {one.family for one in moving.values() if one.family}
     wanted = find_motion_family(mechanism)
     if len(families) > 1:
-        _raise_unit(
-            seen, "Some of these are lengths and others are angles. Choose one kind for all."
-        )
+        raise fault("mixed_units", signals=seen)
     if wanted and families and families != {wanted}:
         unit = "Meters" if wanted == "linear" else "Rotations or Radians"
-        _raise_unit(seen, f"By its name, {mechanism} moves in {unit}. Log it in {unit}.")
+        raise fault("unit_of_mechanism", signals=seen, mechanism=mechanism, unit=unit)
     devices = {one.name: one for one in facts.devices}
     for (name, signal), one in moving.items():
         _check_scale(name, signal, one, devices, scales)
@@ -367,10 +304,6 @@ def check_units(facts: RoutineFacts, *, mechanism: str, scales: dict[str, float]
     _check_signs(there)
 
 
-def _raise_unit(seen: str, hint: str) -> None:
-    raise WrongAnswer(seen, hint=hint, misconception="M-UNITS")
-
-
 def _check_scale(
     name: str, signal: str, one: Signal, devices: dict[str, DeviceFacts], scales: dict[str, float]
 ) -> None:
@@ -379,45 +312,36 @@ def _check_scale(
     if device is None or not one.scale or not one.follows.startswith(signal):
         return
     sensor = next((d for d in devices.values() if d.turned_by == device.name), None)
-    at, scale = quote(one.line), abs(one.scale)
+    scale = abs(one.scale)
+    told: dict[str, Any] = {"name": name, "signal": signal, "motor": device.name}
     if not sensor:
-        _check_reported(
-            f"{name}'s {signal}{at}: {device.name}", signal, one, scale * device.gearing
-        )
+        _check_reported(signal, one, scale * device.gearing, told)
     wanted = scales.get(device.type, scales.get(sensor.type if sensor else "", 0.0))
     if one.family == "linear" and scale > LONGEST and (not sensor or wanted):
         length = f"{scale:.3g}" if scale < LARGE else f"{scale:.0f}"
-        _raise_unit(
-            f"{name}'s {signal}{at}: one rotation of {device.name} counts as {length} m",
-            f"One rotation would be {length} m. Multiply by the meters of one rotation, and by "
-            "nothing else; do not divide by them.",
-        )
+        raise fault("long_rotation", one.line, length=length, **told)
     if one.family == "linear" and wanted and not _close(scale, wanted):
-        _raise_unit(
-            f"{name}'s {signal}{at}: one rotation counts as {scale:.4g} m, and by the task's own "
-            f"number it is {wanted:.4g} m",
-            "Multiply by the task's number exactly once, and apply no other ratio.",
-        )
+        raise fault("not_as_in_task", one.line, scale=scale, wanted=wanted, **told)
 
 
-def _check_reported(motor: str, signal: str, one: Signal, turn: float) -> None:
+def _check_reported(signal: str, one: Signal, turn: float, told: Mapping[str, Any]) -> None:
     """Whether a logged number is a converted reading of the motor.
 
     Args:
-        motor: the signal and its motor, in words.
         signal: ``position`` or ``velocity``.
         one: the signal.
         turn: what is logged for one rotation as the motor reports it, in SI.
+        told: for messages: the name in the log, the signal and the motor.
     """
     reports, rpm = REPORTS[signal], "rotations per minute"
+    kind = "unconverted_length"
     if one.family == "linear":
         says = f"and the log says {one.unit or 'meters'}"
-        hint = "Multiply by the meters of one rotation: wheel's circumference over gear ratio."
         taken = {1.0: f"{reports}, {says}"}
         rates = {60.0: f"{rpm}, {says}"}
     elif one.family == "angular":
+        kind = "unconverted_angle"
         says = f"and the log says {one.unit or 'an angle'}"
-        hint = "Name the unit that the number is in, and a measure converts itself."
         taken = dict.fromkeys((1.0, 2 * math.pi / 360), f"{reports}, {says}")
         rates = {
             2 * math.pi * 60: f"{rpm}, and the log takes them for {reports}",
@@ -427,8 +351,7 @@ def _check_reported(motor: str, signal: str, one: Signal, turn: float) -> None:
         return
     for factor, what in (taken | (rates if signal == "velocity" else {})).items():
         if _close(turn, factor):
-            plain = "The unit's name around a number converts nothing."
-            _raise_unit(f"{motor} reports {what}", f"{plain} {hint}")
+            raise fault(kind, one.line, what=what, **told)
 
 
 def _close(one: float, other: float) -> bool:
@@ -441,11 +364,7 @@ def _check_gearing(logged: Sequence[DeviceFacts | None]) -> None:
     bare = next((one for one in motors if one.gearing == 1.0), None)
     for one in motors:
         if bare and one.gearing != 1.0 and one.type == bare.type:
-            _raise_unit(
-                f"{bare.name} gets no configuration, so it reports rotations of the motor; "
-                f"{one.name} reports those of the mechanism",
-                "Apply the configuration with the gear ratio to every motor.",
-            )
+            raise fault("one_unconfigured", name=bare.name, other=one.name)
 
 
 def _check_rate(name: str, position: Signal | None, velocity: Signal | None) -> None:
@@ -457,21 +376,14 @@ def _check_rate(name: str, position: Signal | None, velocity: Signal | None) -> 
     ratio = velocity.scale / position.scale
     if any(_close(abs(ratio), one) for one in (1.0, GEARING, 1 / GEARING)) and ratio > 0:
         return  # an absolute sensor turns slower than the motor, by gears that nobody told
-    seen = (
-        f"the velocity of {name} is {ratio:.4g} times the slope of its "
-        f"position{quote(velocity.line)}"
-    )
     if _close(ratio, -1.0):
-        hint = "One of the two has the wrong sign. Log both with the same sign."
-        raise WrongAnswer(seen, hint=hint)
+        raise fault("velocity_sign", velocity.line, name=name, ratio=ratio)
     slips = {**SLIPS, **{1 / factor: said for factor, said in SLIPS.items()}}
     slip = next(
         (said for factor, said in slips.items() if _close(abs(ratio), factor)),
         "They are converted differently",
     )
-    _raise_unit(
-        seen, f"{slip}. Choose one unit for the position, and the same per second for the velocity."
-    )
+    raise fault("velocity_unit", velocity.line, name=name, ratio=ratio, slip=slip)
 
 
 def _check_alike(signals: Sequence[tuple[str, Signal]]) -> None:
@@ -480,11 +392,7 @@ def _check_alike(signals: Sequence[tuple[str, Signal]]) -> None:
     for (name, one), (other, second) in itertools.pairwise(sided):
         ratio = abs((second.scale or 1.0) / (one.scale or 1.0))
         if not _close(ratio, 1.0) and one.family == second.family:
-            _raise_unit(
-                f"a rotation of {other} counts {ratio:.4g} times what one of {name} "
-                f"counts{quote(second.line)}",
-                "Both sides have the same wheels and gears. Convert both in the same way.",
-            )
+            raise fault("sides_count_differently", second.line, other=other, ratio=ratio, name=name)
 
 
 def _check_signs(there: Logged) -> None:
@@ -498,8 +406,4 @@ def _check_signs(there: Logged) -> None:
         }
         if len(set(signs.values())) > 1:
             odd = min(signs, key=lambda key: list(signs.values()).count(signs[key]))
-            raise WrongAnswer(
-                f"the {odd} of {name} has a sign of its own{quote(signals[odd][0].line)}",
-                hint="A positive voltage must give a positive velocity and a growing position. Log "
-                "all three with the same sign.",
-            )
+            raise fault("odd_sign", signals[odd][0].line, signal=odd, name=name)

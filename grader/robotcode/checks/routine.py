@@ -12,6 +12,7 @@ from grader.robotcode.checks.causes import (
     check_compiles,
     check_stop,
     explain_doubt,
+    fault,
     list_tests,
     quote,
 )
@@ -27,9 +28,6 @@ SAME = 0.02  # [share] what two ratios of voltages may differ in that are the sa
 A_LOOP = 0.5  # [rot] that a motor may turn in a loop, before a limit stops it
 PATIENCE = 0.04  # [s] a callback may keep the loop waiting
 NOMINAL = (12.0, 12.5, 13.0, 10.0)  # [V] by which programs divide a voltage to get a duty cycle
-UNCHANGED = "Pass the voltage to setVoltage() unchanged."
-GETS_VOLTAGE = "It gets the voltage of the test: pass it to setVoltage() of every motor."
-OWNER = "Pass {} after the two callbacks. Then no other command can move the motors during a test."
 
 Advice = Callable[[float], tuple[str, str]]
 
@@ -40,12 +38,7 @@ def check_swapped(facts: RoutineFacts) -> None:
     said += [(facts.stop.said, facts.stop.line)] if facts.stop is not None else []
     for message, line in said:
         if re.search(r"(Voltage|float'|Measure) (has no|object has no attribute) '?motor", message):
-            raise WrongAnswer(
-                f"the drive callback gets the voltage, and asks it for a motor{quote(line)}",
-                hint="Are the two callbacks swapped? The Mechanism takes first the one that gets "
-                "the voltage, then the one that gets the log.",
-                misconception="M-ARGORDER",
-            )
+            raise fault("callbacks_swapped", line)
 
 
 def check_routine_found(facts: RoutineFacts) -> None:
@@ -54,16 +47,9 @@ def check_routine_found(facts: RoutineFacts) -> None:
         check_compiles(facts)
         check_stop(facts, "start", "command")
         ask_for_files(facts.unknown)
-        raise WrongAnswer(
-            "no SysIdRoutine is made when the robot starts",
-            hint="Make one where the motors are made, and keep it in a field.",
-        )
+        raise fault("no_routine")
     if not facts.kept:
-        raise WrongAnswer(
-            f"nothing keeps the SysIdRoutine of line {facts.line}",
-            hint="A local variable is gone when its method ends, and no test can be started. Keep "
-            "the routine in a field.",
-        )
+        raise fault("not_kept", facts.line)
 
 
 @dataclass(frozen=True)
@@ -113,11 +99,7 @@ class ConfigSetting:
             raise WrongAnswer(got.problem, hint=hint, misconception=misconception)
         if got.value is None:
             check_compiles(facts)
-            raise WrongAnswer(
-                explain_doubt(f"the {self.name}", got.text),
-                hint="Write it as a number, or put the file with its constant into the same "
-                "folder.",
-            )
+            raise fault("unknown_setting", doubt=explain_doubt(f"the {self.name}", got.text))
         seen = f"{got.value:g} {self.unit}"
         if got.default:
             seen = f"left to WPILib's default, {seen}"
@@ -157,7 +139,7 @@ def check_driven(facts: RoutineFacts, *, points: float, mirrored: bool) -> str |
     """
     if not facts.drive:
         check_compiles(facts)
-        raise WrongAnswer("no drive callback", hint=GETS_VOLTAGE)
+        raise fault("no_drive")
     check_swapped(facts)
     check_stop(facts, "drive", "command", "periodic", "start")
     motors = list_driven(facts)
@@ -165,7 +147,7 @@ def check_driven(facts: RoutineFacts, *, points: float, mirrored: bool) -> str |
         check_compiles(facts)
         check_stop(facts, "log")
         ask_for_files(facts.unknown)
-        raise WrongAnswer("the drive callback moves no motor", hint=GETS_VOLTAGE)
+        raise fault("moves_nothing")
     faults = [_find_drive_fault(one, facts, mirrored=mirrored) for one in motors]
     wrong = [one for one in faults if one is not None]
     if wrong:
@@ -174,11 +156,10 @@ def check_driven(facts: RoutineFacts, *, points: float, mirrored: bool) -> str |
         raise wrong[0]
     for name, test in facts.tests.items():
         if test.blocked > PATIENCE:
-            raise WrongAnswer(
-                f"the program keeps its loop waiting for {test.blocked:.1f} s in "
-                f"{name.replace('-', ' ')}",
-                hint="While it waits, nothing else of the robot runs, and the test's times are "
-                "wrong. Never wait in a callback.",
+            raise fault(
+                "waits",
+                seconds=test.blocked,
+                test=name.replace("-", " "),
                 earned=round(points / 2, 1),
             )
     return _note_driven(motors, facts)
@@ -251,37 +232,21 @@ def _list_command_faults(
     sent = [one for run in runs.values() for one in run.sent]
     for one in sent:
         if one.kind in {"closed-loop", "current"} and one.phase == "drive":
-            yield WrongAnswer(
-                f"{name} gets {one.method}{quote(one.line)}: a closed loop, not the voltage",
-                hint=UNCHANGED,
-                misconception="M-CLOSEDLOOP",
-            )
+            yield fault("sends_closed_loop", one.line, name=name, method=one.method)
     for run in runs.values():
         if run.unknown:
-            yield WrongAnswer(
-                explain_doubt(f"what voltage {name} gets", run.unknown),
-                hint="Call setVoltage() with the voltage of the callback.",
-            )
+            doubt = explain_doubt(f"what voltage {name} gets", run.unknown)
+            yield fault("unknown_voltage", doubt=doubt)
     if motor.follows == "?":
-        yield WrongAnswer(
-            f"{name} follows a motor that does not exist{quote(motor.line)}",
-            hint="Give the follower the ID of its leader.",
-        )
+        yield fault("no_leader", motor.line, name=name)
     if runs and all(run.never for run in runs.values()):
-        yield WrongAnswer(
-            f"{name} gets no voltage in {list_tests(runs)}{quote(motor.line)}",
-            hint="Drive every motor. The others have to turn one that gets no voltage, and kS and "
-            "kA become too large.",
-        )
+        yield fault("never_driven", motor.line, name=name, tests=list_tests(runs))
     others = [one for one in sent if one.phase != "drive" and one.kind != "follow"]
     if others:
         yield _describe_intruder(name, others[-1], bad)
     flipped = [test for test, run in runs.items() if run.flipped]
     if flipped:
-        yield WrongAnswer(
-            f"{name} changes its inversion during {list_tests(flipped)}",
-            hint="Invert a motor once, where it is made.",
-        )
+        yield fault("inversion_changes", name=name, tests=list_tests(flipped))
 
 
 def _list_direction_faults(
@@ -295,52 +260,34 @@ def _list_direction_faults(
         mirrored: whether it may get the other sign.
         right: whether it gets the voltage of every test.
     """
-    name, ratio, at = motor.name, _find_voltage_sign(motor, facts), quote(motor.line)
+    name, ratio = motor.name, _find_voltage_sign(motor, facts)
     forward = (ratio or 1) * (-1 if motor.backward else 1)
     if (
         find_side(name, SIDES[0])
         and find_other_side(name, motor.follows)
         and turn_independently(facts.name, SIDES[0])
     ):
-        yield WrongAnswer(
-            f"{name} follows {motor.follows}{at}",
-            hint="A follower turns the gears of its leader's side. Give it the ID of the leader "
-            "on its own side.",
-        )
+        yield fault("leader_of_other_side", motor.line, name=name, leader=motor.follows)
     if motor.follows and ratio:
         if motor.mounted and forward < 0:
-            yield WrongAnswer(
-                f"{name} follows {motor.follows}, and turns its side of the robot backward{at}",
-                hint="Choose the other alignment of the follower.",
-            )
+            yield fault("follower_backward", motor.line, name=name, leader=motor.follows)
         return
     if ratio == -1 and (not mirrored or motor.inverted):
-        hint = (
-            "Nothing here says that this motor is mounted the other way round. If it is, invert it "
-            "where it is made, and send both sides the same voltage."
-        )
-        if motor.inverted and forward > 0:
-            hint = "The code inverts this motor as well, and two inversions cancel. Leave one out."
-        line = _find_drive_line(_list_driven_tests(motor, facts))
-        yield WrongAnswer(f"{name}{quote(line)}: the sign of the voltage is changed", hint=hint)
+        kind = "inverted_twice" if motor.inverted and forward > 0 else "sign_changed"
+        yield fault(kind, _find_drive_line(_list_driven_tests(motor, facts)), name=name)
     if motor.backward and right:
-        yield WrongAnswer(
-            f"a positive voltage drives {name}'s side backward, by its settings{at}",
-            hint="In this task plus is forward on both sides as the file was given. Leave the "
-            "inversion as it was.",
-        )
+        yield fault("drives_backward", motor.line, name=name)
 
 
 def _describe_intruder(name: str, one: Sent, bad: Mapping[str, Driven]) -> WrongAnswer:
     """Words for a command that other code than the drive callback gives during a test."""
     where = {"log": "the log callback", "periodic": "periodic()"}.get(one.phase, "other code")
     method = one.method.partition("(")[0]
-    seen = f"{where} calls {method}() on {name}{quote(one.line)} in every loop of a test"
+    got = ""
     if bad:
-        _, asked, got = next(iter(bad.values())).at
-        seen += f": it gets {got:.3g} V when the test asks for {asked:.3g} V"
-    hint = "It runs also during a test, and changes the voltage. Let only the drive callback move "
-    return WrongAnswer(seen, hint=f"{hint}the motors of a test.")
+        _, asked, volts = next(iter(bad.values())).at
+        got = f": it gets {volts:.3g} V when the test asks for {asked:.3g} V"
+    return fault("driven_by_other_code", one.line, where=where, method=method, name=name, got=got)
 
 
 def _are_limits(cuts: Sequence[tuple[bool, float]]) -> bool:
@@ -357,37 +304,27 @@ def _describe_voltage(
 ) -> WrongAnswer:
     """Words for a motor that got another voltage than the test asked for."""
     test, run = next(iter(bad.items()))
-    at = quote(_find_drive_line(runs))
     kinds = {sent.kind for one in runs.values() for sent in one.sent if sent.phase == "drive"}
     time, asked, got = run.at
-    seen = (
-        f"in {test.replace('-', ' ')}, after {time:.1f} s, {name} gets {got:.3g} V when the test "
-        f"asks for {asked:.3g} V{at}"
-    )
-    if run.late:
-        hint = "Fill the request first, then send it."
-        return WrongAnswer(f"{seen}: each voltage comes a loop late", hint=hint)
-    if all(one.never for one in bad.values()) and len(bad) < len(runs):
-        hint = f"Every test has to move it, forward and reverse. {UNCHANGED}"
-        return WrongAnswer(f"{name} gets no voltage in {list_tests(bad)}{at}", hint=hint)
     shares = [abs(one.ratio) if one.ratio is not None else math.inf for one in runs.values()]
     same = max(shares) - min(shares) < SAME
     nominal = next((one for one in NOMINAL if same and abs(shares[0] * one - 1.0) < SAME), 0.0)
-    if nominal and kinds == {"voltage"}:
-        seen += f": a share of {nominal:g} V, sent as volts"
-        return WrongAnswer(seen, hint=UNCHANGED, misconception="M-DUTY")
-    if kinds == {"duty"} and not any(one.method.startswith("setVoltage") for one in run.sent):
-        seen += ": a duty cycle, a share of the battery"
-        return WrongAnswer(seen, hint=UNCHANGED, misconception="M-DUTY")
     steady = len({round(one.at[2], 2) for one in bad.values()}) == 1 < len(bad)
-    if steady and all(one.ratio is None or test.startswith("dyn") for test, one in bad.items()):
-        return WrongAnswer(
-            f"{seen}: it always gets {got:.3g} V",
-            hint="That does not depend on the test. Send the voltage that the callback gets. The "
-            "routine ends a test by sending 0 V, so this motor would drive on after the button is "
-            "released.",
-        )
-    return WrongAnswer(seen, hint=f"Your code changes the voltage. {UNCHANGED}")
+    kind = "another_voltage"
+    if run.late:
+        kind = "comes_late"
+    elif all(one.never for one in bad.values()) and len(bad) < len(runs):
+        kind = "not_in_every_test"
+    elif nominal and kinds == {"voltage"}:
+        kind = "share_as_volts"
+    elif kinds == {"duty"} and not any(one.method.startswith("setVoltage") for one in run.sent):
+        kind = "sends_duty_cycle"
+    elif steady and all(one.ratio is None or test.startswith("dyn") for test, one in bad.items()):
+        kind = "always_the_same"
+    return fault(
+        kind, _find_drive_line(runs), test=test.replace("-", " "), tests=list_tests(bad), name=name,
+        time=time, asked=asked, got=got, nominal=nominal,
+    )  # fmt: skip
 
 
 def check_open_loop(facts: RoutineFacts) -> None:
@@ -403,39 +340,22 @@ def check_open_loop(facts: RoutineFacts) -> None:
         raise NotReachedError("checked after the drive callback moves a motor")
     for one in sent:
         if one.kind == "duty" and not one.method.startswith("setVoltage"):
-            hint = "A test commands volts, so send volts: setVoltage(voltage), not divided."
-            raise WrongAnswer(f"{one.method}(){quote(one.line)}", hint=hint, misconception="M-DUTY")
+            raise fault("uses_duty_cycle", one.line, method=one.method)
         if one.kind in {"closed-loop", "current"}:
-            hint = "Send the voltage unchanged, and use no controller in the test."
-            raise WrongAnswer(
-                f"{one.method}{quote(one.line)}", hint=hint, misconception="M-CLOSEDLOOP"
-            )
+            raise fault("uses_closed_loop", one.line, method=one.method)
 
 
 def check_assembled(facts: RoutineFacts) -> None:
     """Raise ``WrongAnswer`` unless the parts of the routine are in their places."""
     this = "this" if facts.language == "java" else "self"
     if facts.swapped:
-        raise WrongAnswer(
-            f"the SysIdRoutine in line {facts.line} gets its arguments in another order",
-            hint="First the Config, then the Mechanism.",
-            misconception="M-ARGORDER",
-        )
+        raise fault("routine_swapped", facts.line)
     if not facts.is_subsystem and facts.requires != "other":
-        raise WrongAnswer(
-            f"{facts.name} is not a subsystem",
-            hint="Let it extend SubsystemBase (Python: Subsystem).",
-        )
+        raise fault("no_subsystem", name=facts.name)
     if facts.requires == "none":
-        raise WrongAnswer(
-            f"no {this} among the Mechanism's arguments",
-            hint=f"{OWNER.format(this)} Without a subsystem the program stops as it starts.",
-        )
+        raise fault("no_owner", this=this)
     if facts.requires == "other" and facts.is_subsystem:
-        raise WrongAnswer(
-            f"the tests require another subsystem than {facts.name}{quote(facts.line)}",
-            hint=OWNER.format(this),
-        )
+        raise fault("other_owner", facts.line, this=this, name=facts.name)
     check_devices(facts)
     check_compiles(facts)
     check_stop(facts)
@@ -446,15 +366,8 @@ def check_devices(facts: RoutineFacts) -> None:
     seen: dict[str, DeviceFacts] = {}
     for one in facts.devices:
         if one.number is not None and one.number < 0:
-            raise WrongAnswer(
-                f"{one.name} is made with {one.number:g}{quote(one.line)}",
-                hint="This number is not a port or a CAN ID. Check the wiring.",
-            )
+            raise fault("negative_port", one.line, name=one.name, number=one.number)
         place = f"{one.type} {one.port}" if one.port.startswith("CAN") else one.port
         other = seen.setdefault(place, one)
         if one.port and other is not one:
-            raise WrongAnswer(
-                f"{other.name} and {one.name} are made with the same number{quote(one.line)}",
-                hint="Two devices cannot share a port or a CAN ID. Did you copy a line and forget "
-                "to change it?",
-            )
+            raise fault("same_port", one.line, other=other.name, name=one.name)

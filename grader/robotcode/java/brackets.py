@@ -6,6 +6,7 @@ closed is the commonest mistake, and counting finds it exactly.
 
 import re
 
+from grader.robotcode.comments import JAVA_TOKEN
 from grader.robotcode.problems import ParseProblem
 from sim.core.errors import UnreadableFile
 
@@ -15,14 +16,6 @@ MOST_ANGLES = 50  # ['<' without its '>'] in one statement
 LONGEST = 2_000  # [words and signs] without a comma, a semicolon or a brace
 CLOSES = {"(": ")", "[": "]", "{": "}"}
 
-_TOKEN = re.compile(
-    r"(?P<comment>//[^\n]*|/\*(?:.*?\*/|.*))"
-    r'|"""(?:\\.|[^\\])*?(?:"""|\Z)'
-    r'|(?P<quoted>"(?:\\.|[^"\\\n])*(?P<end>")?)'
-    r"|'(?:\\.|[^'\\\n])*'?"
-    r"|->|\w+|[^\s\w]",
-    re.DOTALL,
-)
 _Opened = tuple[str, int, bool]  # the sign, its line, whether it holds statements
 _LOOP = re.compile(r"\b(for|try)\s*$")  # their round brackets hold semicolons
 
@@ -35,7 +28,7 @@ def refuse_garbage(text: str, *, where: str) -> None:
     """
     opened: list[str] = []
     angles = words = 0
-    for match in _TOKEN.finditer(text):
+    for match in JAVA_TOKEN.finditer(text):
         sign = match.group()
         if match["comment"]:
             continue
@@ -60,7 +53,7 @@ def find_unmatched(text: str) -> ParseProblem | None:
     """The first bracket, quote or comment that has no partner, said so that it can be found."""
     opened: list[_Opened] = []
     line, at = 1, 0
-    for match in _TOKEN.finditer(text):
+    for match in JAVA_TOKEN.finditer(text):
         line, at = line + text.count("\n", at, match.start()), match.start()
         problem = _find_endless_literal(match, line)
         if problem is None and not match["comment"]:

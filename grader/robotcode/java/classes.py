@@ -23,7 +23,7 @@ from grader.robotcode.java.scope import (
 )
 from grader.robotcode.java.syntax import At
 from grader.robotcode.java.values import BOXES, PRIMITIVES, NullPointerException, Throwable
-from grader.robotcode.library.base import Fake, Unknown, WrongArgument
+from grader.robotcode.library.base import Unknown, WrongArgument
 
 if TYPE_CHECKING:
     from grader.robotcode.java.program import Unit
@@ -66,7 +66,7 @@ class Method:
     Args:
         names, kinds: its parameters.
         varargs: whether the last one takes any number of values.
-        run: takes ``this`` and the values, as many as there are parameters.
+        make: compiles ``run``.
     """
 
     owner: "JavaClass"
@@ -78,8 +78,13 @@ class Method:
     returns: str
     at: At
     node: Node
-    run: Callable[..., Any] = field(default=lambda *_: None)
+    make: Callable[[], Callable[..., Any]] = field(default=lambda: lambda *_: None)
     abstract: bool = False
+
+    @cached_property
+    def run(self) -> Callable[..., Any]:
+        """What takes ``this`` and the values, as many as there are parameters."""
+        return self.make()
 
     @cached_property
     def static(self) -> bool:
@@ -257,10 +262,8 @@ class JavaClass:
         bases = [one for one in bases if isinstance(one, type)]
         if self.form == "enum":
             bases.insert(0, values.JavaEnum)
-        if (
-            all(issubclass(one, Throwable) is False and one.__module__ == __name__ for one in bases)
-            or not bases
-        ):
+        own = (one.__module__ == __name__ and not issubclass(one, Throwable) for one in bases)
+        if all(own):
             bases.append(JavaObject)
         bases = [
             one for i, one in enumerate(bases)
@@ -424,12 +427,12 @@ class JavaClass:
 
     # -- running ----------------------------------------------------------------------------
 
-    def initialize(self) -> None:
-        """Run the static initializers, once, as Java does at the first use."""
+    def initialize(self) -> dict[str, Any]:
+        """The static fields; at their first use, the static initializers run, as in Java."""
         if self.state == "failed":
             raise values.ExceptionInInitializerError(self.full_name)
         if self.state != "new":
-            return
+            return self.statics
         _ = self.cls
         self.state = "ready"
         if isinstance(self.parent, JavaClass):
@@ -442,6 +445,7 @@ class JavaClass:
         except values.Throwable as problem:
             self.state = "failed"
             raise values.ExceptionInInitializerError(None, problem) from problem
+        return self.statics
 
     def make(self, args: Sequence[Any], kinds: Sequence[str] = (), env: Env | None = None) -> Any:
         """Make an instance.
@@ -484,9 +488,7 @@ class JavaClass:
         base = self.parent
         if isinstance(base, JavaClass):
             base.construct(made, args, kinds)
-        elif (isinstance(base, type) and issubclass(base, Fake | Throwable | list | dict)) or (
-            isinstance(base, type) and base is not object
-        ):
+        elif isinstance(base, type) and base is not object:
             base.__init__(made, *args)
 
     def run_initializers(self, made: Any) -> None:

@@ -11,6 +11,7 @@ from typing import Any
 
 from grader.robotcode.java.steps import STATE, refuse
 from grader.robotcode.java.values import (
+    NAMES,
     PRIMITIVES,
     Array,
     IndexOutOfBoundsException,
@@ -26,7 +27,7 @@ from grader.robotcode.java.values import (
     to_string,
     write_items,
 )
-from grader.robotcode.library.base import JAVA, FakeType, Unknown
+from grader.robotcode.library.base import JAVA, Unknown, add_named_classes
 
 _UTIL = "java.util"
 MOST = 100_000  # elements of one collection
@@ -368,14 +369,4 @@ class _Opaque(JavaClass):
     forEach = lambda self, _action: refuse(f"forEach() of a {type(self).__name__}")
 
 
-_OPAQUE = {  # what they hold is unknown
-    _UTIL: "Iterator LinkedList Queue Deque ArrayDeque PriorityQueue Stack Random TreeMap TreeSet "
-    "EnumSet SortedMap NavigableMap SortedSet NavigableSet",
-    f"{_UTIL}.concurrent": "ConcurrentLinkedQueue LinkedBlockingQueue ArrayBlockingQueue",
-    f"{_UTIL}.concurrent.atomic": "AtomicReference AtomicInteger AtomicLong AtomicBoolean "
-    "AtomicDouble",
-}
-for _package, _names in _OPAQUE.items():
-    for _name in _names.split():
-        _text = {"__doc__": "What it holds is unknown."}
-        FakeType(_name, (_Opaque,), _text, package=_package, partial=True)
+add_named_classes(NAMES["holders"], _Opaque)

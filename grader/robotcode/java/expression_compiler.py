@@ -24,6 +24,7 @@ from grader.robotcode.java.scope import (
     Field,
     Frame,
     Local,
+    Place,
     Run,
     child,
     kind_of,
@@ -45,7 +46,6 @@ from grader.robotcode.library.base import Fake, NoSuchMember, Unknown, WrongArgu
 
 NEARLY = 0.84  # how much of two names has to agree, from 0 to 1
 UNITS, UNITS_2027 = "edu.wpi.first.units.Units", "org.wpilib.units.Units"
-ENUM_STATICS = frozenset({"values", "valueOf"})
 LONGEST_TEXT = 60  # [characters] of code that is cited
 OPERATORS: dict[str, Callable[..., Any]] = {
     "+": values.add,
@@ -88,13 +88,20 @@ class ExpressionCompiler(StaticTypes):
 
     def compile(self, node: Node) -> Code:
         """Compile an expression."""
+        return self.apply_method(node) or self.make_unknown(node)
+
+    def apply_method(self, node: Node) -> Any:
+        """What the method of a node's type gives, which takes the node and the parts it names."""
         method = getattr(self, f"_{node.type}", None)
-        return self.make_unknown(node) if method is None else method(node)
+        if method is None:
+            return None
+        names = _list_parts(method.__func__)
+        return method(node, *map(node.child_by_field_name, names))
 
     def make_unknown(self, node: Node) -> Code:
         """Compile an expression that is not run here: its value is unknown."""
         unknown = Unknown(text(node)[:LONGEST_TEXT])
-        return Code(lambda _env: unknown)
+        return Code(lambda _env: unknown, place=lambda _env: (unknown, ""))
 
     def coerce(self, code: Code, kind: str, node: Node) -> Run:
         """Compile the conversion of an assignment, or write down that Java refuses it."""
@@ -200,44 +207,53 @@ class ExpressionCompiler(StaticTypes):
             one = one.outer
         return None
 
-    def _identifier(self, node: Node) -> Code:
+    def _identifier(self, node: Node, *, assigned: bool = False) -> Code:
         name = text(node)
         found = self.find_variable(name)
         if found is None:
             return self._find_imported_field(name) or self._unknown_name(name, node)
+        reach = self._reach(found[1])
         if found[0] == "local":
             return self._compile_local(found[1], found[2])
         if found[0] == "library":
-            reach = self._reach(found[1])
-            return Code(lambda env: runtime.get_field(reach(env)[THIS], name))
+            run = lambda env: runtime.get_field(reach(env)[THIS], name)
+            return Code(run, place=lambda env: (reach(env)[THIS], name))
         _, keys, owner, one = found
         below = owner is self.owner and not keys and 0 <= self.frame.field_rank <= one.rank
-        if below and one.static == self.frame.static:
+        if below and one.static == self.frame.static and not assigned:
             return self.refuse(f"illegal forward reference: {name} is declared below", node)
         return self._compile_field(keys, owner, one, node)
 
     def _compile_local(self, keys: Sequence[str], local: Local) -> Code:
         slot = local.slot
         reach = self._reach(keys)
-        return Code(lambda env: reach(env)[slot] if keys else env[slot], local.kind)
+        fixed = f"cannot assign a value to final variable {local.name}" if local.final else ""
+        if keys or local.depth < self.frame.depth:
+            fixed = (
+                f"{local.name} cannot be changed in a lambda or class: it must be effectively final"
+            )
+        run = lambda env: reach(env)[slot] if keys else env[slot]
+        return Code(run, local.kind, lambda env: (reach(env), slot), fixed)
 
     def _compile_field(self, keys: Sequence[str], owner: JavaClass, one: Field, node: Node) -> Code:
         key, kind = one.key, self.translate_type(owner, one.kind)
+        fixed = self._why_fixed(owner, one)
         if one.static:
-
-            def run_static(_env: Env) -> Any:
-                if owner.state != "ready":
-                    owner.initialize()
-                return owner.statics[key]
-
-            return Code(run_static, kind)
+            place = lambda _env: (owner.initialize(), key)
+            return Code(lambda _env: owner.initialize()[key], kind, place, fixed)
         level = next((f for f, k in self._list_frames() if tuple(k) == tuple(keys)), self.frame)
         if level.static:
             return self.refuse(
                 f"{one.name} belongs to an object, and this is a static method", node
             )
         reach = self._reach(keys)
-        return Code(lambda env: reach(env)[THIS].__dict__[key], kind)
+        place = lambda env: (reach(env)[THIS].__dict__, key)
+        return Code(lambda env: reach(env)[THIS].__dict__[key], kind, place, fixed)
+
+    def _why_fixed(self, owner: JavaClass, one: Field) -> str:
+        """What javac says of an assignment to a final field; empty if it may be assigned here."""
+        first = owner is self.owner and self.in_constructor and one.value is None
+        return f"cannot assign a value to final variable {one.name}" * (one.final and not first)
 
     def _find_imported_field(self, name: str) -> Code | None:
         """A field that a static import brings."""
@@ -273,7 +289,8 @@ class ExpressionCompiler(StaticTypes):
         kind = KINDS.get(type(found), type(found).__name__ if found is not None else "")
         kind = BOXES.get(getattr(cls, "__name__", ""), kind)
         if found is None or isinstance(found, property | Unknown):
-            return Code(lambda _env: runtime.get_static(cls, name), kind)
+            place = lambda _env: (cls, name)
+            return Code(lambda _env: runtime.get_static(cls, name), kind, place)
         value = runtime.get_static(cls, name)  # the fakes' static fields are constants
         return Code(lambda _env: value, kind)
 
@@ -317,10 +334,7 @@ class ExpressionCompiler(StaticTypes):
         name = kind_of(node)
         first = name.partition(".")[0]
         if node.type in {"identifier", "field_access"}:
-            if any(
-                one.type not in {"identifier", "."} and one.type != "field_access"
-                for one in node.children
-            ):
+            if any(one.type not in {"identifier", ".", "field_access"} for one in node.children):
                 return None
             if self.find_variable(first) is not None:
                 return None
@@ -330,16 +344,18 @@ class ExpressionCompiler(StaticTypes):
             found = self.program.resolve_or_report(name, self.owner, self.at(node), self.frame)
         return found
 
-    def _field_access(self, node: Node) -> Code:
-        object_, name = node.child_by_field_name("object"), text(node.child_by_field_name("field"))
+    def _field_access(self, node: Node, object_: Node, field: Node) -> Code:
+        name = text(field)
         if name == "this":
             return self._outer_this(object_)
         if object_.type == "super":
-            return Code(lambda env: runtime.get_field(env[THIS], name))
+            run = lambda env: runtime.get_field(env[THIS], name)
+            return Code(run, place=lambda env: (env[THIS], name))
         cls = self.find_named_class(object_)
         if cls is not None:
             if isinstance(cls, Unknown):
-                return Code(lambda _env: runtime.get_static(cls, name))
+                run = lambda _env: runtime.get_static(cls, name)
+                return Code(run, place=lambda _env: (cls, name))
             code = self._static_member(cls, name)
             if code is not None:
                 return code
@@ -348,9 +364,9 @@ class ExpressionCompiler(StaticTypes):
         whole = self.find_named_class(node)
         if whole is not None:
             return Code(lambda _env: whole)
-        return self._compile_field_of(self.compile(object_), name, node)
+        return self._compile_field_of(self.compile(object_), name, node, own=object_.type == "this")
 
-    def _compile_field_of(self, value: Code, name: str, node: Node) -> Code:
+    def _compile_field_of(self, value: Code, name: str, node: Node, *, own: bool) -> Code:
         run, at = value.run, self.at(node)
         found = self.resolve(value.kind) if value.kind and not value.kind.endswith("[]") else None
         if name == "length" and value.kind.endswith("[]"):
@@ -372,14 +388,15 @@ class ExpressionCompiler(StaticTypes):
                         STATE.at = at
                         return runtime.get_field(one, name)
 
-                return Code(run_field, kind)
+                fixed = self._why_fixed(*there) if own else ""
+                return Code(run_field, kind, lambda env: (run(env), key[1:]), fixed)
 
         def run_any(env: Env) -> Any:
             one = run(env)
             STATE.at = at
             return runtime.get_field(one, name)
 
-        return Code(run_any)
+        return Code(run_any, place=lambda env: (run(env), name))
 
     def _outer_this(self, node: Node) -> Code:
         wanted = self.find_named_class(node)
@@ -390,11 +407,8 @@ class ExpressionCompiler(StaticTypes):
 
     # -- arithmetic -------------------------------------------------------------------------
 
-    def _binary_expression(self, node: Node) -> Code:
-        sign = text(node.child_by_field_name("operator"))
-        left = self.compile(node.child_by_field_name("left"))
-        right = self.compile(node.child_by_field_name("right"))
-        return self.operate(sign, left, right, node)
+    def _binary_expression(self, node: Node, left: Node, operator: Node, right: Node) -> Code:
+        return self.operate(text(operator), self.compile(left), self.compile(right), node)
 
     def operate(self, sign: str, left: Code, right: Code, node: Node) -> Code:
         """Compile an operator of two values."""
@@ -417,9 +431,8 @@ class ExpressionCompiler(StaticTypes):
         kind = "boolean" if sign in COMPARISONS else promoted(sign, *kinds)
         return Code(run, kind)
 
-    def _unary_expression(self, node: Node) -> Code:
-        sign = text(node.child_by_field_name("operator"))
-        operand = node.child_by_field_name("operand")
+    def _unary_expression(self, node: Node, operator: Node, operand: Node) -> Code:
+        sign = text(operator)
         if sign == "-" and operand.type == "decimal_integer_literal":
             found = read_number("-" + text(operand))
             if found is not None:
@@ -437,13 +450,14 @@ class ExpressionCompiler(StaticTypes):
             return self.operate("*", one, _constant(-1, "int"), node)
         return one if sign == "+" else self.make_unknown(node)
 
-    def _ternary_expression(self, node: Node) -> Code:
-        condition = self.condition(node.child_by_field_name("condition"))
-        yes = self.compile(node.child_by_field_name("consequence"))
-        no = self.compile(node.child_by_field_name("alternative"))
+    def _ternary_expression(
+        self, _node: Node, condition: Node, consequence: Node, alternative: Node
+    ) -> Code:
+        ask = self.condition(condition)
+        yes, no = self.compile(consequence), self.compile(alternative)
         kind = join_codes([yes, no])
         a, b = yes.run, no.run
-        return Code(lambda env: a(env) if condition(env) else b(env), kind)
+        return Code(lambda env: a(env) if ask(env) else b(env), kind)
 
     def condition(self, node: Node) -> Run:
         """Compile a condition."""
@@ -454,15 +468,15 @@ class ExpressionCompiler(StaticTypes):
             ).run
         return code.run
 
-    def _instanceof_expression(self, node: Node) -> Code:
-        left = self.compile(node.child_by_field_name("left")).run
-        right, name = node.child_by_field_name("right"), node.child_by_field_name("name")
-        kind = kind_of(right)
+    def _instanceof_expression(
+        self, _node: Node, left: Node, right: Node, name: Node | None
+    ) -> Code:
+        tested, kind = self.compile(left).run, kind_of(right)
         cls = self.find_type(right)
         local = self.frame.declare(text(name), kind) if name is not None else None
 
         def run(env: Env) -> Any:
-            value = left(env)
+            value = tested(env)
             found = is_instance(value, kind, cls)
             if local is not None and found:
                 env[local.slot] = value
@@ -470,112 +484,33 @@ class ExpressionCompiler(StaticTypes):
 
         return Code(run, "boolean")
 
-    def _cast_expression(self, node: Node) -> Code:
-        kind = self.erased(kind_of(node.child_by_field_name("type")))
-        code = self.compile(node.child_by_field_name("value"))
+    def _cast_expression(self, node: Node, type_: Node, value: Node) -> Code:
+        kind = self.erased(kind_of(type_))
+        code = self.compile(value)
         run, owner = code.run, self.owner
+        refusal = self.why_unrelated(kind, code)
+        if refusal:
+            return self.refuse(refusal, node)
         if kind in PRIMITIVES:
-            if code.kind == "String" or (
-                code.kind in PRIMITIVES and (code.kind == "boolean") != (kind == "boolean")
-            ):
-                return self.refuse(
-                    f"incompatible types: {code.kind} cannot be converted to {kind}", node
-                )
             return Code(lambda env: values.cast(kind, run(env)), kind)
-        if kind == "String" and code.kind in PRIMITIVES:
-            return self.refuse(
-                f"incompatible types: {code.kind} cannot be converted to String", node
-            )
         if kind:
-            self.find_type(node.child_by_field_name("type"))
+            self.find_type(type_)
         return Code(lambda env: owner.convert(kind, run(env)), kind)
 
     # -- assignment -------------------------------------------------------------------------
 
-    def target(self, node: Node) -> tuple[str, Run]:
-        """The target of an assignment: its type, and code that returns a holder and a key in it."""
-        if node.type == "parenthesized_expression":
-            return self.target(next(named(node)))
-        if node.type == "array_access":
-            array = self.compile(node.child_by_field_name("array"))
-            index = self.compile(node.child_by_field_name("index")).run
-            run, kind = array.run, array.kind[:-2] if array.kind.endswith("[]") else ""
-            return kind, lambda env: (run(env), index(env))
-        if node.type == "identifier":
-            return self._compile_named_target(node)
-        if node.type == "field_access":
-            return self._compile_field_target(node)
-        stop = self.refuse("nothing can be assigned to this expression", node).run
-        return "", lambda env: (stop(env), "")
+    def target(self, node: Node) -> tuple[str, Place]:
+        """What can be assigned: its type, and what finds its place."""
+        name = node.type == "identifier"
+        code = self._identifier(node, assigned=True) if name else self.compile(node)
+        if code.fixed:
+            self.refuse(code.fixed, node)
+        if code.place is None:
+            code = self.refuse("nothing can be assigned to this expression", node)
+        return code.kind, code.place
 
-    def _compile_named_target(self, node: Node) -> tuple[str, Run]:
-        name = text(node)
-        found = self.find_variable(name)
-        if found is None:
-            lost = self._identifier(node).run
-            return "", lambda env: (lost(env), name)
-        if found[0] == "library":
-            return "", lambda env: (env[THIS], name)
-        if found[0] == "field":
-            _, keys, owner, one = found
-            return self._compile_own_field(keys, owner, one, node)
-        local: Local = found[2]
-        if found[1] or local.depth < self.frame.depth:
-            self.refuse(
-                f"{name} cannot be changed in a lambda or class: it must be effectively final", node
-            )
-        if local.final:
-            self.refuse(f"cannot assign a value to final variable {name}", node)
-        slot = local.slot
-        return local.kind, lambda env: (env, slot)
-
-    def _compile_own_field(
-        self, keys: Sequence[str], owner: JavaClass, one: Field, node: Node
-    ) -> tuple[str, Run]:
-        """The place of a field of this object, of an outer one, or of a class."""
-        self._check_final(owner, one, node)
-        if self.frame.field_rank < 0:
-            self._compile_field(keys, owner, one, node)  # which refuses what belongs to no object
-        key, kind, reach = one.key, self.translate_type(owner, one.kind), self._reach(keys)
-        if one.static:
-
-            def find_static(_env: Env) -> Any:
-                owner.initialize()
-                return owner.statics, key
-
-            return kind, find_static
-        return kind, lambda env: (reach(env)[THIS].__dict__, key)
-
-    def _check_final(self, owner: JavaClass, one: Field, node: Node) -> None:
-        if one.final and not (owner is self.owner and self.in_constructor and one.value is None):
-            self.refuse(f"cannot assign a value to final variable {one.name}", node)
-
-    def _compile_field_target(self, node: Node) -> tuple[str, Run]:
-        object_, name = node.child_by_field_name("object"), text(node.child_by_field_name("field"))
-        cls = self.find_named_class(object_) if object_.type not in {"this", "super"} else None
-        found = cls.find_field(name) if isinstance(cls, JavaClass) else None
-        if found is not None and found[1].static:
-            return self._compile_own_field((), *found, node)
-        if isinstance(cls, type | Unknown):
-            return "", lambda _env: (cls, name)
-        value = self.compile(object_)
-        known = self.resolve(value.kind) if value.kind else None
-        found = known.find_field(name) if isinstance(known, JavaClass) else None
-        if found is None:
-            if isinstance(known, JavaClass) and known.library_base is None:
-                self.refuse(self.describe_unknown_field(known, name), node)
-            return "", lambda env: (value.run(env), name)
-        if found[1].static:
-            return self._compile_own_field((), *found, node)
-        if object_.type == "this":
-            self._check_final(*found, node)
-        key = found[1].key[1:]
-        kind = self.translate_type(found[0], found[1].kind)
-        return kind, lambda env: (value.run(env), key)
-
-    def _assignment_expression(self, node: Node) -> Code:
-        left, right = node.child_by_field_name("left"), node.child_by_field_name("right")
-        sign = text(node.child_by_field_name("operator"))
+    def _assignment_expression(self, node: Node, left: Node, operator: Node, right: Node) -> Code:
+        sign = text(operator)
         if sign == "=":
             kind, find = self.target(left)
             value, at = self.coerce(self.compile(right), kind, node), self.at(node)
@@ -625,41 +560,42 @@ class ExpressionCompiler(StaticTypes):
 
     # -- arrays -----------------------------------------------------------------------------
 
-    def _array_access(self, node: Node) -> Code:
-        kind, find = self.target(node)
-        at = self.at(node)
+    def _array_access(self, node: Node, array: Node, index: Node) -> Code:
+        whole, place = self.compile(array), self.compile(index).run
+        holder, kind = whole.run, whole.kind[:-2] if whole.kind.endswith("[]") else ""
+        find, at = lambda env: (holder(env), place(env)), self.at(node)
 
         def run(env: Env) -> Any:
-            place = find(env)
+            found = find(env)
             STATE.at = at
-            return type_names.array_get(*place)
+            return type_names.array_get(*found)
 
-        return Code(run, kind)
+        return Code(run, kind, find)
 
-    def _array_creation_expression(self, node: Node) -> Code:
-        kind = kind_of(node.child_by_field_name("type"))
-        self.find_type(node.child_by_field_name("type"))
+    def _array_creation_expression(self, node: Node, type_: Node, value: Node | None) -> Code:
+        kind = kind_of(type_)
+        self.find_type(type_)
         sizes = [
             self.coerce(self.compile(next(named(one))), "int", one)
             for one in node.children
             if one.type == "dimensions_expr"
         ]
         empty = sum(text(one).count("[") for one in node.children if one.type == "dimensions")
-        value = node.child_by_field_name("value")
         if value is not None:
             return self.compile_array(value, kind + "[]" * empty)
         whole = kind + "[]" * (len(sizes) + empty)
         return Code(lambda env: type_names.make_array(whole, [size(env) for size in sizes]), whole)
 
+    def initial_value(self, node: Node, kind: str) -> Run:
+        """Compile the first value of a variable or field of a type."""
+        if node.type == "array_initializer":
+            return self.compile_array(node, kind).run
+        return self.coerce(self.compile(node), self.erased(kind), node)
+
     def compile_array(self, node: Node, kind: str) -> Code:
         """Compile ``{1, 2}`` as an array of a type."""
         inner = kind.removesuffix("[]")
-        runs = [
-            self.compile_array(one, inner).run
-            if one.type == "array_initializer"
-            else self.coerce(self.compile(one), self.erased(inner), one)
-            for one in named(node)
-        ]
+        runs = [self.initial_value(one, inner) for one in named(node)]
         return Code(lambda env: Array([run(env) for run in runs], inner), kind)
 
     # -- calls ------------------------------------------------------------------------------
@@ -670,9 +606,12 @@ class ExpressionCompiler(StaticTypes):
         runs = [one.run for one in codes]
         return Arguments(lambda env: [run(env) for run in runs], codes)
 
-    def _method_invocation(self, node: Node) -> Code:
-        object_, name = node.child_by_field_name("object"), text(node.child_by_field_name("name"))
-        args = self.arguments(node.child_by_field_name("arguments"))
+    def _method_invocation(
+        self, node: Node, object_: Node | None, name: Node, arguments: Node
+    ) -> Code:
+        return self._invoke(node, object_, text(name), self.arguments(arguments))
+
+    def _invoke(self, node: Node, object_: Node | None, name: str, args: Arguments) -> Code:
         if any(one.type == "super" for one in node.children):
             return self._compile_super_call(object_, name, args, node)
         if object_ is None:
@@ -736,11 +675,18 @@ class ExpressionCompiler(StaticTypes):
                 return self.refuse(
                     f"{name}() belongs to an object, and this is a static method", node
                 )
-            return self._call_from(self._reach(keys), owner, name, args, node)
+            reach, overloads = self._reach(keys), getattr(found, "overloads", None)
+            this = lambda env, reach=reach: reach(env)[THIS]
+            private = overloads and all("private" in one.modifiers for one in overloads.methods)
+            run = (
+                self._call_overloads(overloads, args, node, this)
+                if private
+                else self.call(this, name, args, node)
+            )
+            return Code(run, self.find_result_type(found))
         one: JavaClass | None = self.owner
         while one is not None:
-            found = runtime.find_attribute(one.cls, name)
-            if found is not None or (one.form == "enum" and name in ENUM_STATICS):
+            if runtime.find_attribute(one.cls, name) is not None:
                 return self._compile_static_call(one, name, args, node)
             one = one.outer
         for cls, said in self._list_static_imports(name):
@@ -759,18 +705,6 @@ class ExpressionCompiler(StaticTypes):
         if name in runtime.OBJECT_METHODS:
             return Code(self.call(lambda env: env[THIS], name, args, node))
         return self.refuse(unknown_name("method", name, names, ""), node)
-
-    def _call_from(
-        self, reach: Callable[[Env], Env], owner: JavaClass, name: str, args: Arguments, node: Node
-    ) -> Code:
-        """A call of a method of the object whose variables something leads to."""
-        found = runtime.find_attribute(owner.cls, name)
-        result = self.find_result_type(found)
-        overloads = getattr(found, "overloads", None)
-        if overloads is not None and all("private" in one.modifiers for one in overloads.methods):
-            run = self._call_overloads(overloads, args, node, lambda env: reach(env)[THIS])
-            return Code(run, result)
-        return Code(self.call(lambda env: reach(env)[THIS], name, args, node), result)
 
     def _call_overloads(
         self, overloads: Any, args: Arguments, node: Node, this: Run = lambda _env: None
@@ -795,15 +729,6 @@ class ExpressionCompiler(StaticTypes):
         return run
 
     def _compile_static_call(self, cls: Any, name: str, args: Arguments, node: Node) -> Code:
-        if isinstance(cls, JavaClass) and cls.form == "enum" and name in ENUM_STATICS:
-            kind = cls.name if self.resolve(cls.name) is cls else ""
-            kind += "[]" * (name == "values")
-            return Code(
-                lambda env: runtime.enum_static(
-                    cls.list_constants(), cls.name, name, args.run(env)
-                ),
-                kind,
-            )
         found = runtime.find_attribute(cls.cls, name) if isinstance(cls, JavaClass) else None
         overloads = getattr(found, "overloads", None)
         if overloads is not None:
@@ -812,13 +737,9 @@ class ExpressionCompiler(StaticTypes):
                     f"{name}() belongs to an object: {cls.name} is the class, not one of those",
                     node,
                 )
-            call = self._call_overloads(overloads, args, node)
-
-            def run_own(env: Env) -> Any:
-                cls.initialize()
-                return call(env)
-
-            return Code(run_own, self.find_result_type(found))
+            prepare = lambda _env: (cls.initialize(), None)[1]
+            run = self._call_overloads(overloads, args, node, prepare)
+            return Code(run, self.find_result_type(found))
         library = python_class(cls)
         call_library = lambda _env, given: runtime.call_static(library, name, given)
         return Code(self._compile_known_call(name, call_library, args, node))
@@ -843,16 +764,15 @@ class ExpressionCompiler(StaticTypes):
             return Code(lambda env: runtime.OBJECT_METHODS[name](env[THIS], *args.run(env)))
         return Code(lambda _env: Unknown(f"super.{name}"))
 
-    def _object_creation_expression(self, node: Node) -> Code:
-        kind = kind_of(node.child_by_field_name("type"))
-        args = self.arguments(node.child_by_field_name("arguments"))
+    def _object_creation_expression(self, node: Node, type_: Node, arguments: Node) -> Code:
+        kind, args = kind_of(type_), self.arguments(arguments)
         if node.children[0].type != "new":  # of an inner class, of another object
             return self.make_unknown(node)
         if child(node, "class_body") is not None:
             cls = JavaClass("", node, self.owner.unit, outer=self.owner, frame=self.frame)
             _ = cls.cls
         else:
-            cls = self.find_type(node.child_by_field_name("type"))
+            cls = self.find_type(type_)
         if isinstance(cls, JavaClass):
             if cls.name and ("abstract" in cls.modifiers or cls.form in {"interface", "enum"}):
                 what = "an enum" if cls.form == "enum" else "abstract"
@@ -884,11 +804,10 @@ class ExpressionCompiler(StaticTypes):
 
     # -- functions --------------------------------------------------------------------------
 
-    def _lambda_expression(self, node: Node) -> Code:
+    def _lambda_expression(self, node: Node, parameters: Node, body: Node) -> Code:
         frame, at = self.frame, self.at(node)
         frame.push()
         frame.depth += 1
-        parameters = node.child_by_field_name("parameters")
         listed = [parameters] if parameters.type == "identifier" else list(named(parameters))
         locals_: list[Local] = []
         for one in listed:
@@ -896,7 +815,7 @@ class ExpressionCompiler(StaticTypes):
             kind = kind_of(one.child_by_field_name("type")) if one.type != "identifier" else ""
             locals_.append(frame.declare(name, "" if kind == "var" else self.erased(kind)))
         yields, self.yields = self.yields, []
-        body, gives = self.lambda_body(node.child_by_field_name("body"))
+        compute, gives = self.lambda_body(body)
         self.yields = yields
         frame.depth -= 1
         frame.pop()
@@ -910,7 +829,7 @@ class ExpressionCompiler(StaticTypes):
                 inner = list(captured)
                 for (slot, kind), value in zip(slots, args, strict=True):
                     inner[slot] = owner.convert(kind, value) if kind else value
-                return body(inner)
+                return compute(inner)
 
             return Function(call, at, count, gives)
 
@@ -998,6 +917,13 @@ class ExpressionCompiler(StaticTypes):
     def _at(at: At, caller: runtime.Call, value: Any, args: Sequence[Any]) -> Any:
         STATE.at = at
         return caller(value, args)
+
+
+@functools.cache
+def _list_parts(method: Callable[..., Any]) -> list[str]:
+    """The parts of a node that a method takes besides the node, by their names in the grammar."""
+    every = list(inspect.signature(method).parameters.values())[2:]
+    return [one.name.rstrip("_") for one in every if one.kind is one.POSITIONAL_OR_KEYWORD]
 
 
 def _count_parameters(found: Any) -> int:

@@ -7,6 +7,7 @@ from sys import float_info
 from typing import Any
 
 from grader.robotcode.java.values import (
+    NAMES,
     ArithmeticException,
     JavaClass,
     cast,
@@ -19,7 +20,7 @@ from grader.robotcode.java.values import (
     to_string,
 )
 from grader.robotcode.library import timing
-from grader.robotcode.library.base import JAVA, FakeType, Unknown
+from grader.robotcode.library.base import JAVA, Unknown, add_named_classes
 from grader.robotcode.library.world import WORLD
 
 _LANG = "java.lang"
@@ -43,7 +44,6 @@ def _limit_to_reals(function: Callable[..., float]) -> Callable[..., Any]:
         except OverflowError:
             return math.inf
 
-    run.__annotations__ = {"return": float}
     return run
 
 
@@ -170,10 +170,7 @@ class Object(JavaClass, package=_LANG, others="notify notifyAll wait finalize to
     hashCode = lambda self: id(self)
 
 
-_MARKERS = ("Comparable", "Cloneable", "AutoCloseable", "CharSequence", "Record", "Number", "Void")
-for _name in _MARKERS:
-    FakeType(_name, (JavaClass,), {}, package=_LANG)
-FakeType("Serializable", (JavaClass,), {}, package="java.io")
+add_named_classes(NAMES["markers"], JavaClass)
 
 
 class PrintStream(JavaClass, package="java.io", partial=True):

@@ -8,9 +8,10 @@ from tree_sitter import Node
 
 from grader.robotcode.java import values
 from grader.robotcode.java.classes import JavaClass, Method, modifiers_of
-from grader.robotcode.java.runtime import STATE, enter
+from grader.robotcode.java.runtime import STATE, enter, enum_static
 from grader.robotcode.java.scope import (
     RESULT,
+    THIS,
     Arguments,
     Code,
     Env,
@@ -52,6 +53,12 @@ def declare_members(owner: JavaClass) -> None:
         _give(owner, "hashCode", [], "int", _hash_record)
         _give(owner, "equals", ["Object"], "boolean", _are_equal_records)
 
+    if owner.form == "enum":
+        ask = lambda name, *args: enum_static(owner.list_constants(), owner.name, name, args)
+        _give(owner, "values", [], f"{owner.name}[]", lambda _: ask("values"), "static")
+        one = lambda _, name: ask("valueOf", name)
+        _give(owner, "valueOf", ["String"], owner.name, one, "static")
+
 
 def _declare_canonical(owner: JavaClass) -> None:
     """Give a record the constructor that takes all components, if its text has none."""
@@ -81,8 +88,7 @@ def compile_members(owner: JavaClass) -> None:
             owner.on_instance.append(_compile_initializer(owner, node, static=False))
     if owner.unit is owner.unit.program.unit:  # the rest of a program only as far as it is used
         for method in (*owner.methods, *owner.constructors):
-            if hasattr(method.run, "compile_now"):
-                method.run.compile_now()
+            _ = method.run
 
 
 def _declare_fields(owner: JavaClass, node: Node, rank: int) -> None:
@@ -108,22 +114,13 @@ def _declare_components(owner: JavaClass) -> None:
 
 
 def _give(
-    owner: JavaClass, name: str, kinds: list[str], returns: str, run: Callable[..., Any]
+    owner: JavaClass, name: str, kinds: list[str], returns: str, run: Callable[..., Any], *more: str
 ) -> None:
-    """Give a record a method that its text does not have."""
+    """Give a record or an enum a method that its text does not have, with more modifiers."""
     if not any(one.name == name and len(one.kinds) == len(kinds) for one in owner.methods):
-        made = Method(
-            owner,
-            name,
-            kinds,
-            kinds,
-            False,
-            frozenset({"public"}),
-            returns,
-            owner.at,
-            owner.node,
-            run,
-        )
+        public = frozenset({"public", *more})
+        made = Method(owner, name, kinds, kinds, False, public, returns, owner.at, owner.node)
+        made.run = run
         owner.methods.append(made)
 
 
@@ -181,30 +178,13 @@ def _declare_method(owner: JavaClass, node: Node) -> None:
     if inner and returns.rstrip("[]") in inner:
         made.returns = ""
     if body is not None:
-        made.run = _compile_at_first_call(owner, made, body, inner)
+        made.make = lambda: _compile_method(owner, made, body, inner)
     if constructor and made.name != owner.name:
         owner.unit.program.error(
             f"{made.name} has no return type. Is it a constructor of {owner.name}?", made.at
         )
     twins = owner.constructors if constructor else owner.methods
     twins.append(made)
-
-
-def _compile_at_first_call(
-    owner: JavaClass, method: Method, body: Node, variables: set[str]
-) -> Callable[..., Any]:
-    """A method that compiles itself when it is first called."""
-
-    def compile_now() -> Callable[..., Any]:
-        made = _compile_method(owner, method, body, variables)
-        method.run = made
-        return made
-
-    def run(*args: Any) -> Any:
-        return compile_now()(*args)
-
-    run.compile_now = compile_now
-    return run
 
 
 def outer_frame(owner: JavaClass) -> Frame | None:
@@ -225,21 +205,13 @@ def _compile_method(
     compiler.returns = method.returns or ("void" if method.name == owner.name else "")
     constructor = method.node.type != "method_declaration"
     compiler.in_constructor = constructor
-    slots = []
     for name, kind in zip(method.names, method.kinds, strict=True):
-        slots.append(frame.declare(name, compiler.erased(kind) if kind != "Object" else "").slot)
-    if not constructor:
-        for one in method.node.children_by_field_name("type"):
-            if kind_of(one) != "void":
-                compiler.find_type(one)
-    for one in (
-        named(method.node.child_by_field_name("parameters"))
-        if method.node.child_by_field_name("parameters") is not None
-        else ()
-    ):
+        frame.declare(name, compiler.erased(kind) if kind != "Object" else "")
+    parameters = method.node.child_by_field_name("parameters")
+    for one in (method.node, *(named(parameters) if parameters is not None else ())):
         compiler.find_type(one.child_by_field_name("type"))
     if constructor:
-        return _compile_constructor(owner, method, body, compiler, slots)
+        return _compile_constructor(owner, method, body, compiler)
     run = compiler.block(body)
     if method.returns not in {"void", ""} and falls_through(body):
         owner.unit.program.error(
@@ -249,10 +221,7 @@ def _compile_method(
 
     def call(this: Any, *args: Any) -> Any:
         enter()
-        env: Env = [None] * frame.size
-        env[0] = this
-        for slot, value in zip(slots, args, strict=True):
-            env[slot] = value
+        env = frame.make_env(this, *args)
         run(env)
         STATE.depth -= 1
         return env[RESULT]
@@ -261,7 +230,7 @@ def _compile_method(
 
 
 def _compile_constructor(
-    owner: JavaClass, method: Method, body: Node, compiler: StatementCompiler, slots: list[int]
+    owner: JavaClass, method: Method, body: Node, compiler: StatementCompiler
 ) -> Callable[..., Any]:
     frame = compiler.frame
     parts = list(named(body))
@@ -278,10 +247,7 @@ def _compile_constructor(
 
     def call(this: Any, *values_: Any) -> None:
         enter()
-        env: Env = [None] * frame.size
-        env[0] = this
-        for slot, value in zip(slots, values_, strict=True):
-            env[slot] = value
+        env = frame.make_env(this, *values_)
         given = args.run(env)
         if other:
             owner.construct(this, given, args.kinds)
@@ -291,8 +257,8 @@ def _compile_constructor(
         for one in runs:
             if one(env) is not None:
                 break
-        for (name, _), slot in zip(components, slots, strict=False):
-            this.__dict__[f".{name}"] = env[slot]
+        for (name, _), value in zip(components, env[RESULT + 1 :], strict=False):
+            this.__dict__[f".{name}"] = value
         STATE.depth -= 1
 
     return call
@@ -303,25 +269,15 @@ def _initialize_field(owner: JavaClass, name: str, rank: int) -> None:
     frame = Frame(owner, static=one.static, outer=None if one.static else outer_frame(owner))
     frame.field_rank = rank
     compiler = StatementCompiler(owner, frame)
-    type_node = owner.members[rank].child_by_field_name("type")
-    compiler.find_type(type_node)
+    compiler.find_type(owner.members[rank].child_by_field_name("type"))
     if one.value is None:
         return
-    if one.value.type == "array_initializer":
-        run = compiler.compile_array(one.value, one.kind).run
-    else:
-        code = compiler.compile(one.value)
-        run = compiler.coerce(code, compiler.erased(one.kind), one.value)
-    at, key = one.at, one.key
+    run, at, key = compiler.initial_value(one.value, one.kind), one.at, one.key
 
     def set_field(env: Env) -> None:
         STATE.at = at
-        whole: Env = [env[0], None, *[None] * (frame.size - 2)]
-        value = run(whole)
-        if one.static:
-            owner.statics[key] = value
-        else:
-            env[0].__dict__[key] = value
+        value = run(frame.make_env(env[THIS]))
+        (owner.statics if one.static else env[THIS].__dict__)[key] = value
 
     simple = one.final and (one.kind in PRIMITIVES or one.kind == "String")
     names = set(re.findall(r"\w+", text(one.value))) & owner.fields.keys()
@@ -336,16 +292,14 @@ def _compile_initializer(owner: JavaClass, node: Node, *, static: bool) -> Calla
     compiler = StatementCompiler(owner, frame)
     compiler.in_constructor = True
     run = compiler.block(node)
-    return lambda env: run([env[0], None, *[None] * (frame.size - 2)])
+    return lambda env: run(frame.make_env(env[THIS]))
 
 
 def _compile_enum_constant(
     owner: JavaClass, name: str, node: Node, number: int
 ) -> Callable[[Env], None]:
     frame = Frame(owner, static=True)
-    compiler = StatementCompiler(owner, frame)
-    arguments = node.child_by_field_name("arguments")
-    args = compiler.arguments(arguments)
+    args = StatementCompiler(owner, frame).arguments(node.child_by_field_name("arguments"))
     own_body = child(node, "class_body") is not None
 
     def make(_env: Env) -> None:
@@ -355,8 +309,7 @@ def _compile_enum_constant(
         made = owner.cls.__new__(owner.cls)
         made._name, made._ordinal = name, number
         owner.prepare(made, None)
-        whole: Env = [None] * frame.size
-        owner.construct(made, args.run(whole), args.kinds)
+        owner.construct(made, args.run(frame.make_env(None)), args.kinds)
         owner.statics[f".{name}"] = made
 
     return make

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 
 Env = list[Any]  # the local variables of one call: [0] is this, [1] what it returns
 Run = Callable[[Env], Any]
+Place = Callable[[Env], tuple[Any, Any]]  # gives what holds a value, and its key there
 THIS, RESULT = 0, 1
 
 
@@ -23,10 +24,14 @@ class Code:
     Args:
         run: what computes it.
         kind: its type by name, erased; empty if it cannot be told.
+        place: what finds where it is stored; None of what cannot be assigned.
+        fixed: why it cannot be assigned all the same; empty if it can.
     """
 
     run: Run
     kind: str = ""
+    place: Any = None
+    fixed: str = ""
 
 
 @dataclass
@@ -82,6 +87,10 @@ class Frame:
         self.every: list[Local] = []
         self.variables: set[str] = set()  # the method's type parameters
         self.field_rank = -1  # of the field whose initializer this is; it sees only those before
+
+    def make_env(self, this: Any, *values: Any) -> Env:
+        """The variables of a call; the first ones, its parameters, have values."""
+        return [this, None, *values, *[None] * (self.size - 2 - len(values))]
 
     def declare(self, name: str, kind: str, *, final: bool = False) -> Local:
         """Make a variable in the innermost block."""

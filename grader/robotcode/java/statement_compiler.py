@@ -61,9 +61,9 @@ class StatementCompiler(ExpressionCompiler):
             return lambda _env: None
         if node.type == "switch_expression":
             return self._switch(node, None)
-        method = getattr(self, f"_{node.type}", None)
-        if method is not None:
-            return method(node)
+        run: Run | None = self.apply_method(node)
+        if run is not None:
+            return run
 
         def stop(_env: Env) -> Any:
             raise CannotRunError(" ".join(text(node).split())[:LONGEST_TEXT])
@@ -108,13 +108,12 @@ class StatementCompiler(ExpressionCompiler):
 
         return body, gives
 
-    def _local_variable_declaration(self, node: Node) -> Run:
-        kind_node = node.child_by_field_name("type")
-        base = kind_of(kind_node)
+    def _local_variable_declaration(self, node: Node, type_: Node) -> Run:
+        base = kind_of(type_)
         modifiers = child(node, "modifiers")
         final = modifiers is not None and "final" in text(modifiers).split()
         if base != "var":
-            self.find_type(kind_node)
+            self.find_type(type_)
         runs = []
         for one in node.children_by_field_name("declarator"):
             name, value = text(one.child_by_field_name("name")), one.child_by_field_name("value")
@@ -131,19 +130,14 @@ class StatementCompiler(ExpressionCompiler):
                 env[slot] = None
 
             return clear
-        if value.type == "array_initializer":
+        if kind == "var":
+            code = self.compile(value)
+            kind = code.kind if code.kind != "lambda" else ""
             local = self.frame.declare(name, kind, final=final)
-            run = self.compile_array(value, kind).run
+            run = self.coerce(code, kind, value)
         else:
-            if kind == "var":
-                code = self.compile(value)
-                local = self.frame.declare(
-                    name, code.kind if code.kind != "lambda" else "", final=final
-                )
-            else:
-                local = self.frame.declare(name, self.erased(kind), final=final)
-                code = self.compile(value)
-            run = self.coerce(code, local.kind, value)
+            local = self.frame.declare(name, self.erased(kind), final=final)
+            run = self.initial_value(value, kind)
         slot = local.slot
 
         def declare(env: Env) -> None:
@@ -151,11 +145,10 @@ class StatementCompiler(ExpressionCompiler):
 
         return declare
 
-    def _class_declaration(self, node: Node) -> Run:
-        name = text(node.child_by_field_name("name"))
-        made = JavaClass(name, node, self.owner.unit, outer=self.owner, frame=self.frame)
+    def _class_declaration(self, node: Node, name: Node) -> Run:
+        made = JavaClass(text(name), node, self.owner.unit, outer=self.owner, frame=self.frame)
         made.static = node.type != "class_declaration"
-        self.frame.classes[-1][name] = made
+        self.frame.classes[-1][made.name] = made
         _ = made.cls
         return lambda _env: None
 
@@ -174,20 +167,21 @@ class StatementCompiler(ExpressionCompiler):
 
         return execute
 
-    def _if_statement(self, node: Node) -> Run:
+    def _if_statement(
+        self, node: Node, condition: Node, consequence: Node, alternative: Node | None
+    ) -> Run:
         self.frame.push()
-        condition = self._add_position(node, self.condition(node.child_by_field_name("condition")))
-        yes = self.statement(node.child_by_field_name("consequence"))
-        other = node.child_by_field_name("alternative")
+        ask = self._add_position(node, self.condition(condition))
+        yes = self.statement(consequence)
         patterns = dict(self.frame.scopes[-1])
         self.frame.pop()
         self.frame.scopes[-1].update(
             {k: v for k, v in patterns.items() if k not in self.frame.scopes[-1]}
         )
-        if other is None:
-            return lambda env: yes(env) if condition(env) else None
-        no = self.statement(other)
-        return lambda env: yes(env) if condition(env) else no(env)
+        if alternative is None:
+            return lambda env: yes(env) if ask(env) else None
+        no = self.statement(alternative)
+        return lambda env: yes(env) if ask(env) else no(env)
 
     def _compile_loop(
         self, condition: Run | None, body: Run, update: Run, *, first: bool = True
@@ -217,17 +211,16 @@ class StatementCompiler(ExpressionCompiler):
 
         return loop
 
-    def _while_statement(self, node: Node) -> Run:
-        condition = self._add_position(node, self.condition(node.child_by_field_name("condition")))
-        body = self.statement(node.child_by_field_name("body"))
-        return self._compile_loop(condition, body, lambda _env: None)
+    def _while_statement(self, node: Node, condition: Node, body: Node) -> Run:
+        ask, first = (
+            self._add_position(node, self.condition(condition)),
+            node.type == "while_statement",
+        )
+        return self._compile_loop(ask, self.statement(body), lambda _env: None, first=first)
 
-    def _do_statement(self, node: Node) -> Run:
-        body = self.statement(node.child_by_field_name("body"))
-        condition = self._add_position(node, self.condition(node.child_by_field_name("condition")))
-        return self._compile_loop(condition, body, lambda _env: None, first=False)
+    _do_statement = _while_statement
 
-    def _for_statement(self, node: Node) -> Run:
+    def _for_statement(self, node: Node, condition: Node | None, body: Node) -> Run:
         self.frame.push()
         before = [
             self.statement(one)
@@ -235,12 +228,11 @@ class StatementCompiler(ExpressionCompiler):
             else self.compile(one).run
             for one in node.children_by_field_name("init")
         ]
-        asked = node.child_by_field_name("condition")
-        condition = self._add_position(node, self.condition(asked)) if asked is not None else None
+        ask = self._add_position(node, self.condition(condition)) if condition is not None else None
         after = [self.compile(one).run for one in node.children_by_field_name("update")]
-        body = self.statement(node.child_by_field_name("body"))
+        turn = self.statement(body)
         self.frame.pop()
-        loop = self._compile_loop(condition, body, lambda env: [one(env) for one in after])
+        loop = self._compile_loop(ask, turn, lambda env: [one(env) for one in after])
 
         def run(env: Env) -> Any:
             for one in before:
@@ -249,14 +241,15 @@ class StatementCompiler(ExpressionCompiler):
 
         return run
 
-    def _enhanced_for_statement(self, node: Node) -> Run:
+    def _enhanced_for_statement(
+        self, node: Node, type_: Node, name: Node, value: Node, body: Node
+    ) -> Run:
         self.frame.push()
-        many = self.compile(node.child_by_field_name("value"))
-        kind = kind_of(node.child_by_field_name("type"))
+        many, kind = self.compile(value), kind_of(type_)
         if kind == "var":
             kind = many.kind[:-2] if many.kind.endswith("[]") else ""
-        local = self.frame.declare(text(node.child_by_field_name("name")), self.erased(kind))
-        body = self.statement(node.child_by_field_name("body"))
+        local = self.frame.declare(text(name), self.erased(kind))
+        turn = self.statement(body)
         slot, owner, at, run = local.slot, self.owner, self.at(node), many.run
         left = self.frame.declare(f"{node.start_byte} left", "").slot
         primitive = kind if kind in PRIMITIVES else ""
@@ -268,7 +261,7 @@ class StatementCompiler(ExpressionCompiler):
             return False
 
         self.frame.pop()
-        loop = self._compile_loop(more, body, lambda _env: None)
+        loop = self._compile_loop(more, turn, lambda _env: None)
 
         def run_loop(env: Env) -> Any:
             STATE.at = at
@@ -317,16 +310,13 @@ class StatementCompiler(ExpressionCompiler):
     def _assert_statement(self, _node: Node) -> Run:
         return lambda _env: None  # Java does not ask, unless it is started with -ea
 
-    def _synchronized_statement(self, node: Node) -> Run:
-        return self.block(node.child_by_field_name("body"))
+    def _synchronized_statement(self, _node: Node, body: Node) -> Run:
+        return self.block(body)
 
     # -- try --------------------------------------------------------------------------------
 
-    def _try_statement(self, node: Node) -> Run:
-        body = self.block(node.child_by_field_name("body"))
-        return self._compile_guarded(node, body)
-
-    def _compile_guarded(self, node: Node, body: Run) -> Run:
+    def _try_statement(self, node: Node, body: Node) -> Run:
+        tried = self.block(body)
         catches = [self._compile_catch(one) for one in node.children if one.type == "catch_clause"]
         last = child(node, "finally_clause")
         finally_ = self.block(next(named(last))) if last is not None else None
@@ -334,7 +324,7 @@ class StatementCompiler(ExpressionCompiler):
         def guarded(env: Env) -> Any:
             depth = STATE.depth
             try:
-                return body(env)
+                return tried(env)
             except (Throwable, RecursionError) as raised:
                 STATE.depth = depth
                 problem = raised if isinstance(raised, Throwable) else StackOverflowError()
@@ -412,11 +402,8 @@ class StatementCompiler(ExpressionCompiler):
             rest = [one for one in named(part) if one.type != "switch_label"]
             if arrow and slot is not None and rest and rest[0].type == "expression_statement":
                 body = _give(slot, self.compile(next(named(rest[0]))))
-            elif arrow and rest and rest[0].type == "expression_statement":
-                body = self._expression_statement(rest[0])
             else:
-                runs = [self.statement(one) for one in rest]
-                body = _sequence(runs)
+                body = _sequence([self.statement(one) for one in rest])
             cases.append((labels, default, body, arrow))
         self.yields.pop()
         self.frame.pop()

@@ -83,17 +83,23 @@ class StaticTypes:
     def explain_refusal(self, kind: str, code: Code) -> str:
         """The error of javac for a number in place of another type; empty if it is allowed."""
         source, target = BOXES.get(code.kind, code.kind), BOXES.get(kind, kind)
-        if code.kind == "void" and kind:
-            return "a method that returns nothing gives no value"
-        if {source, target} in ({"String", one} for one in PRIMITIVES):
-            return f"incompatible types: {code.kind} cannot be converted to {kind}"
-        if not (source in PRIMITIVES and target in PRIMITIVES) or source == target:
-            return ""
-        if "boolean" in {source, target}:
-            return f"incompatible types: {code.kind} cannot be converted to {kind}"
+        refusal = self.why_unrelated(kind, code)
+        if refusal or not (source in PRIMITIVES and target in PRIMITIVES) or source == target:
+            return refusal
         if kind in WIDENS[source] or (target in SMALL and source in SMALL | {"int"}):
             return ""
         return f"incompatible types: possible lossy conversion from {code.kind} to {kind}"
+
+    @staticmethod
+    def why_unrelated(kind: str, code: Code) -> str:
+        """What javac says of a type that no cast converts to another; empty if one does."""
+        both = {BOXES.get(code.kind, code.kind), BOXES.get(kind, kind)}
+        if code.kind == "void" and kind:
+            return "a method that returns nothing gives no value"
+        known = both <= {"String", *PRIMITIVES} and len(both) > 1
+        if known and both & {"String", "boolean"}:
+            return f"incompatible types: {code.kind} cannot be converted to {kind}"
+        return ""
 
 
 def is_sure(cls: Any) -> bool:

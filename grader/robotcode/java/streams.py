@@ -5,6 +5,7 @@ from typing import Any
 
 from grader.robotcode.java.collections import ArrayList, HashSet, Optional, counted
 from grader.robotcode.java.values import (
+    NAMES,
     Array,
     JavaClass,
     add,
@@ -12,7 +13,7 @@ from grader.robotcode.java.values import (
     make_statics,
     spread,
 )
-from grader.robotcode.library.base import FakeType, Unknown
+from grader.robotcode.library.base import Unknown, add_named_classes
 
 _STREAMS = "java.util.stream"
 
@@ -92,36 +93,21 @@ make_statics(
 class Functional(JavaClass):
     """Base of the functional interfaces: an object of a learner's that implements one is called."""
 
-    _method = ""
-
     def __call__(self, *args: Any) -> Any:
         """Call its only method."""
-        return getattr(self, self._method)(*args)
+        names = (one.__name__ for one in type(self).__mro__)
+        called = next(name for name in names if name in FUNCTIONAL_INTERFACES)
+        return getattr(self, FUNCTIONAL_INTERFACES[called])(*args)
 
 
 DEFAULT_METHODS = frozenset({  # of functional interfaces; what they make is unknown
     "compose", "negate", "and", "or", "reversed", "thenComparing",
     "thenComparingDouble", "thenComparingInt",
 })  # fmt: skip
-_IN_FUNCTION = """
-accept: Consumer BiConsumer IntConsumer LongConsumer DoubleConsumer ObjDoubleConsumer ObjIntConsumer
-test: Predicate BiPredicate IntPredicate LongPredicate DoublePredicate
-get: Supplier
-getAsBoolean: BooleanSupplier
-getAsDouble: DoubleSupplier
-getAsInt: IntSupplier
-getAsLong: LongSupplier
-apply: Function BiFunction UnaryOperator BinaryOperator IntFunction LongFunction DoubleFunction
-applyAsDouble: ToDoubleFunction ToDoubleBiFunction DoubleUnaryOperator DoubleBinaryOperator
-applyAsDouble: IntToDoubleFunction LongToDoubleFunction
-applyAsInt: ToIntFunction ToIntBiFunction IntUnaryOperator IntBinaryOperator DoubleToIntFunction
-applyAsLong: ToLongFunction LongUnaryOperator LongBinaryOperator DoubleToLongFunction
-"""
-_PLACES = {"Runnable": "java.lang", "Callable": "java.util.concurrent", "Comparator": "java.util"}
-FUNCTIONAL_INTERFACES = {"Runnable": "run", "Callable": "call", "Comparator": "compare"}
-for _line in _IN_FUNCTION.strip().splitlines():
-    _called, _, _names = _line.partition(": ")
-    FUNCTIONAL_INTERFACES |= dict.fromkeys(_names.split(), _called)
+FUNCTIONAL_INTERFACES: dict[str, str] = {}
+for _row in NAMES["functional"]:
+    add_named_classes([_row], Functional)
+    FUNCTIONAL_INTERFACES |= dict.fromkeys(_row["names"].split(), _row["method"])
 
 
 def shape_of(name: str) -> tuple[int, bool]:
@@ -134,8 +120,3 @@ def shape_of(name: str) -> tuple[int, bool]:
 
 FUNCTIONAL = frozenset(FUNCTIONAL_INTERFACES.values())
 GIVEN = {"AsDouble": "double", "AsLong": "long", "AsInt": "int"}  # by how a method's name ends
-
-
-for _name, _called in FUNCTIONAL_INTERFACES.items():
-    _package = _PLACES.get(_name, "java.util.function")
-    FakeType(_name, (Functional,), {"_method": _called}, package=_package, partial=True)

@@ -11,7 +11,6 @@ from grader.robotcode.java.values import (
     CHARACTERS,
     LONGEST_TEXT,
     IllegalArgumentException,
-    JavaClass,
     StringIndexOutOfBoundsException,
     compare,
     find_unknown,
@@ -21,7 +20,7 @@ from grader.robotcode.java.values import (
     spread,
     to_string,
 )
-from grader.robotcode.library.base import FakeType, Unknown
+from grader.robotcode.library.base import Unknown
 
 _PLAIN = re.compile(r"%(-?\d{0,3})(\.\d{1,2})?([sdfn%])")
 _TAKES: dict[str, type] = {"s": str, "d": int, "f": float}
@@ -112,6 +111,3 @@ make_statics(
     format=staticmethod(lambda pattern, *args: format(pattern, args)),
     __new__=lambda _cls, text="": text,
 )
-for _name in ("StringBuilder", "StringBuffer", "Character"):
-    _doc = {"__doc__": "What it makes is unknown."}
-    FakeType(_name, (JavaClass,), _doc, package="java.lang", partial=True)

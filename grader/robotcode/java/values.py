@@ -9,7 +9,9 @@ import enum
 import functools
 import math
 import operator
+import tomllib
 from collections.abc import Callable, Iterable
+from pathlib import Path
 from typing import Any
 
 from grader.robotcode.java.steps import STATE
@@ -19,11 +21,13 @@ from grader.robotcode.library.base import (
     FakeType,
     Unknown,
     WrongArgument,
+    add_named_classes,
     describe,
     fake,
 )
 
 _LANG = "java.lang"
+NAMES = tomllib.loads(Path(__file__).with_name("names.toml").read_text("utf-8"))
 CHARACTERS = 5_000  # of a text, that cost as much time as a step
 LONGEST_TEXT = 1_000_000  # [characters] of one text
 LARGEST = 1 << 63  # no whole number of Java's reaches it
@@ -91,10 +95,6 @@ class JavaClass(Fake):
     def __init_subclass__(
         cls, package: str = "", name: str = "", others: str = "", *, partial: bool = False
     ) -> None:
-        for key, one in vars(cls).items():
-            method = one.__func__ if isinstance(one, staticmethod | classmethod) else one
-            if getattr(method, "__name__", "") == "<lambda>":
-                method.__qualname__ = f"{cls.__name__}.{key}"
         cls.java_package, cls.java_name = package, name or cls.__name__
         for place in package.split():
             cls.fake_complete = False
@@ -185,19 +185,7 @@ class ExceptionInInitializerError(JavaError, package=_LANG):
     """A static initializer failed."""
 
 
-_OTHERS = {  # those that only a learner's program throws
-    RuntimeException: "IllegalStateException UnsupportedOperationException "
-    "NegativeArraySizeException ArrayStoreException",
-    IllegalArgumentException: "NumberFormatException",
-    JavaException: "InterruptedException",
-    JavaError: "AssertionError NoClassDefFoundError",
-}
-for _base, _names in _OTHERS.items():
-    for _name in _names.split():
-        FakeType(_name, (_base,), {"__doc__": _base.__doc__}, package=_LANG)
-for _place in ("java.util.concurrent.TimeoutException", "java.io.IOException"):
-    _package, _, _name = _place.rpartition(".")
-    FakeType(_name, (JavaException,), {"__doc__": JavaException.__doc__}, package=_package)
+add_named_classes(NAMES["exceptions"])
 
 
 def find_method(value: Any, name: str) -> Any:

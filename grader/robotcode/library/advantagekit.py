@@ -12,7 +12,6 @@ from grader.robotcode.library.dashboard import (
     read_value,
     write_value,
 )
-from grader.robotcode.library.station import TimedRobot
 from grader.robotcode.library.world import WORLD
 
 JUNCTION = "org.littletonrobotics.junction"
@@ -70,13 +69,3 @@ class LoggedDashboardChooser(SendableChooser):
 
     get = SendableChooser.getSelected
     addDefaultOption = SendableChooser.setDefaultOption
-
-
-@fake(JUNCTION)
-class LoggedRobot(TimedRobot):
-    """The base class of a robot program (.../junction/LoggedRobot.java)."""
-
-
-@fake(f"{JUNCTION}.inputs")
-class LoggableInputs(Fake):
-    """What a mechanism measures, as an interface (.../junction/inputs/LoggableInputs.java)."""

@@ -12,7 +12,7 @@ import sys
 import tomllib
 import types
 import typing
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -143,15 +143,31 @@ def fake(
     return decorate
 
 
+def add_named_classes(rows: Iterable[dict[str, Any]], base: type = Fake) -> None:
+    """Make the classes of a ``names.toml``, which derive from a class unless they say another."""
+    for row in rows:
+        above = JAVA[row["base"]] if "base" in row else base
+        for name in row["names"].split():
+            made = FakeType(name, (above,), {"__doc__": above.__doc__})
+            fake(row["java"], row.get("python", ""), complete=row.get("complete", False))(made)
+
+
 def _check_methods(cls: type, within: tuple[type, ...] = ()) -> None:
     for name, one in list(vars(cls).items()):
         if isinstance(one, type) and not isinstance(one, types.GenericAlias):
             if isinstance(one, FakeType) and one not in (*within, cls):
                 _check_methods(one, (*within, cls))
         elif isinstance(one, staticmethod | classmethod):
-            setattr(cls, name, type(one)(checked(one.__func__)))
+            setattr(cls, name, type(one)(checked(_name_method(one.__func__, cls, name))))
         elif inspect.isfunction(one) and (not name.startswith("_") or name == "__init__"):
-            setattr(cls, name, checked(one))
+            setattr(cls, name, checked(_name_method(one, cls, name)))
+
+
+def _name_method(method: Any, cls: type, name: str) -> Any:
+    """A method under its name in a class, which messages say, where it was made without one."""
+    if "<" in method.__qualname__:
+        method.__qualname__ = f"{cls.__name__}.{name}"
+    return method
 
 
 def checked(function: Callable[..., Any]) -> Callable[..., Any]:

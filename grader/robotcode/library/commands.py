@@ -57,14 +57,6 @@ def count_parameters(function: Any) -> int:  # anything that can be called
         return -1
 
 
-def add_methods(cls: type, of: Any, methods: dict[str, Callable[..., Any]]) -> None:
-    """Give a class short methods, which all return a value of the same type."""
-    for name, one in methods.items():
-        one.__annotations__["return"] = of
-        one.__qualname__ = f"{cls.__name__}.{name}"
-        setattr(cls, name, one)
-
-
 def as_commands(values: Any) -> list["Command"]:  # arguments
     """The commands among arguments.
 
@@ -106,8 +98,8 @@ class CommandScheduler(Fake):
     """
 
     def __new__(cls) -> Self:
-        if "scheduler" not in WORLD.singletons:
-            WORLD.singletons["scheduler"] = made = super().__new__(cls)
+        if WORLD.scheduler is None:
+            WORLD.scheduler = made = super().__new__(cls)
             made._scheduled: dict[Command, None] = {}
             made._subsystems: dict[Subsystem, Command | None] = {}
             made._owners: dict[Subsystem, Command] = {}
@@ -118,7 +110,7 @@ class CommandScheduler(Fake):
             made._to_schedule: dict[Command, int] = {}
             made._to_cancel: dict[Command, None] = {}
             made._ending: set[Command] = set()
-        return WORLD.singletons["scheduler"]
+        return WORLD.scheduler
 
     @staticmethod
     def getInstance() -> "CommandScheduler":
@@ -756,49 +748,45 @@ class TimedCommandRobot(TimedRobot):
         self.addPeriodic(CommandScheduler().run, period)
 
 
-add_methods(
-    Command,
-    Command,
-    {
-        "withTimeout": lambda self, seconds: ParallelRaceGroup(self, WaitCommand(seconds)),
-        "until": lambda self, condition: ParallelRaceGroup(self, WaitUntilCommand(condition)),
-        "onlyWhile": lambda self, condition: self.until(lambda: not condition()),
-        "beforeStarting": lambda self, before, *needed: SequentialCommandGroup(
-            *make_steps(before, *needed), self
-        ),
-        "andThen": lambda self, *then: SequentialCommandGroup(self, *make_steps(*then)),
-        "deadlineFor": lambda self, *parallel: ParallelDeadlineGroup(self, *parallel),
-        "deadlineWith": lambda self, *parallel: ParallelDeadlineGroup(self, *parallel),
-        "withDeadline": lambda self, deadline: ParallelDeadlineGroup(deadline, self),
-        "alongWith": lambda self, *parallel: ParallelCommandGroup(self, *parallel),
-        "raceWith": lambda self, *parallel: ParallelRaceGroup(self, *parallel),
-        "repeatedly": lambda self: RepeatCommand(self),
-        "asProxy": lambda self: ProxyCommand(self),
-        "unless": lambda self, condition: ConditionalCommand(InstantCommand(), self, condition),
-        "onlyIf": lambda self, condition: ConditionalCommand(self, InstantCommand(), condition),
-        "ignoringDisable": lambda self, yes: WrapperCommand(self, when_disabled=yes),
-        "withInterruptBehavior": lambda self, behavior: WrapperCommand(self, behavior=behavior),
-        "finallyDo": lambda self, end: WrapperCommand(self, at_end=end),
-        "handleInterrupt": lambda self, handler: WrapperCommand(
-            self, at_end=lambda interrupted: handler() if interrupted else None
-        ),
-        "withName": lambda self, name: WrapperCommand(self, name=name),
-    },
-)
-add_methods(
-    Subsystem,
-    Command,
-    {
-        "run": lambda self, action: RunCommand(action, self),
-        "runOnce": lambda self, action: InstantCommand(action, self),
-        "runEnd": lambda self, run, end: Commands.runEnd(run, end, self),
-        "startEnd": lambda self, start, end: StartEndCommand(start, end, self),
-        "startRun": lambda self, start, run: Commands.startRun(start, run, self),
-        "defer": lambda self, supplier: DeferredCommand(supplier, self),
-        "idle": lambda self: Commands.idle(self),
-        "getCurrentCommand": lambda self: CommandScheduler().requiring(self),
-    },
-)
+DECORATORS: dict[str, Callable[..., Any]] = {
+    "withTimeout": lambda self, seconds: ParallelRaceGroup(self, WaitCommand(seconds)),
+    "until": lambda self, condition: ParallelRaceGroup(self, WaitUntilCommand(condition)),
+    "onlyWhile": lambda self, condition: self.until(lambda: not condition()),
+    "beforeStarting": lambda self, before, *needed: SequentialCommandGroup(
+        *make_steps(before, *needed), self
+    ),
+    "andThen": lambda self, *then: SequentialCommandGroup(self, *make_steps(*then)),
+    "deadlineFor": lambda self, *parallel: ParallelDeadlineGroup(self, *parallel),
+    "deadlineWith": lambda self, *parallel: ParallelDeadlineGroup(self, *parallel),
+    "withDeadline": lambda self, deadline: ParallelDeadlineGroup(deadline, self),
+    "alongWith": lambda self, *parallel: ParallelCommandGroup(self, *parallel),
+    "raceWith": lambda self, *parallel: ParallelRaceGroup(self, *parallel),
+    "repeatedly": lambda self: RepeatCommand(self),
+    "asProxy": lambda self: ProxyCommand(self),
+    "unless": lambda self, condition: ConditionalCommand(InstantCommand(), self, condition),
+    "onlyIf": lambda self, condition: ConditionalCommand(self, InstantCommand(), condition),
+    "ignoringDisable": lambda self, yes: WrapperCommand(self, when_disabled=yes),
+    "withInterruptBehavior": lambda self, behavior: WrapperCommand(self, behavior=behavior),
+    "finallyDo": lambda self, end: WrapperCommand(self, at_end=end),
+    "handleInterrupt": lambda self, handler: WrapperCommand(
+        self, at_end=lambda interrupted: handler() if interrupted else None
+    ),
+    "withName": lambda self, name: WrapperCommand(self, name=name),
+}
+MAKERS: dict[str, Callable[..., Any]] = {
+    "run": lambda self, action: RunCommand(action, self),
+    "runOnce": lambda self, action: InstantCommand(action, self),
+    "runEnd": lambda self, run, end: Commands.runEnd(run, end, self),
+    "startEnd": lambda self, start, end: StartEndCommand(start, end, self),
+    "startRun": lambda self, start, run: Commands.startRun(start, run, self),
+    "defer": lambda self, supplier: DeferredCommand(supplier, self),
+    "idle": lambda self: Commands.idle(self),
+    "getCurrentCommand": lambda self: CommandScheduler().requiring(self),
+}
+for _name, _method in DECORATORS.items():
+    setattr(Command, _name, _method)
+for _name, _method in MAKERS.items():
+    setattr(Subsystem, _name, _method)
 _OTHERS = "addChild close getSubsystem initSendable setSubsystem"
 for _cls in [one for one in vars().values() if isinstance(one, FakeType)]:
     if _cls.__module__ == __name__ and _cls not in {EventLoop, CommandScheduler}:

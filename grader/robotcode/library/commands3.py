@@ -97,17 +97,13 @@ class Scheduler(Fake):
         return CommandScheduler()
 
 
-class Coroutine(Fake):
-    """One run of a command's body (allwpilib main, commandsv3/.../Coroutine.java)."""
-
-
 def _build(*parts: Any) -> Builder:
     return Builder(*parts)
 
 
 for _name in ("requiring", "noRequirements", "sequence", "parallel", "race"):
     setattr(Command, _name, staticmethod(_build))
-for _cls in (Coroutine, Command, Mechanism, Scheduler, Trigger):
+for _cls in (Command, Mechanism, Scheduler, Trigger):
     fake(V3)(_cls)
 for _name in BUILDERS:
     fake(V3, name=_name)(Builder)

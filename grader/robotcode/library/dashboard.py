@@ -1,9 +1,7 @@
 """Dashboards: every value has a path, and the bench can change it.
 
-A boolean that a program reads or writes is a switch: ``WORLD.singletons["switches"]`` has each by
-its path. ``WORLD.singletons["choosers"]`` has all lists to choose from, and
-``WORLD.singletons["sendables"]`` what else is on a dashboard, as a command that a click starts.
-What is in NetworkTables, in Shuffleboard and in a log is unknown.
+A boolean that a program reads or writes is a switch. What is in NetworkTables, in Shuffleboard and
+in a log is unknown.
 """
 
 from collections.abc import Callable
@@ -13,12 +11,8 @@ from typing import Any
 from grader.robotcode.library.base import Fake, fake
 from grader.robotcode.library.world import WORLD
 
-TABLES = "edu.wpi.first.networktables org.wpilib.networktables"
 BOARD = "edu.wpi.first.wpilibj.smartdashboard org.wpilib.smartdashboard"
-SHUFFLEBOARD = "edu.wpi.first.wpilibj.shuffleboard"
-LOGS = "edu.wpi.first.wpilibj edu.wpi.first.util.datalog org.wpilib.system org.wpilib.datalog"
 ARRAYS = ("BooleanArray", "DoubleArray", "FloatArray", "NumberArray", "IntegerArray", "StringArray")
-TOPICS = ("Topic", "Subscriber", "Publisher", "Entry")
 KINDS: dict[str, tuple[type, Any]] = {  # kind of value -> its type, and what stands for no value
     "Boolean": (bool, False),
     "String": (str, ""),
@@ -45,10 +39,9 @@ class Switch:
 
 def find_switch(path: str) -> Switch:
     """The switch at a path; a new one, if the program has not used it before."""
-    switches = WORLD.singletons.setdefault("switches", {})
-    if path not in switches:
-        switches[path] = Switch(line=WORLD.where())
-    return switches[path]
+    if path not in WORLD.switches:
+        WORLD.switches[path] = Switch(line=WORLD.where())
+    return WORLD.switches[path]
 
 
 def read_value(path: str, default: Any) -> Any:  # any value
@@ -84,7 +77,7 @@ def publish(path: str, data: Any) -> None:  # a chooser, a command, a value
     if isinstance(data, SendableChooser):
         data._path = path  # it reads its choice from there
     elif isinstance(data, Fake):
-        WORLD.singletons.setdefault("sendables", {})[path] = data
+        WORLD.sendables[path] = data
     else:
         write_value(path, data)
 
@@ -102,7 +95,6 @@ def add_kinds(put: str, start: str) -> Callable[[type], type]:
     def add(cls: Any) -> type:  # a class
         for kind, (of, nothing) in KINDS.items():
             for word, one in zip(("get", put, start), make_accessors(of, nothing), strict=True):
-                one.__qualname__ = f"{cls.__name__}.{word}{kind}"
                 setattr(cls, word + kind, classmethod(one) if hasattr(cls, "_root") else one)
         return cls
 
@@ -158,7 +150,7 @@ class SendableChooser(Fake):
         self._options: dict[str, Any] = {}
         self._default = ""
         self._line = WORLD.where()
-        WORLD.singletons.setdefault("choosers", []).append(self)
+        WORLD.choosers.append(self)
 
     def addOption(self, name: str, object: Any) -> None:
         self._options[name] = object
@@ -169,16 +161,3 @@ class SendableChooser(Fake):
 
     def getSelected(self) -> Any:
         return self._options.get(WORLD.network.get(f"{self._path}/selected", self._default))
-
-
-UNKNOWN = {  # package -> classes whose values nobody knows here
-    f"{TABLES} {SHUFFLEBOARD}": "NetworkTableEntry GenericEntry NetworkTable NetworkTableInstance "
-    "Shuffleboard ShuffleboardTab SimpleWidget StructTopic StructPublisher StructSubscriber "
-    "StructEntry StructArrayTopic StructArrayPublisher StructArraySubscriber StructArrayEntry",
-    TABLES: " ".join(f"{kind}{word}" for kind in KINDS for word in TOPICS),
-    LOGS: " ".join(("DataLogManager", "DataLog", *(f"{kind}LogEntry" for kind in KINDS))),
-}
-for _packages, _names in UNKNOWN.items():
-    for _name in _names.split():
-        _class = type(Fake)(_name, (Fake,), {"__doc__": "What it holds is unknown."})
-        fake(_packages, "ntcore wpilib wpilib.shuffleboard wpiutil.log")(_class)

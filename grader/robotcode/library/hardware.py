@@ -15,15 +15,6 @@ PULSES = 2048  # per rotation of an encoder, unless the bench says otherwise
 EDGES = 4  # of one pulse of an encoder with two channels
 MOTORS = "edu.wpi.first.wpilibj.motorcontrol org.wpilib.hardware.motor"
 ENCODERS = "edu.wpi.first.wpilibj org.wpilib.hardware.rotation"
-SAFETY = (
-    "feed setExpiration getExpiration isAlive setSafetyEnabled isSafetyEnabled check checkMotors "
-    "getDescription initSendable close "
-)
-PWM_MOTORS = (
-    "PWMSparkMax PWMSparkFlex PWMTalonFX PWMTalonSRX PWMVenom PWMVictorSPX Spark SparkMini Talon "
-    "VictorSP Victor Koors40 Jaguar SD540 DMC60 NidecBrushless"
-)
-GYROS = "AnalogGyro ADXRS450_Gyro ADIS16448_IMU ADIS16470_IMU"
 
 
 def to_volts(value: Any) -> Any:
@@ -130,11 +121,6 @@ class PWMMotorController(MotorController, VendorMotor):
 
     getThrottle = get
     disable = stopMotor
-
-
-for _name in PWM_MOTORS.split():
-    _text = f"A motor controller on a PWM port (allwpilib v2026, .../motorcontrol/{_name}.java)."
-    fake(MOTORS, "wpilib", complete=True)(type(_name, (PWMMotorController,), {"__doc__": _text}))
 
 
 @fake(MOTORS, "wpilib", complete=True)
@@ -259,14 +245,7 @@ class AnalogEncoder(DutyCycleEncoder):
 class Gyro(Fake):
     """A gyro that never turns."""
 
-    def __init__(self, *_settings: Any, **_named: Any) -> None:
-        pass
-
     def getAngle(self, *_axis: Any) -> float:
         return 0.0
 
     getYaw = getRate = getAngle
-
-
-for _name in GYROS.split():
-    fake("edu.wpi.first.wpilibj", "wpilib", name=_name)(Gyro)

@@ -8,7 +8,6 @@ from typing import Any
 
 from grader.robotcode.library.base import TABLES, fake
 from grader.robotcode.library.hardware import (
-    SAFETY,
     MotorController,
     VendorMotor,
     clamp,
@@ -30,7 +29,7 @@ for _name, _enum in MADE.items():
 ControlMode, InvertType = MADE["ControlMode"], MADE["InvertType"]
 
 
-@fake(f"{CTRE}.can", "phoenix5 ctre", others=SAFETY)
+@fake(f"{CTRE}.can", "phoenix5 ctre")
 class BaseMotorController(VendorMotor):
     """A motor controller on the CAN bus (.../motorcontrol/can/BaseMotorController.html)."""
 
@@ -42,7 +41,7 @@ class BaseMotorController(VendorMotor):
     def __init__(self, deviceNumber: int, canbus: str = "rio") -> None:
         self._register("CAN", canbus or "rio", name_port(deviceNumber), self._model)
         self._id, self._strict = deviceNumber, True
-        stored = WORLD.singletons.get("stored", {}).get(deviceNumber, {})
+        stored = WORLD.stored.get(deviceNumber, {})
         self._inverted = stored.get("inverted", False)
 
     def _give(self, share: Any, method: str) -> None:

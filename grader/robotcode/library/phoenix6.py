@@ -27,7 +27,7 @@ from grader.robotcode.library.base import (
     fake,
 )
 from grader.robotcode.library.devices import Device
-from grader.robotcode.library.hardware import SAFETY, VendorMotor, clamp, name_port, to_volts
+from grader.robotcode.library.hardware import VendorMotor, clamp, name_port, to_volts
 from grader.robotcode.library.units import CONSTANTS, Angle, AngularVelocity, Measure, Voltage
 from grader.robotcode.library.world import WORLD
 
@@ -136,9 +136,6 @@ def make_record(name: str, package: str, table: str, **members: Any) -> type:
     return fake(f"{CTRE}.{package}", f"phoenix6.{package}")(type(name, (Record,), members))
 
 
-for _name in ("CANdi", "CANdle", "CANrange"):
-    _text = {"__doc__": "What nothing here depends on."}
-    fake(f"{CTRE}.configs", "phoenix6.configs")(type(Fake)(f"{_name}Configuration", (Fake,), _text))
 GROUPS = TABLES["groups"]
 GROUPS |= {"Slot1": GROUPS["Slot0"], "Slot2": GROUPS["Slot0"]}
 for _name, _fields in {**GROUPS, "Slot": f"{GROUPS['Slot0']} SlotNumber=0"}.items():
@@ -202,13 +199,8 @@ class StatusSignal(Fake):
 
 
 for _name in ("StatusSignal", "BaseStatusSignal"):
-    _others = (
-        "getTimestamp getAllTimestamps getName getUnits getTypeClass getAppliedUpdateFrequency "
-        "hasUpdated getDataCopy getStatus waitForAll isAllGood isNear clone "
-        "setUpdateFrequency setUpdateFrequencyForAll"
-    )
     _modules = f"phoenix6 phoenix6.{to_snake(_name)}"
-    fake(CTRE, _modules, complete=True, others=_others, name=_name)(StatusSignal)
+    fake(CTRE, _modules, complete=True, name=_name)(StatusSignal)
 
 
 @fake(CTRE, "phoenix6 phoenix6.canbus", complete=True)
@@ -261,6 +253,7 @@ class ParentDevice(Device):
     ``_config``: its settings; ``_offset``: [rot] by which somebody moved its position.
     """
 
+    fake_others = frozenset(TABLES["others"]["ParentDevice"].split())
     _kind = ""
     _offset: Any = 0.0
 
@@ -271,7 +264,7 @@ class ParentDevice(Device):
         self._signals: dict[str, StatusSignal] = {}
         names = (one.__name__ for one in type(self).__mro__ if one.__name__ in TABLES["devices"])
         self._config = copy.deepcopy(DEFAULTS[f"{next(names)}Configuration"])
-        if WORLD.singletons.get("stored", {}).get(deviceId, {}).get("inverted"):
+        if WORLD.stored.get(deviceId, {}).get("inverted"):
             self._set_inverted(inverted=True)
         self._use()
 
@@ -312,15 +305,10 @@ class ParentDevice(Device):
         return True
 
 
-def _device(others: str = "", *, complete: bool = True) -> Any:
-    others += (
-        " getNetwork getDeviceHash getAppliedControl getSimState close none hasResetOccurred "
-        "optimizeBusUtilization optimizeBusUtilizationForAll resetSignalFrequencies "
-    )
-    return fake(f"{CTRE}.hardware", "phoenix6.hardware", complete=complete, others=others)
+_device = functools.partial(fake, f"{CTRE}.hardware", "phoenix6.hardware", complete=True)
 
 
-@_device(f"{SAFETY} setNeutralMode")
+@_device()
 class TalonFX(ParentDevice, VendorMotor):
     """A motor controller inside a motor (.../phoenix6/hardware/TalonFX.html).
 
@@ -499,11 +487,6 @@ for _class in (ParentDevice, TalonFX, TalonFXS, CANcoder, Pigeon2):
         _add_signal(_class, _name, "")
     for _name, _unit in _units.items():
         _add_signal(_class, _name, _unit)
-
-
-@fake(CTRE, "phoenix6 phoenix6.signal_logger")
-class SignalLogger(Fake):
-    """CTRE's own log (.../phoenix6/SignalLogger.html), which is not read here."""
 
 
 @fake(CTRE)

@@ -207,7 +207,7 @@ class SparkBase(MotorController, VendorMotor):
         self._id = deviceId
         self._parts: dict[str, Any] = {}
         self._speed: Any = 0.0
-        stored = WORLD.singletons.get("stored", {}).get(deviceId, {})
+        stored = WORLD.stored.get(deviceId, {})
         self._settings: dict[str, Any] = {name: (value,) for name, value in stored.items()}
         self._use()
 
@@ -237,7 +237,7 @@ class SparkBase(MotorController, VendorMotor):
             kind, value = ("voltage", value * nominal) if nominal else (kind, value)
         self._ask(kind, value, method)
 
-    def _part(self, part: str, cls: type) -> Any:
+    def _part(self, part: str, cls: type = RelativeEncoder) -> Any:
         return self._parts.setdefault(part, cls(self, part))
 
     def set(self, speed: float) -> None:
@@ -285,30 +285,15 @@ class SparkBase(MotorController, VendorMotor):
     def isFollower(self) -> bool:
         return self._leader is not None
 
-    def getEncoder(self, *_settings: Any) -> RelativeEncoder:
-        return self._part("encoder", RelativeEncoder)
-
-    def getAlternateEncoder(self, *_settings: Any) -> RelativeEncoder:
-        return self._part("alternateEncoder", RelativeEncoder)
-
-    def getExternalEncoder(self) -> RelativeEncoder:
-        return self._part("externalEncoder", RelativeEncoder)
-
-    def getAbsoluteEncoder(self, *_settings: Any) -> AbsoluteEncoder:
-        return self._part("absoluteEncoder", AbsoluteEncoder)
+    getEncoder = lambda self, *_settings: self._part("encoder")
+    getAlternateEncoder = lambda self, *_settings: self._part("alternateEncoder")
+    getExternalEncoder = lambda self: self._part("externalEncoder")
+    getAbsoluteEncoder = lambda self, *_settings: self._part("absoluteEncoder", AbsoluteEncoder)
 
     def getClosedLoopController(self) -> SparkClosedLoopController:
         return SparkClosedLoopController(self)
 
     disable, getPIDController = stopMotor, getClosedLoopController
-
-
-def _add_model(package: str, name: str, base: type) -> None:
-    fake(package, "rev", complete=True)(type(name, (base,), {"__doc__": base.__doc__}))
-
-
-for _name in ("SparkLowLevel", "SparkMax", "SparkFlex"):
-    _add_model(SPARK, _name, SparkBase)
 
 
 @fake(REV, "rev", complete=True, others=TABLES["other_members"]["spark_2024"])
@@ -336,7 +321,3 @@ class CANSparkBase(SparkBase):
 
     def follow(self, leader: SparkBase, invert: bool = False) -> Enum:
         return self._store("follow", leader, invert)
-
-
-for _name in ("CANSparkMax", "CANSparkFlex", "CANSparkLowLevel"):
-    _add_model(REV, _name, CANSparkBase)

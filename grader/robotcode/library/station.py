@@ -7,7 +7,7 @@ from typing import Any
 from grader.robotcode.library.base import JAVA, PYTHON, Fake, Unknown, fake
 from grader.robotcode.library.devices import Device
 from grader.robotcode.library.timing import NO_MATCH_TIME, WPILIB, in_seconds
-from grader.robotcode.library.units import CONSTANTS, Measure
+from grader.robotcode.library.units import CONSTANTS
 from grader.robotcode.library.world import PERIOD, WORLD, Joystick
 
 STATION = "edu.wpi.first.wpilibj org.wpilib.driverstation"
@@ -30,7 +30,7 @@ def read_joystick(port: int) -> Joystick:
 
 def check_edge(port: int, button: int, *, pressed: bool) -> bool:
     """Whether a button was pressed, or else released, since this was last asked."""
-    last = WORLD.singletons.setdefault("button edges", {})
+    last = WORLD.button_edges
     now = button in read_joystick(port).buttons
     before = last.get((port, button, pressed), False)
     last[port, button, pressed] = now
@@ -48,36 +48,24 @@ JAVA["org.wpilib.driverstation.Alliance"] = Alliance
 
 
 def is_in_test_mode() -> bool:
-    """Whether the robot is in test mode; ``"asked"`` has where this was asked, and when first."""
-    asked = WORLD.singletons.setdefault("asked", {})
-    asked[WORLD.where()] = WORLD.time
+    """Whether the robot is in test mode; the world keeps where this was asked, and when."""
+    WORLD.asked[WORLD.where()] = WORLD.time
     return WORLD.mode == "test"
-
-
-def _ask(kind: type, answer: Callable[[], Any]) -> Any:  # a static method
-    """A static method without arguments, whose answer is of a type."""
-
-    def ask() -> Any:  # of the type below
-        return answer()
-
-    ask.__annotations__["return"] = kind
-    ask.__qualname__ = "this method"
-    return staticmethod(ask)
 
 
 @fake(STATION, "wpilib", complete=True)
 class RobotState(Fake):
     """The mode that the robot is in (allwpilib v2026, wpilibj/.../RobotState.java)."""
 
-    isEnabled = _ask(bool, lambda: WORLD.enabled)
-    isDisabled = _ask(bool, lambda: not WORLD.enabled)
-    isEStopped = _ask(bool, lambda: False)
-    isAutonomous = isAutonomousEnabled = _ask(bool, lambda: WORLD.mode == "autonomous")
-    isTeleop = isTeleopEnabled = _ask(bool, lambda: WORLD.mode == "teleop")
-    isTest = isTestEnabled = _ask(bool, lambda: is_in_test_mode())
+    isEnabled = staticmethod(lambda: WORLD.enabled)
+    isDisabled = staticmethod(lambda: not WORLD.enabled)
+    isEStopped = staticmethod(lambda: False)
+    isAutonomous = isAutonomousEnabled = staticmethod(lambda: WORLD.mode == "autonomous")
+    isTeleop = isTeleopEnabled = staticmethod(lambda: WORLD.mode == "teleop")
+    isTest = isTestEnabled = staticmethod(lambda: is_in_test_mode())
     isUtility = isUtilityEnabled = isTest  # its name from 2027 on
-    isDSAttached = _ask(bool, lambda: True)
-    isFMSAttached = _ask(bool, lambda: WORLD.fms)
+    isDSAttached = staticmethod(lambda: True)
+    isFMSAttached = staticmethod(lambda: WORLD.fms)
 
 
 @fake(STATION, "wpilib", complete=True)
@@ -86,9 +74,9 @@ class DriverStation(RobotState):
 
     Alliance = Alliance
 
-    getAlliance = _ask(object, lambda: make_optional(Alliance.__members__.get(WORLD.alliance)))
-    getMatchTime = _ask(float, lambda: NO_MATCH_TIME)
-    getBatteryVoltage = _ask(float, lambda: WORLD.battery)
+    getAlliance = staticmethod(lambda: make_optional(Alliance.__members__.get(WORLD.alliance)))
+    getMatchTime = staticmethod(lambda: NO_MATCH_TIME)
+    getBatteryVoltage = staticmethod(lambda: WORLD.battery)
 
     @staticmethod
     def isJoystickConnected(stick: int) -> bool:
@@ -99,19 +87,19 @@ class DriverStation(RobotState):
 class RobotController(Fake):
     """The computer on the robot (allwpilib v2026, wpilibj/.../RobotController.java)."""
 
-    getBatteryVoltage = getInputVoltage = _ask(float, lambda: WORLD.battery)
-    getMeasureBatteryVoltage = getMeasureInputVoltage = _ask(
-        Measure, lambda: CONSTANTS["Volts"].of(WORLD.battery)
-    )
-    getFPGATime = getTime = getMonotonicTime = _ask(int, lambda: round(WORLD.time * MICROSECONDS))
+    getBatteryVoltage = getInputVoltage = staticmethod(lambda: WORLD.battery)
+    getMeasureBatteryVoltage = staticmethod(lambda: CONSTANTS["Volts"].of(WORLD.battery))
+    getMeasureInputVoltage = getMeasureBatteryVoltage
+    getTime = staticmethod(lambda: round(WORLD.time * MICROSECONDS))
+    getFPGATime = getMonotonicTime = getTime
 
 
 @fake(FRAMEWORK, "wpilib")
 class RobotBase(RobotState):
     """The base of all robots (allwpilib v2026, wpilibj/.../RobotBase.java)."""
 
-    isReal = _ask(bool, lambda: True)
-    isSimulation = _ask(bool, lambda: False)
+    isReal = staticmethod(lambda: True)
+    isSimulation = staticmethod(lambda: False)
 
 
 def _do_nothing(self: Any) -> None:
@@ -192,16 +180,5 @@ class DigitalInput(Device):
         return self._value
 
 
-for _name in (
-    "AnalogInput",
-    "AnalogPotentiometer",
-    "Solenoid",
-    "DoubleSolenoid",
-    "PowerDistribution",
-    "BuiltInAccelerometer",
-    "Alert",
-    "Filesystem",
-):
-    fake(f"{WPILIB} {STATION}", "wpilib", name=_name)(type(_name, (Fake,), {}))
 for _name in ("getDeployDirectory", "getOperatingDirectory", "reportError", "reportWarning"):
     PYTHON["wpilib"][_name] = Unknown(f"wpilib.{_name}")

@@ -83,7 +83,6 @@ def _make_method(name: str, constant: str, label: str) -> Callable[..., Any]:
             return self._write(signal, value._base, family, value._unit._name)
         raise WrongArgument(f"{name} takes a value in units such as {constant}, not {_show(value)}")
 
-    log.__qualname__ = f"MotorLog.{name}"
     return log
 
 
@@ -239,7 +238,7 @@ class Routine(SysIdRoutineLog):
         super().__init__(mechanism._name)
         self._line = WORLD.where()
         self._config, self._mechanism = config, mechanism
-        WORLD.singletons.setdefault("routines", []).append(self)
+        WORLD.routines.append(self)
 
     def quasistatic(self, direction: Enum) -> Command:
         timer = Timer()
@@ -270,7 +269,7 @@ class Routine(SysIdRoutineLog):
             self._record(self.State("none"))
 
         command = self._assemble(f"sysid-{state}-{mechanism._name}", start, run, end)
-        WORLD.singletons.setdefault("tests", []).append((test, command, WORLD.stack()))
+        WORLD.tests.append((test, command, WORLD.stack()))
         return command
 
     def _drive(self, volts: Any) -> None:
@@ -279,7 +278,7 @@ class Routine(SysIdRoutineLog):
         self._mechanism._drive(VOLTS.of(volts) if WORLD.language == "java" else volts)
 
     def _record(self, state: Enum) -> None:
-        WORLD.singletons.setdefault("running", {})[self._log_name, id(self)] = state.value
+        WORLD.running[self._log_name, id(self)] = state.value
         (self._config.recordState or self.recordState)(state)
 
     def _assemble(self, name: str, start: Any, run: Any, end: Any) -> Command:

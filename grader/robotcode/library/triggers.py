@@ -1,7 +1,7 @@
 """Controllers, their buttons, and the triggers that start commands with them.
 
-``WORLD.singletons["bindings"]`` has every binding of a command, and
-``WORLD.singletons["controllers"]`` every controller with what the program reads of it.
+``WORLD.bindings`` has every binding of a command, and
+``WORLD.controllers`` every controller with what the program reads of it.
 """
 
 import inspect
@@ -127,11 +127,10 @@ def _bind(how: str) -> Callable[..., Any]:
             raise WrongArgument(f"{how} needs a command. Call a method that returns one.")
         binding = Binding(self, how, command, WORLD.where())
         binding.before = self.getAsBoolean()
-        WORLD.singletons.setdefault("bindings", []).append(binding)
+        WORLD.bindings.append(binding)
         self._loop.bind(binding.poll)
         return self
 
-    bind.__qualname__ = f"Trigger.{how}"
     return bind
 
 
@@ -158,19 +157,14 @@ class Trigger(BooleanEvent):
             scheduler._schedule(command, line)  # not from the program
 
 
-def _of_mode(condition: Callable[[], bool]) -> Any:  # a static method
-    def make() -> Trigger:
-        return Trigger(condition)
-
-    return staticmethod(make)
-
-
 @fake(BUTTONS, "commands2.button", complete=True)
 class RobotModeTriggers(Fake):
     """Triggers of the modes (allwpilib v2026, .../command/button/RobotModeTriggers.java)."""
 
-    autonomous, teleop = _of_mode(RobotState.isAutonomous), _of_mode(RobotState.isTeleop)
-    disabled, test = _of_mode(RobotState.isDisabled), _of_mode(RobotState.isTest)
+    autonomous = staticmethod(lambda: Trigger(RobotState.isAutonomous))
+    teleop = staticmethod(lambda: Trigger(RobotState.isTeleop))
+    disabled = staticmethod(lambda: Trigger(RobotState.isDisabled))
+    test = staticmethod(lambda: Trigger(RobotState.isTest))
     utility = test  # its name from 2027 on
 
 
@@ -227,7 +221,7 @@ class GenericHID(_Controller):
         self._port = port
         self._line = WORLD.where()
         self._used: dict[tuple[str, int], int] = {}
-        WORLD.singletons.setdefault("controllers", []).append(self)
+        WORLD.controllers.append(self)
 
     def _note(self, kind: str, number: Any) -> None:  # may be unknown
         self._used.setdefault((kind, number), WORLD.where())
@@ -264,21 +258,15 @@ class CommandGenericHID(_Controller):
         return self._hid
 
 
-def _add(cls: Any, name: str, of: Any, method: Callable[..., Any]) -> None:  # a class and a type
-    method.__annotations__["return"] = of
-    method.__qualname__ = f"{cls.__name__}.{name}"
-    setattr(cls, name, method)
-
-
 def _add_button(hid: type, command: type, name: str, number: int) -> None:
     """Add the methods of one button to both classes of a controller."""
     plain = name if len(name) == 2 else name[0].lower() + name[1:]  # noqa: PLR2004 - as L1
     for cls in (hid, command):
-        _add(cls, plain, cls._kind, lambda self, loop=None: self.button(number, loop))
+        setattr(cls, plain, lambda self, loop=None: self.button(number, loop))
     for end in ("", "Pressed", "Released"):
         read = getattr(GenericHID, f"getRawButton{end}")
         for form in (f"get{name}{end}", f"get{name}Button{end}"):
-            _add(hid, form, bool, lambda self, read=read: read(self, number))
+            setattr(hid, form, lambda self, read=read: read(self, number))
 
 
 def _add_axis(cls: type, name: str, number: int) -> None:
@@ -286,12 +274,10 @@ def _add_axis(cls: type, name: str, number: int) -> None:
         limit = PRESSED if isinstance(threshold, EventLoop) else threshold
         return self.axisGreaterThan(number, limit, threshold if limit != threshold else loop)
 
-    _add(
-        *(cls, f"get{name}" if name[-1] in "XYZe" else f"get{name}Axis", float),
-        lambda self: self.getRawAxis(number),
-    )
+    getter = f"get{name}" if name[-1] in "XYZe" else f"get{name}Axis"
+    setattr(cls, getter, lambda self: self.getRawAxis(number))
     if name.endswith("Trigger"):
-        _add(cls, name[0].lower() + name[1:], cls._kind, press)
+        setattr(cls, name[0].lower() + name[1:], press)
 
 
 def _make_controller(name: str, first: int, buttons: str, axes: str) -> None:
@@ -314,7 +300,7 @@ def _add_fakes(hid: type, command: type) -> None:
 
 
 for _degrees, _name in zip(range(0, 360, 45), POVS.split(), strict=True):
-    _add(CommandGenericHID, f"pov{_name}", Trigger, lambda self, at=_degrees: self.pov(at))
+    setattr(CommandGenericHID, f"pov{_name}", lambda self, at=_degrees: self.pov(at))
 _add_fakes(GenericHID, CommandGenericHID)
 for _name, _parts in TABLES["controllers"].items():
     _make_controller(_name, **_parts)

@@ -45,6 +45,20 @@ class World:
         where: the file's line that is being run.
         stack: the lines of the calls that led there, the innermost first; 0 for another file.
         logged: what the SysId log callback wrote since the bench last looked.
+        scheduler: the one of all commands; None until it is asked for.
+        routines: every SysIdRoutine.
+        tests: every command of a test: its name, the command, the lines that asked for it.
+        running: what state each log was last told.
+        bindings: every command that a trigger starts.
+        controllers: each with what the program reads of it.
+        button_edges: what each button was when its edges were last asked for.
+        asked: lines that ask for test mode, and when first.
+        switches: every boolean of a dashboard, by its path.
+        choosers: every list to choose from.
+        sendables: what else is on a dashboard, as a command that a click starts.
+        feedforwards, pids, configurations: every one of a library's that was made.
+        unknown: parts of libraries that have no fake, and the line that uses them first.
+        stored: settings that a device had before the program started, by its number.
     """
 
     language: str = "java"
@@ -63,7 +77,22 @@ class World:
     where: Callable[[], int] = field(default=lambda: 0)
     stack: Callable[[], list[int]] = field(default=list)
     logged: list[Any] = field(default_factory=list)
-    singletons: dict[str, Any] = field(default_factory=dict)
+    scheduler: Any = None
+    routines: list[Any] = field(default_factory=list)
+    tests: list[Any] = field(default_factory=list)
+    running: dict[Any, str] = field(default_factory=dict)
+    bindings: list[Any] = field(default_factory=list)
+    controllers: list[Any] = field(default_factory=list)
+    button_edges: dict[Any, bool] = field(default_factory=dict)
+    asked: dict[int, float] = field(default_factory=dict)
+    switches: dict[str, Any] = field(default_factory=dict)
+    choosers: list[Any] = field(default_factory=list)
+    sendables: dict[str, Any] = field(default_factory=dict)
+    feedforwards: list[Any] = field(default_factory=list)
+    pids: list[Any] = field(default_factory=list)
+    configurations: list[Any] = field(default_factory=list)
+    unknown: dict[str, int] = field(default_factory=dict)
+    stored: dict[Any, dict[str, Any]] = field(default_factory=dict)
 
     def reset(self, language: str, *, assume: bool = False) -> None:
         """Reset the state to that of a robot just switched on."""

@@ -40,7 +40,7 @@ class Feedforward(Fake):
         self.kg = 0.0
         self.__dict__.update(gains)
         self._line = WORLD.where()
-        WORLD.singletons.setdefault("feedforwards", []).append(self)
+        WORLD.feedforwards.append(self)
 
 
 class SimpleMotorFeedforward(Feedforward):
@@ -102,7 +102,7 @@ class Controller(Fake):
         self._line = WORLD.where()
         self._i_zone = math.inf
         self.setPID(Kp, Ki, Kd)
-        WORLD.singletons.setdefault("pids", []).append(self)
+        WORLD.pids.append(self)
 
     def setPID(self, Kp: float, Ki: float, Kd: float) -> None:
         self._p, self._i, self._d = Kp, Ki, Kd
@@ -121,17 +121,6 @@ class ProfiledPIDController(Controller):
 for _name, _attribute in (("P", "_p"), ("I", "_i"), ("D", "_d"), ("IZone", "_i_zone")):
     _add_setting(Controller, _name, _attribute)
 PYTHON["wpimath.controller"]["ProfiledPIDControllerRadians"] = ProfiledPIDController
-
-
-UNKNOWN = {  # folder -> classes of which nothing is known here
-    "controller": "BangBangController",
-    "filter": "LinearFilter MedianFilter SlewRateLimiter Debouncer",
-    "linalg": "Vector Matrix VecBuilder",
-}
-for _folder, _names in UNKNOWN.items():
-    for _name in _names.split():
-        _class = type(Fake)(_name, (Fake,), {"__doc__": "What it computes is unknown."})
-        fake(f"{_list_packages(_folder)} edu.wpi.first.math", f"wpimath.{_folder}")(_class)
 
 
 @fake("edu.wpi.first.math org.wpilib.math.util", complete=True)

@@ -52,7 +52,7 @@ def main() -> None:
     sys.modules.update(COURSE)  # its files can no longer be read
     WORLD.reset("python", assume=orders["assume"])
     mounts = {port: Mount(**mount) for port, mount in orders["mounts"]}
-    WORLD.singletons["stored"] = {port: {"inverted": one.inverted} for port, one in mounts.items()}
+    WORLD.stored = {port: {"inverted": one.inverted} for port, one in mounts.items()}
     sys.meta_path.insert(0, FakeFinder(every=False))
     stop_clock()
     kind = orders["kind"]

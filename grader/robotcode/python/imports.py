@@ -134,7 +134,7 @@ class FakeModule(ModuleType):
         near = difflib.get_close_matches(name, known, 1, NEARLY)
         if near:
             raise ImportError(f"{self.__name__} has no {name}. Did you mean {near[0]}?")
-        WORLD.singletons.setdefault("unknown", {}).setdefault(whole, WORLD.where())
+        WORLD.unknown.setdefault(whole, WORLD.where())
         return Unknown(name)
 
 
@@ -159,7 +159,7 @@ class FakeFinder:
         if near:
             raise ModuleNotFoundError(f"No module named {top!r}. Did you mean {near[0]}?", name=top)
         if top not in LIBRARIES:
-            WORLD.singletons.setdefault("unknown", {}).setdefault(name, WORLD.where())
+            WORLD.unknown.setdefault(name, WORLD.where())
         return spec_from_loader(name, self, is_package=True)  # type: ignore[arg-type]
 
     def create_module(self, spec: ModuleSpec) -> ModuleType:

@@ -266,7 +266,7 @@ class PythonSubject(Subject):
 
     def describe(self) -> dict[str, Any]:
         """The facts that the program's text tells without running it."""
-        unknown = WORLD.undecided | WORLD.singletons.get("unknown", {})
+        unknown = WORLD.undecided | WORLD.unknown
         return {
             "errors": (),
             "unknown": {restore(str(name)): int(line) for name, line in unknown.items()},

@@ -11,6 +11,7 @@ import io
 import re
 import sys
 import tokenize
+import tomllib
 import warnings
 from collections.abc import Iterator
 from pathlib import Path
@@ -18,46 +19,13 @@ from pathlib import Path
 from grader.robotcode.python.sandbox_files import list_program_files
 from sim.core.errors import UnreadableFile
 
-
-def _split_words(text: str) -> frozenset[str]:
-    return frozenset(text.split())
-
-
-PACKAGES = _split_words(  # wpilib and commands2, and what they are made of
-    "wpilib commands2 hal ntcore wpimath wpinet wpiutil native numpy typing_extensions"
+WORDS = tomllib.loads(Path(__file__).with_suffix(".toml").read_text("utf-8"))
+PARTLY = {module: frozenset(names.split()) for module, names in WORDS.pop("partly").items()}
+PACKAGES, INSIDES, MORE, CALLS, ATTRIBUTES, DUNDERS = (
+    frozenset(WORDS[one].split())
+    for one in ("packages", "insides", "not_imported", "calls", "attributes", "dunders")
 )
-
-# Modules that reach into a running program, by whichever name they are met: random._os is os.
-INSIDES = _split_words(
-    "builtins ctypes ctypeslib gc importlib inspect marshal mmap mock multiprocessing nt pickle "
-    "pkgutil posix runpy shutil subprocess unittest"
-)
-NOT_IMPORTED = INSIDES | _split_words(
-    "_thread atexit bdb cProfile code codeop dis doctest faulthandler fcntl grader imp io pdb "
-    "profile resource signal site tempfile timeit trace tracemalloc zipimport"
-)
-PARTLY = {  # what is harmless of modules that robot programs do use
-    "os": _split_words(
-        "PathLike curdir environ fspath getcwd getenv linesep listdir name path sep"
-    ),
-    "sys": _split_words(
-        "argv byteorder exit executable float_info maxsize path platform stderr stdout version "
-        "version_info"
-    ),
-}
-CALLS = _split_words(
-    "__builtins__ __import__ __loader__ __spec__ breakpoint compile delattr eval exec globals "
-    "locals setattr vars"
-)
-ATTRIBUTES = _split_words(
-    "ForwardRef _current_frames _evaluate _getframe ag_frame attrgetter cr_frame f_back f_builtins "
-    "f_globals f_locals get_type_hints gi_frame hardlink_to methodcaller runstring savetxt "
-    "settrace setprofile symlink_to tb_frame tb_next tofile write_bytes write_text"
-)
-DUNDERS = _split_words(
-    "__all__ __class__ __doc__ __enter__ __exit__ __file__ __init__ __init_subclass__ __name__ "
-    "__post_init__ __qualname__ __version__"
-)
+NOT_IMPORTED = INSIDES | MORE
 MOST_CODE = 2_000_000  # [bytes] of all files together; a robot program has a fiftieth of it
 UTF_8 = frozenset({"utf-8", "utf-8-sig"})
 NOTES = frozenset({".csv", ".json", ".log", ".txt"})  # what a robot may write; no code, no devices
