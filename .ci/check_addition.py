@@ -28,7 +28,9 @@ class Contract(NamedTuple):
 
 
 CONTRACTS = {
-    "sim/bench/mechanisms": Contract("simulate physics wpilib_simulations by_mujoco faults"),
+    "sim/bench/mechanisms": Contract(
+        "simulate physics wpilib_simulations by_mujoco faults", "struck"
+    ),
     "sim/physics/effects": Contract("effects engine by_mujoco"),
     "sim/inspect/faults": Contract(
         "faults contaminate sentences", "struck sound catalogue sentences_of_inspect"

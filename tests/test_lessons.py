@@ -206,12 +206,6 @@ def test_every_animation_has_a_description(text, run):
             assert animation["aria-label"].endswith(".")
 
 
-@pytest.mark.parametrize("number", ["00", "01", "02", "03", "08", "09", "10"])
-def test_a_mechanism_moves_in_the_lessons_that_need_it(number, run):
-    (text,) = (path for path in TEXTS if path.stem.startswith(number))
-    assert [animation for html in _htmls(run(text)) for animation in Page(html).animations]
-
-
 @each_lesson
 def test_a_lesson_has_three_figures_that_move_without_the_kernel(text, run):
     """The page itself draws them whenever a menu, a slider or the time changes."""
