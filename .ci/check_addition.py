@@ -43,7 +43,7 @@ CONTRACTS = {
     ),
     "lessons": Contract(
         "lessons traceability readme",
-        "is_its_text links_to pictures_of there_are guide_lists every_exercise pinned",
+        "equals_its_derivation links_to pictures_of there_are guide_lists every_exercise pinned",
     ),
     "tests/robotcode": Contract("robotcode_corpus", "every_row"),
     "grader/classroom/exports": Contract("class_exports instructors", "export"),

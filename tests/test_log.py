@@ -112,6 +112,7 @@ def test_under_a_limit_the_voltage_slides_after_the_step():
     run = stepped([0.0, 3.9, 4.4, 4.8, 5.0, 5.0])
 
     assert run.voltage_slide == pytest.approx([0.0, 0.5, 0.4, 0.2, 0.0, 0.0])
+    assert run.voltage_error[1:4] == pytest.approx([0.5 / 8, 0.3 / 8, 0.4 / 8])
 
 
 @pytest.mark.parametrize("test", ["quasistatic-forward", "triangle-forward", "chirp-reverse"])

@@ -178,5 +178,5 @@ def test_test_that_began_before_the_watch_does_not_count(start, port, tmp_path):
 
 @pytest.mark.parametrize("address", ["", "no such host", "http://x", "localhost:x", "99999"])
 def test_invalid_network_address_is_refused(tmp_path, address):
-    with pytest.raises(BadRequest, match="no address|no team"):
+    with pytest.raises(BadRequest, match="is not an address|no team"):
         NetworkTablesSource(address, folder=tmp_path)

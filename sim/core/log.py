@@ -4,6 +4,7 @@ Everything is in SI: seconds, volts, meters or radians. ``Log.units`` is the nam
 log's owner. Numbers are converted only when a file is read, and when they are shown.
 """
 
+import math
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TypeAlias
@@ -127,6 +128,22 @@ class Run:
         if self.kind != "multistep":
             steps &= np.minimum(np.abs(self.voltage[:-1]), np.abs(self.voltage[1:])) < least
         return _copy_read_only(np.append(np.where(steps, 0.0, change), 0.0))
+
+    @cached_property
+    def voltage_error(self) -> Array:
+        """(n,) [V] standard deviation of the mean voltage from each sample to the next.
+
+        It is 0 where the voltage is held. A limit that begins or ends between two samples gives the
+        voltage a kink there, and the mean differs from that of a straight line by at most an eighth
+        of the change of slope. If the voltage changes within one sample only, its mean is uniformly
+        distributed between the two readings.
+        """
+        slides = np.append(0.0, self.voltage_slide)
+        before, here, after = slides[:-2], slides[1:-1], slides[2:]
+        kinks = np.max(np.abs([after - before, here - before, after - here]), axis=0, initial=0.0)
+        isolated = (before == 0.0) & (after == 0.0)
+        error = np.where(isolated, np.abs(here) / math.sqrt(12.0), kinks / 8.0)
+        return _copy_read_only(np.append(np.where(here == 0.0, 0.0, error), 0.0))
 
     def _check_signal(self, name: str, values: Array) -> None:
         """Refuse a signal with a wrong length, or with values that are not finite or too large."""

@@ -28,13 +28,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.core.log import Array
-from sim.estimation.kalman import compute_kalman_gain
+from sim.estimation.kalman import OPEN_LOOP, GainSchedule, KalmanFilter, make_steady_state_filter
 from sim.estimation.measurements import SensorNoise, compute_noise_at_speed, estimate_noise
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.random_friction import get_friction_sd
 from sim.estimation.run_nuisance import FRICTION, LAG, POSITION, RunNuisance
 from sim.estimation.run_records import RunRecord
-from sim.physics.engine import NO_CORRECTION, RunBatch, Track, filter_runs
+from sim.physics.engine import RunBatch, Track, filter_runs
 from sim.physics.model import Model
 
 START_SD = 2.0  # [noises of a position] standard deviation of a start position
@@ -69,8 +69,9 @@ class Estimate:
         values: parameter -> value.
         nuisance: the nuisance parameters of each run.
         process_noise: [unit²/s³] spectral density of the random acceleration.
-        kalman_gain: (2, 2) gain of the filter that made the innovations.
-        innovations: (n, 2) of position and velocity; 0 where a reading is not compared.
+        kalman_filter: the filter that made the innovations.
+        innovations: (n, 2) of position and velocity; 0 where a reading is not compared, scaled
+            where a voltage is uncertain.
         innovation_cov: (2, 2) covariance of the innovations.
         cost: -2 log L, up to a constant.
     """
@@ -79,7 +80,7 @@ class Estimate:
     values: Mapping[str, float]
     nuisance: RunNuisance
     process_noise: float
-    kalman_gain: Array
+    kalman_filter: KalmanFilter
     innovations: Array
     innovation_cov: Array
     cost: float
@@ -171,6 +172,16 @@ class PredictionErrorProblem:
         return self._join("measured")
 
     @cached_property
+    def voltage_error(self) -> Array:
+        """(n,) [V] standard deviation of the mean voltage since the sample before."""
+        errors = [record.measurements.voltage_error for record in self.records]
+        return np.concatenate([np.concatenate(([0.0], one[:-1])) for one in errors])
+
+    @cached_property
+    def _voltage_is_uncertain(self) -> bool:
+        return bool(self.voltage_error.any())
+
+    @cached_property
     def informative(self) -> NDArray[np.bool_]:
         """(n,) whether a sample is compared; the first of a run is not, the run starts from it."""
         informative = self._join("informative")
@@ -241,22 +252,22 @@ class PredictionErrorProblem:
     # -- simulate --------------------------------------------------------------------------------
 
     def simulate(
-        self, model: Model, nuisance: RunNuisance, kalman_gain: Array = NO_CORRECTION
+        self, model: Model, nuisance: RunNuisance, kalman_filter: KalmanFilter = OPEN_LOOP
     ) -> Track:
         """Simulate all runs, one after another.
 
         Args:
             model: the model.
             nuisance: the nuisance parameters of each run.
-            kalman_gain: corrects the state; the default is an open-loop simulation.
+            kalman_filter: corrects the state; the default is an open-loop simulation.
         """
-        return Track(*self._filter_runs(model, nuisance, kalman_gain, self.batch).T)
+        return Track(*self._filter_runs(model, nuisance, kalman_filter, self.batch).T)
 
     def predict_errors(
         self,
         model: Model,
         nuisance: RunNuisance,
-        kalman_gain: Array,
+        kalman_filter: KalmanFilter,
         clocks: Array | None = None,
     ) -> Array:
         """(n, 2) innovations: measured minus predicted; 0 where nothing is compared.
@@ -264,25 +275,54 @@ class PredictionErrorProblem:
         Args:
             model: the model.
             nuisance: the nuisance parameters of each run.
-            kalman_gain: corrects the state.
+            kalman_filter: corrects the state.
             clocks: (runs,) [s] start time of each run; None takes the recorded one.
         """
         batch = self.batch if clocks is None else replace(self.batch, clocks=clocks)
         errors = np.empty(self.measured.shape)
-        self._filter_runs(model, nuisance, kalman_gain, batch, errors)
+        self._filter_runs(model, nuisance, kalman_filter, batch, errors)
         errors.reshape(-1)[self._ignored_places] = 0.0
+        if (schedule := self._schedule_gains(kalman_filter)) is not None:
+            rows = schedule.uncertain
+            errors[rows] = (schedule.scales @ errors[rows, :, None])[..., 0]
+            errors.reshape(-1)[self._ignored_places] = 0.0
         return np.asarray(errors)
 
     def _filter_runs(
-        self, model: Model, nuisance: RunNuisance, kalman_gain: Array, batch: RunBatch,
+        self, model: Model, nuisance: RunNuisance, kalman_filter: KalmanFilter, batch: RunBatch,
         errors: Array | None = None,
     ) -> Array:  # fmt: skip
+        schedule = self._schedule_gains(kalman_filter)
+        gain = kalman_filter.steady if schedule is None else schedule.gains
         self.simulated.add(batch.time.size)
         return filter_runs(
-            model, batch, kalman_gain=kalman_gain,
+            model, batch, kalman_gain=gain,
             position_offset=nuisance.position_offset, backlash_phase=nuisance.backlash_phase,
             friction_offset=nuisance.friction_offset, lag_offset=nuisance.lag_offset, errors=errors,
         )  # fmt: skip
+
+    def _log_scale(self, kalman_filter: KalmanFilter) -> float:
+        """The log determinant, as -2 log L, of the innovations whose voltage is uncertain."""
+        if (schedule := self._schedule_gains(kalman_filter)) is None:
+            return 0.0
+        scales = schedule.scales[self.informative[schedule.uncertain]]
+        return float(-2.0 * np.sum(np.log(scales[:, 0, 0] * scales[:, 1, 1])))  # triangular
+
+    def _schedule_gains(self, kalman_filter: KalmanFilter) -> GainSchedule | None:
+        """The gain at each sample; None if no voltage is uncertain, so that it is constant."""
+        if not self._voltage_is_uncertain:
+            return None
+        found = self._schedules.get(kalman_filter)
+        if found is None:
+            starts = self.run_edges[:-1].tolist()
+            found = kalman_filter.schedule(self.voltage_error, starts)
+            self._schedules[kalman_filter] = found
+        return found
+
+    @cached_property
+    def _schedules(self) -> WeakKeyDictionary[KalmanFilter, GainSchedule]:
+        """Kalman filter -> its schedule; all derivatives at one estimate share one."""
+        return WeakKeyDictionary()
 
     def evaluate(
         self,
@@ -302,7 +342,7 @@ class PredictionErrorProblem:
         if not structure.has_backlash:
             nuisance = nuisance.without_backlash_phase
         given = (structure, values, nuisance, process_noise)
-        nowhere = Estimate(*given, NO_CORRECTION, np.empty((0, 2)), np.eye(2), math.inf)
+        nowhere = Estimate(*given, OPEN_LOOP, np.empty((0, 2)), np.eye(2), math.inf)
         possible = values["kV"] > 0.0 and values["kA"] > SHORTEST * self.period * values["kV"]
         if not (possible and self.sample_count):
             return nowhere
@@ -310,10 +350,10 @@ class PredictionErrorProblem:
         with np.errstate(
             over="ignore", invalid="ignore"
         ):  # a diverging simulation has an infinite cost
-            kalman_gain = compute_kalman_gain(
+            kalman_filter = make_steady_state_filter(
                 model, noise=self.noise, process_noise=process_noise, period=self.period
             )
-            innovations = self.predict_errors(model, nuisance, kalman_gain)
+            innovations = self.predict_errors(model, nuisance, kalman_filter)
             cov = self.compute_covariance(innovations)
             cost = self._compute_cost(cov) + float(np.sum(nuisance.backlash_phase_costs))
             cost += sum(
@@ -323,9 +363,10 @@ class PredictionErrorProblem:
             cost += sum(
                 (values[name] / sd) ** 2 for name, sd in self.select_priors(structure).items()
             )
+            cost += self._log_scale(kalman_filter)
         if not math.isfinite(cost):
             return nowhere
-        return Estimate(*given, kalman_gain, innovations, cov, cost)
+        return Estimate(*given, kalman_filter, innovations, cov, cost)
 
     def change(
         self, point: Estimate, *, structure: ModelStructure | None = None,
@@ -460,7 +501,7 @@ class PredictionErrorProblem:
             if value is not None
         ]
         with np.errstate(over="ignore", invalid="ignore"):  # diverging ones are clipped by whiten
-            results = self._simulate_in_parallel(tried, point.kalman_gain)
+            results = self._simulate_in_parallel(tried, point.kalman_filter)
             for place, (row, name, value) in enumerate(zip(rows, names, sides, strict=True)):
                 if value is not None:
                     change = next(results)
@@ -488,7 +529,7 @@ class PredictionErrorProblem:
         model = point.structure.model(point.values)
         tried = [(model, point.nuisance.add(name, way)) for way in ways]
         with np.errstate(over="ignore", invalid="ignore"):  # diverging ones are clipped by whiten
-            found = [*self._simulate_in_parallel(tried, point.kalman_gain), point.innovations]
+            found = [*self._simulate_in_parallel(tried, point.kalman_filter), point.innovations]
             return self.whiten(point, (found[0] - found[1]) / (by * len(ways)))
 
     def list_random_effects(self, values: Mapping[str, float]) -> dict[str, float]:
@@ -518,18 +559,18 @@ class PredictionErrorProblem:
         step = (COARSE_STEP if coarse else STEP) * size
         above, below = value + step, value - step
         if structure.clamp_value(name, above) != above:
-            return None if back else below
+            return None if back else structure.clamp_value(name, below)
         if not back:
             return above
         return below if structure.clamp_value(name, below) == below else None
 
     def _simulate_in_parallel(
-        self, tried: Sequence[tuple[Model, RunNuisance]], kalman_gain: Array
+        self, tried: Sequence[tuple[Model, RunNuisance]], kalman_filter: KalmanFilter
     ) -> Iterator[Array]:
         """The innovations of several simulations, in threads if the log is long."""
 
         def one(each: tuple[Model, RunNuisance]) -> Array:
-            return self.predict_errors(*each, kalman_gain)
+            return self.predict_errors(*each, kalman_filter)
 
         return (_make_thread_pool().map if len(self.measured) > PARALLEL else map)(one, tried)
 

@@ -50,6 +50,7 @@ class RunMeasurements:
         time: (n,) [s].
         voltage: (n,) [V] applied voltage.
         voltage_slide: (n,) [V] linear change until the next sample; 0 is a zero-order hold.
+        voltage_error: (n,) [V] standard deviation of the mean voltage until the next sample.
         measured: (n, 2) position and velocity, nan where they are not fresh.
         moving: (n,) whether the mechanism moves.
         informative: (n,) whether a sample is compared: the mechanism moves, or is about to. This
@@ -63,6 +64,7 @@ class RunMeasurements:
     time: Array
     voltage: Array
     voltage_slide: Array
+    voltage_error: Array
     measured: Array
     moving: NDArray[np.bool_]
     informative: NDArray[np.bool_]
@@ -154,10 +156,11 @@ def merge_stale_samples(measurements: RunMeasurements) -> RunMeasurements:
     slide = np.add.reduceat(measurements.voltage_slide, first)
     mean = measurements.voltage + 0.5 * measurements.voltage_slide
     volts = np.add.reduceat(mean * lasts, first) / span - 0.5 * slide
+    error = np.sqrt(np.add.reduceat((measurements.voltage_error * lasts) ** 2, first)) / span
     names = ("time", "measured", "moving", "informative", "at_rest")
     return replace(
         measurements, voltage=np.where(share > 0.0, volts, measurements.voltage[kept]),
-        voltage_slide=slide,
+        voltage_slide=slide, voltage_error=error,
         **{name: getattr(measurements, name)[kept] for name in names},
     )  # fmt: skip
 
@@ -314,7 +317,7 @@ def _measure_run(
     start = start if abs(start) > least else 0.0
     voltage = run.voltage + bend_voltage(run.voltage_slide)
     return RunMeasurements(
-        run.time[cut], voltage[cut], run.voltage_slide[cut],
+        run.time[cut], voltage[cut], run.voltage_slide[cut], run.voltage_error[cut],
         np.ascontiguousarray(measured[cut]), moving[cut],
         _find_informative(run, moving)[cut], _find_rest_readings(run, moving)[cut],
         float(run.position[first]), start,

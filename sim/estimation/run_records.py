@@ -1,5 +1,6 @@
 """The runs of a log, prepared for fitting: fresh samples, start, travel and clock."""
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
@@ -7,12 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.core.log import Array, Log
+from sim.core.units import ROBUST
 from sim.estimation.measurements import (
     MIN_SAMPLES,
     RunMeasurements,
     bend_voltage,
-    compute_noise_deviation,
-    compute_third_differences,
     measure_runs,
 )
 from sim.physics.voltage_residual import list_run_start_times, shares_clock
@@ -198,8 +198,7 @@ def _find_stops(measurements: RunMeasurements) -> tuple[float, float]:
     high = x.max() < measurements.position + near
     if low == high:
         return -np.inf, np.inf
-    thirds = [compute_third_differences(time, x)] if x.size >= MIN_SAMPLES else []
-    rough = SANK * compute_noise_deviation(thirds)
+    rough = SANK * _position_roughness(x, time)
     if low:
         return _find_lowest_stop(x, measurements.position, near=near, rough=rough), np.inf
     return -np.inf, -_find_lowest_stop(-x, -measurements.position, near=near, rough=rough)
@@ -219,3 +218,12 @@ def _find_lowest_stop(x: Array, begin: float, *, near: float, rough: float) -> f
     if x[left:].min() < sank - rough:
         return -np.inf
     return sank if sank < begin - rough else begin
+
+
+def _position_roughness(x: Array, time: Array) -> float:
+    """[unit] noise of positions, from how far each is off the line between its neighbors."""
+    if x.size < 3:  # noqa: PLR2004 - one between two
+        return 0.0
+    between = (time[1:-1] - time[:-2]) / (time[2:] - time[:-2])
+    off = x[1:-1] - x[:-2] - between * (x[2:] - x[:-2])
+    return float(np.median(np.abs(off))) * ROBUST / math.sqrt(1.5)

@@ -112,7 +112,7 @@ def _compute_voltage_shift(problem: PredictionErrorProblem, point: Estimate) -> 
         return np.zeros(count)
     raised = replace(problem, records=tuple(one.raise_voltage() for one in problem.records))
     model = point.structure.model(point.values)
-    innovations = raised.predict_errors(model, point.nuisance, point.kalman_gain)
+    innovations = raised.predict_errors(model, point.nuisance, point.kalman_filter)
     change = problem.whiten(point, innovations - point.innovations)
     return make_joint_jacobian(problem, point, fine=True).compute_shift(change)[:count]
 

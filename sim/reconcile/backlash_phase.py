@@ -44,7 +44,7 @@ def estimate_backlash_phase(
     costs = [_compute_costs_by_run(problem, point, point.innovations, old)]
     for each in others:
         other = replace(old, backlash_phase=each)
-        innovations = problem.predict_errors(model, other, point.kalman_gain)
+        innovations = problem.predict_errors(model, other, point.kalman_filter)
         costs.append(_compute_costs_by_run(problem, point, innovations, other))
     tried, chosen = np.stack([before, *others]), np.argmin(np.stack(costs), axis=0)
     if not chosen.any():

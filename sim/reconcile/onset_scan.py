@@ -237,7 +237,7 @@ class _Scan:
         rate, dt = self.point.values["kV"] / self.ka, self.problem.period
         decay = math.exp(-rate * dt)
         step = np.array([[1.0, (1.0 - decay) / rate], [0.0, decay]]) @ (
-            np.eye(2) - self.point.kalman_gain
+            np.eye(2) - self.point.kalman_filter.steady
         )
         error, errors = np.array([0.0, 1.0]), []
         for _ in range(RESPONSE):
@@ -261,7 +261,7 @@ class _Scan:
         found = []
         with np.errstate(over="ignore", invalid="ignore"):  # a diverged simulation explains nothing
             model += Part(self.effect.name, given)
-            errors = isolated.predict_errors(model, nuisance, self.point.kalman_gain, clocks)
+            errors = isolated.predict_errors(model, nuisance, self.point.kalman_filter, clocks)
             for run, part in zip(runs, pairwise(isolated.run_edges.tolist()), strict=True):
                 change = (errors[slice(*part)] - self._run_innovations[run]) / size
                 white, rows = self.problem.whiten(self.point, change), self._rows(run)
@@ -287,5 +287,5 @@ class _Scan:
         """Per run, (n, 2) innovations without the effect."""
         alone, nuisance = self._isolate_runs(tuple(range(len(self.problem.records))))
         model = self.point.structure.model(self.point.values)
-        found = alone.predict_errors(model, nuisance, self.point.kalman_gain)
+        found = alone.predict_errors(model, nuisance, self.point.kalman_filter)
         return [found[slice(*rows)] for rows in pairwise(self.problem.run_edges.tolist())]

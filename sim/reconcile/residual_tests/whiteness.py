@@ -89,7 +89,7 @@ def _remove_clock_errors(problem: PredictionErrorProblem, point: Estimate) -> Ar
     """
     later = point.nuisance.add(LAG, 0.5 * problem.period)
     model = point.structure.model(point.values)
-    shifted = problem.predict_errors(model, later, point.kalman_gain)
+    shifted = problem.predict_errors(model, later, point.kalman_filter)
     white = point.innovations @ point.whitening.T
     change = np.nan_to_num(shifted - point.innovations) @ point.whitening.T
     for first, last in pairwise(problem.run_edges.tolist()):
