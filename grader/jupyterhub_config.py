@@ -59,19 +59,19 @@ def refuse_open_class() -> None:
             "The course runs from a folder with the solutions, and students could read them. "
             "Install it without -e: python -m pip install '.[course,hub]'"
         )
-    if can_anybody(["test", "-x", str(CLASS)]):
+    if can_unprivileged_user_run(["test", "-x", str(CLASS)]):
         sys.exit(
             f"Students could enter {CLASS}, which holds roster, packages and codes. Keep the class "
             f"in a folder of its own, and close it: chmod 700 '{CLASS}'"
         )
-    if not can_anybody([sys.executable, "-c", "import jupyterlab, grader"]):
+    if not can_unprivileged_user_run([sys.executable, "-c", "import jupyterlab, grader"]):
         sys.exit(
             f"Students cannot run {sys.executable} with the course. Install both where every user "
             "may read, for example in /opt."
         )
 
 
-def can_anybody(command: list[str]) -> bool:
+def can_unprivileged_user_run(command: list[str]) -> bool:
     """Whether a command succeeds for a user without any rights."""
     done = subprocess.run(  # noqa: S603 - our own arguments, no shell
         command, **run_as("nobody"), stderr=subprocess.DEVNULL, check=False

@@ -92,7 +92,7 @@ def test_ctrl_c_leaves_whole_files_and_says_how_to_continue(tmp_path, undisturbe
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such terminals")
-def test_a_terminal_shows_a_bar(tmp_path):
+def test_a_terminal_shows_a_progress_bar(tmp_path):
     spec(tmp_path)
     main, terminal = os.openpty()
     asked = ("dataset", "spec.toml", "-o", "data")

@@ -36,7 +36,7 @@ def causes(variant):
 def right(variant, theory):
     return {
         "kV_theory": f"{theory:.4g}",
-        "difference": f"{variant.percent(theory):.1f}",
+        "difference": f"{variant.compute_percent_above(theory):.1f}",
         "verdict": variant.verdict,
         "ks_flag": variant.flag,
         "inspection": causes(variant),
@@ -117,7 +117,7 @@ def test_log_shows_every_planted_fault_and_no_other(copy):
 def test_a_difference_that_follows_from_a_wrong_theory_earns_half(copy, times):
     variant = OWN.module.draw("ann")
     wrong = variant.parts.theoretical_kv * times
-    found = grade_answer(copy, kV_theory=wrong, difference=variant.percent(wrong))
+    found = grade_answer(copy, kV_theory=wrong, difference=variant.compute_percent_above(wrong))
 
     assert found["kv-theory"].points == 0
     assert (found["difference"].points, found["difference"].status) == (1, "failed")

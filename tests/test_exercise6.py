@@ -91,9 +91,9 @@ def test_at_half_a_volt_a_second_for_ten_seconds_the_facts_drivetrain_goes_nine_
     ten = PLAN.quasistatic(machine, PLAN.Plan(0.5, 2.0, 10.0, math.inf))
     feet = PLAN.quasistatic(machine, PLAN.Plan(1.0, 2.0, 10.0, math.inf))
 
-    assert ten.place(ten.lasts) == pytest.approx(9.3, abs=0.15)
-    assert feet.still + feet.when(feet.place, 3.048) == pytest.approx(4.1, abs=0.1)
-    assert machine.slip == pytest.approx(2.2, abs=0.02)
+    assert ten.compute_position(ten.driven_time) == pytest.approx(9.3, abs=0.15)
+    assert feet.still + feet.find_time(feet.compute_position, 3.048) == pytest.approx(4.1, abs=0.1)
+    assert machine.slip_voltage == pytest.approx(2.2, abs=0.02)
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -115,7 +115,7 @@ def test_closed_form_predicts_the_travel_of_the_bench(kind):
         (ran,) = log.list_runs_of_test(f"{name}-forward")
         begins = ran.time[0] - (0.04 if name == "quasistatic" else 0.0)
         moving = ran.time - begins - test(machine, plan).still
-        places = [test(machine, plan).place(max(float(t), 0.0)) for t in moving]
+        places = [test(machine, plan).compute_position(max(float(t), 0.0)) for t in moving]
         seen = (ran.position - ran.position[0]) / per
 
         assert np.max(np.abs(seen - places)) < 0.02 * max(places)
@@ -132,15 +132,15 @@ def test_mechanism_stops_where_the_plan_says(kind):
         stops = (0.0, 100.0) if machine.kg else None  # it begins at the bottom
         model = Model("elevator" if machine.kg else "simple", gains, (), stops)
         for test in (PLAN.quasistatic(machine, plan), PLAN.dynamic(machine, plan)):
-            off = test.still + test.lasts
+            off = test.still + test.driven_time
             time = np.arange(0.0, off + 12.0 * machine.tau + 0.2, 0.002)
             drive = plan.ramp * (time + 0.001) if test.ramp else np.full(time.size, plan.step)
             track = simulate_run(
                 model, time=time, voltage=np.where(time < off, drive, 0.0), state=State()
             )
 
-            assert np.max(track.position) == pytest.approx(test.rests, rel=0.01)
-            assert np.max(track.velocity) == pytest.approx(test.fastest, rel=0.01)
+            assert np.max(track.position) == pytest.approx(test.stop_position, rel=0.01)
+            assert np.max(track.velocity) == pytest.approx(test.end_speed, rel=0.01)
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -166,7 +166,9 @@ def test_acceleration_scatters_on_the_bench_as_the_rule_says():
     machine = OWN.module.draw("ann").machines["shooter"]
     noisy = machine.noise * np.random.default_rng(2).standard_normal(20000)
 
-    assert np.std(np.gradient(noisy, 0.02)[1:-1]) == pytest.approx(machine.scatter, rel=0.03)
+    assert np.std(np.gradient(noisy, 0.02)[1:-1]) == pytest.approx(
+        machine.acceleration_noise, rel=0.03
+    )
 
 
 @pytest.mark.parametrize("student", ["ann", "ben", "zoë"])
@@ -199,8 +201,8 @@ def test_texts_for_the_learner_contain_no_plan_and_no_right_word(copy, student, 
 def test_plan_rounded_up_to_a_bound_is_accepted(off, kept):
     """The current, the grip, the end of the travel: a fifth of a percent beyond is rounding."""
     machine = replace(OWN.module.draw("ann").machines["drivetrain"], limit=1e4)
-    plan = replace(DRAWN.make_sound_plan(machine), step=0.9 * machine.slip * (1.0 + off))
-    rests = max(one(machine, plan).rests for one in (PLAN.quasistatic, PLAN.dynamic))
+    plan = replace(DRAWN.make_sound_plan(machine), step=0.9 * machine.slip_voltage * (1.0 + off))
+    rests = max(one(machine, plan).stop_position for one in (PLAN.quasistatic, PLAN.dynamic))
     short = replace(machine, travel=rests / (1.0 + off))
     drawn = replace(machine, grip=9.0, limit=plan.step / 12.0 * machine.stall / (1.0 + off))
 

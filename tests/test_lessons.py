@@ -153,7 +153,7 @@ def test_the_pictures_of_lessons_are_what_their_command_draws():
 
 
 @each_lesson
-def test_deriving_twice_changes_nothing(text, derive):
+def test_deriving_a_notebook_twice_gives_the_same_notebook(text, derive):
     assert nbformat.writes(derive(text)) == nbformat.writes(derive(text))
 
 

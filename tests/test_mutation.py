@@ -74,7 +74,7 @@ def test_every_listed_variant_has_a_reason():
 
 
 @pytest.mark.parametrize("path", sorted(BASES.rglob("*.java")), ids=str)
-def test_the_other_ways_of_writing_earn_full_marks_unchanged(path, root):
+def test_unchanged_variants_of_the_solution_earn_full_marks(path, root):
     one = find_exercise(path.parent.name, root)
     grade = one.grade(path, student="ann")
 

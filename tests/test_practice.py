@@ -38,7 +38,7 @@ def grade_answer(folder, texts, *, student="ann", **answers):
 
 
 def test_the_kp_of_a_position_loop_is_named(solved, tmp_path):
-    fitted = OWN.module.of_bench(OWN.module.draw("ann")).fit
+    fitted = OWN.module.measure_bench(OWN.module.draw("ann")).fit
     wrong = f"{fitted.feedback()['position'].kp:.5g}"
 
     found = grade_answer(tmp_path, solved, kP=wrong)["gains-kp"]

@@ -297,7 +297,7 @@ def test_the_size_of_an_effect_is_given_in_everyday_sizes(times):
         (0.5 * UNLIKELY_WINDOW, 0.0, 0.9 * PERIODIC, 0.9),
     ],
 )
-def test_the_test_that_comes_nearest_to_its_threshold_counts(window, repeated, peak, ratio):
+def test_residuals_are_judged_by_their_worst_statistic(window, repeated, peak, ratio):
     left = ResidualSummary(
         replace(NO_WINDOW, size=window),
         replace(RepeatedResidual(), size=repeated),

@@ -226,7 +226,7 @@ def test_the_authored_files_of_an_exercise_are_not_graded_as_an_answer(tmp_path)
     assert (one.files, one.unused, one.problems) == ({}, (), {})
 
 
-def test_a_class_with_unused_files_is_not_all_graded(tmp_path, four, monkeypatch, capsys):
+def test_class_command_reports_unused_files_and_returns_1(tmp_path, four, monkeypatch, capsys):
     put(tmp_path / "in" / "Jane Doe", {"answers.toml": RIGHT})
     put(tmp_path / "in" / "ana", {"exercise1/answers.txt": RIGHT})
     put(tmp_path / "in" / "zoe", {"exercise1/answers.toml": RIGHT})

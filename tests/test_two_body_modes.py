@@ -103,7 +103,7 @@ def numbers(tables, at):
 @pytest.mark.parametrize("swing", [2.0, 8.0, 30.0])
 @pytest.mark.parametrize("volts", VOLTAGES)
 @pytest.mark.parametrize("body", BODIES)
-def test_a_spring_moves_as_in_steps_a_thousand_times_as_fine(body, volts, swing, share):
+def test_exact_steps_of_a_spring_agree_with_steps_a_thousand_times_finer(body, volts, swing, share):
     model, asked = sprung(BODIES[body], swing=swing, share=share), VOLTAGES[volts]
 
     right = simulate_run(model, time=TIME, voltage=asked, state=State(), step=FINE)
@@ -120,7 +120,7 @@ def test_a_spring_moves_as_in_steps_a_thousand_times_as_fine(body, volts, swing,
 @pytest.mark.parametrize("moment", [0.0005, 0.002, 0.01, 0.04])
 @pytest.mark.parametrize("volts", VOLTAGES)
 @pytest.mark.parametrize("body", BODIES)
-def test_gear_teeth_meet_and_part_at_the_times_of_fine_steps(body, volts, moment, share):
+def test_gear_teeth_meet_and_part_at_the_same_times_in_finer_steps(body, volts, moment, share):
     model, asked = loose(BODIES[body], moment=moment, share=share), VOLTAGES[volts]
 
     right = simulate_run(model, time=TIME, voltage=asked, state=State(), step=FINE)
@@ -132,7 +132,7 @@ def test_gear_teeth_meet_and_part_at_the_times_of_fine_steps(body, volts, moment
 
 
 @pytest.mark.parametrize("part", ["compliance", "backlash"])
-def test_load_leaves_its_stop_at_the_time_of_fine_steps(part):
+def test_load_leaves_its_stop_at_the_same_time_in_finer_steps(part):
     gains = {**BODIES["heavy"], "kG": 0.9}
     other = sprung if part == "compliance" else loose
     size = {"swing": 6.0} if part == "compliance" else {"moment": 0.004}

@@ -66,7 +66,7 @@ def _draw_variant(kind: str, rng: np.random.Generator) -> Variant:
 
 
 def _is_gearing_distinguishable(variant: Variant) -> bool:
-    """Whether a rotation of the rotor is no radian and none of the analyzer's units."""
+    """Whether the gear ratio differs from every factor between two units of position."""
     others = (UNITS["Rotations"][1], variant.times, 1.0 / variant.times, 1.0)
     return not any(near(variant.ratio, one, share=APART) for one in others)
 

@@ -84,7 +84,7 @@ class Seen:
 
 
 def explain(seen: str, slip: WrongNumber, earned: float = 0.0) -> WrongAnswer:
-    """A sentence about the effect of a slip."""
+    """The wrong answer that a slip explains."""
     return WrongAnswer(seen, hint=slip.says, misconception=slip.misconception, earned=earned)
 
 

@@ -307,7 +307,9 @@ def justified(answers: Answers) -> None:
     whole = answers.measure_gap(parts)
     for part in parts:
         without = answers.measure_gap([one for one in parts if one is not part])
-        if not _is_worth(part, whole=whole, without=without, count=answers.validation_count):
+        if not _is_worth_its_parameters(
+            part, whole=whole, without=without, count=answers.validation_count
+        ):
             raise WrongAnswer(
                 part.effect,
                 hint=f"without it, the gap of the validation is {without / whole:.3g} times as "
@@ -316,8 +318,8 @@ def justified(answers: Answers) -> None:
             )
 
 
-def _is_worth(part: Part, *, whole: float, without: float, count: int) -> bool:
-    """Whether an effect makes runs likelier that it was not fitted to, its parameters paid."""
+def _is_worth_its_parameters(part: Part, *, whole: float, without: float, count: int) -> bool:
+    """Whether an effect lowers the BIC of runs that its parameters were not fitted to."""
     if not whole <= NARROWER * without:  # a simulation that diverged is not narrower, either
         return False
     return 2.0 * count * math.log(without / whole) - len(part.parameters) * math.log(count) >= SURE

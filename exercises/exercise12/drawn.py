@@ -119,7 +119,7 @@ def draw_determined(rng: np.random.Generator, among: Sequence[Recipe]) -> Varian
 
 
 def is_determined(variant: Variant) -> bool:
-    """Whether an answer found by trying is right, and each effect is missed, the first most.
+    """Whether a fit passes, and the gap widens without each effect, most without the first.
 
     Alone, the first must also narrow the gap more than any effect that looks like it: a learner
     adds the one that narrows it most.

@@ -76,7 +76,7 @@ def difference(answers: StudentAnswers) -> None:
     variant, value, theirs = answers.variant, _read_percent(answers), _read_theory(answers)
     if _is_accepted(value, answers):
         return
-    if theirs > 0.0 and _is_near(value, variant.percent(theirs), variant):
+    if theirs > 0.0 and _is_near(value, variant.compute_percent_above(theirs), variant):
         says = "it follows from your kV_theory, but your kV_theory is not right yet"
         raise WrongAnswer(_format_percent(value), hint=says, earned=1.0)
     raise WrongAnswer(_format_percent(value), hint=_explain_percent(value, variant))
@@ -94,7 +94,7 @@ def _is_accepted(value: float, answers: StudentAnswers) -> bool:
     """Whether a difference [%] follows from a kV_theory that is right."""
     variant, theirs = answers.variant, _read_theory(answers)
     known = (*variant.theories, *((theirs,) if variant.right(theirs) else ()))
-    return any(_is_near(value, variant.percent(one), variant) for one in known)
+    return any(_is_near(value, variant.compute_percent_above(one), variant) for one in known)
 
 
 def _format_percent(percent: float) -> str:
@@ -128,7 +128,7 @@ def _is_near(value: float, percent: float, variant: Variant) -> bool:
 
 def _explain_percent(value: float, variant: Variant) -> str:
     """The likely cause of a wrong percentage."""
-    percent = variant.percent(variant.parts.theoretical_kv)
+    percent = variant.compute_percent_above(variant.parts.theoretical_kv)
     undone = (
         (100.0 * value, "this is a fraction. Write percent, 100 times as much"),
         (-value, "the size is right, the sign is not: above theory is positive, below negative"),

@@ -112,11 +112,11 @@ def _draw_cause(
 def _is_clear(variant: Variant) -> bool:
     """Whether the verdict is the same by either theory, and slips are told apart."""
     ways = {
-        find_verdict(variant.percent(theory) + off)
+        find_verdict(variant.compute_percent_above(theory) + off)
         for theory in variant.theories
         for off in (-CLEAR, CLEAR)
     }
-    low, high = variant.percent(variant.parts.theoretical_kv), OFF[1] * 100.0
+    low, high = variant.compute_percent_above(variant.parts.theoretical_kv), OFF[1] * 100.0
     if "gear-ratio" in variant.planted and not OFF[0] * 100.0 < abs(low) < high:
         return False
     found = list_lookalikes(variant)[1:]

@@ -92,14 +92,14 @@ class Variant:
         """Both ways to compute it."""
         return self.parts.theoretical_kv, self.parts.exact
 
-    def percent(self, theory: float) -> float:
+    def compute_percent_above(self, theory: float) -> float:
         """[%] difference between the measured kV and a theoretical one."""
         return 100.0 * (self.measured / theory - 1.0)
 
     @property
     def verdict(self) -> str:
         """The verdict on the difference between measured and theoretical kV."""
-        return find_verdict(self.percent(self.parts.theoretical_kv))
+        return find_verdict(self.compute_percent_above(self.parts.theoretical_kv))
 
     @property
     def flag(self) -> str:

@@ -70,7 +70,7 @@ def _describe_machine(machine: Machine) -> list[str]:
     for name, (field, per) in GAINS.items():
         if value := getattr(machine, field):
             lines.append(f"{name} = {value:g}  # [{per.format(unit)}]")
-    lines.append(f"free_speed = {machine.free:.3g}  # [{unit}/s] at 12 V")
+    lines.append(f"free_speed = {machine.free_speed:.3g}  # [{unit}/s] at 12 V")
     if machine.travel is not None:
         lines += [
             (
@@ -108,8 +108,9 @@ def _judge_plan(kind: str, answers: Answers) -> str:
     found = find_broken_rules(machine, plan)
     slow, fast = quasistatic(machine, plan), dynamic(machine, plan)
     if not found:
-        run = f"{slow.rests:.2f} {machine.symbol} and {fast.rests:.2f} {machine.symbol}"
-        share = 100.0 * slow.fastest / machine.free
+        symbol = machine.symbol
+        run = f"{slow.stop_position:.2f} {symbol} and {fast.stop_position:.2f} {symbol}"
+        share = 100.0 * slow.end_speed / machine.free_speed
         return f"ramp and step need {run}; the ramp reaches {share:.0f} % of the free speed"
     codes = {one.misconception for one in found} - {""}
     hints = [one.says for one in found]

@@ -126,22 +126,23 @@ def _describe_mechanism(kind: str, built: Mechanism, rng: np.random.Generator) -
     )
     if kind not in ROOM:
         return machine
-    need = quasistatic(machine, make_sound_plan(machine)).rests * float(rng.uniform(*ROOM[kind]))
+    slow = quasistatic(machine, make_sound_plan(machine))
+    need = slow.stop_position * float(rng.uniform(*ROOM[kind]))
     return replace(machine, travel=round_digits(need, 2))
 
 
 def find_steps(machine: Machine) -> tuple[float, float]:
     """[V] the smallest and the largest step that is allowed for any travel."""
-    low = machine.hold + SIGNAL * machine.scatter * machine.ka
-    return low, min(12.0 * machine.limit / machine.stall, GRIP * machine.slip)
+    low = machine.start_voltage + SIGNAL * machine.acceleration_noise * machine.ka
+    return low, min(12.0 * machine.limit / machine.stall, GRIP * machine.slip_voltage)
 
 
 def make_sound_plan(machine: Machine) -> Plan:
     """A plan that keeps the rules, if there is room for one."""
-    ramp = BEYOND * QUARTER * machine.free * machine.kv / (LASTS - machine.tau)
+    ramp = BEYOND * QUARTER * machine.free_speed * machine.kv / (LASTS - machine.tau)
     step = math.sqrt(math.prod(find_steps(machine)))
-    timeout = machine.hold / ramp + LASTS + 0.5
+    timeout = machine.start_voltage / ramp + LASTS + 0.5
     plan = Plan(ramp, step, timeout, math.inf)
-    mark = quasistatic(machine, plan).place(LASTS - machine.reaction)
+    mark = quasistatic(machine, plan).compute_position(LASTS - machine.reaction)
     plan = replace(plan, release=mark)
-    return plan if dynamic(machine, plan).push else replace(plan, step=machine.hold * 2.0)
+    return plan if dynamic(machine, plan).push else replace(plan, step=machine.start_voltage * 2.0)

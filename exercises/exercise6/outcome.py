@@ -37,14 +37,14 @@ def _find_overruns(machine: Machine, plan: Plan) -> Iterator[tuple[tuple[Any, ..
     tests = {name: make(machine, plan) for name, make in TESTS.items()}
     tests |= _lengthen_ramp(tests["the ramp"])
     near, most = MORE * machine.travel, FAR * machine.travel
-    far = {name: test for name, test in tests.items() if near < test.rests < most}
+    far = {name: test for name, test in tests.items() if near < test.stop_position < most}
     if far:
         lasts = max(_find_end(test) for test in far.values())
         time = tuple(lasts * k / STEPS for k in range(STEPS + 1))
         runs = {name: _simulate_run(test, time) for name, test in far.items()}
         words = " ".join(
-            f"The {machine.kind}: {name} needs {_format_size(test.rests)} {machine.symbol}; "
-            f"you have {machine.travel:g} {machine.symbol}."
+            f"The {machine.kind}: {name} needs {_format_size(test.stop_position)} "
+            f"{machine.symbol}; you have {machine.travel:g} {machine.symbol}."
             for name, test in far.items()
         )
         limit = (machine.travel,) * len(time)
@@ -53,10 +53,10 @@ def _find_overruns(machine: Machine, plan: Plan) -> Iterator[tuple[tuple[Any, ..
 
 def _lengthen_ramp(ramp: Test) -> dict[str, Test]:
     """A ramp that ends before it has told enough, as it would have to go on."""
-    enough = QUARTER * ramp.machine.free
-    if ramp.fastest >= LESS * enough:
+    enough = QUARTER * ramp.machine.free_speed
+    if ramp.end_speed >= LESS * enough:
         return {}
-    lasts = ramp.still + ramp.when(ramp.speed, enough)
+    lasts = ramp.still + ramp.find_time(ramp.compute_speed, enough)
     return {"the ramp until it is fast enough": replace(ramp, release=math.inf, timeout=lasts)}
 
 
@@ -67,20 +67,21 @@ def _format_size(run: float) -> str:
 
 def _find_end(test: Test) -> float:
     """[s] after which it stands again, nearly."""
-    return test.still + test.lasts + STANDS * test.machine.tau
+    return test.still + test.driven_time + STANDS * test.machine.tau
 
 
 def _simulate_run(test: Test, time: tuple[float, ...]) -> tuple[float, ...]:
     """The positions of a run: driven, then with 0 V in brake mode until it stands."""
-    machine, places, ends = test.machine, [], test.still + test.lasts
-    gains = {"kS": machine.hold, "kV": machine.kv, "kA": machine.ka}  # on its way up: all hold it
+    machine, places, ends = test.machine, [], test.still + test.driven_time
+    # On its way up, friction and gravity both hold it.
+    gains = {"kS": machine.start_voltage, "kV": machine.kv, "kA": machine.ka}
     moving = MovingPlant(
-        Plant("simple", gains), step=time[1] - time[0], start=test.place(test.lasts),
-        speed=test.fastest,
+        Plant("simple", gains), step=time[1] - time[0],
+        start=test.compute_position(test.driven_time), speed=test.end_speed,
     )  # fmt: skip
     for t in time:
         if t <= ends:
-            places.append(test.place(max(t - test.still, 0.0)))
+            places.append(test.compute_position(max(t - test.still, 0.0)))
             continue
         places.append(moving.path[-1])
         moving.apply_voltage(0.0)

@@ -54,39 +54,39 @@ class Machine:
         return self.ka / self.kv
 
     @property
-    def hold(self) -> float:
+    def start_voltage(self) -> float:
         """[V] voltage at which it begins to move, kS + kG."""
         return self.ks + self.kg
 
     @property
-    def free(self) -> float:
+    def free_speed(self) -> float:
         """The speed that a full battery reaches."""
-        return (BATTERY - self.hold) / self.kv
+        return (BATTERY - self.start_voltage) / self.kv
 
     @property
-    def slip(self) -> float:
+    def slip_voltage(self) -> float:
         """[V] voltage at which the wheels spin from standstill."""
         return self.ks + self.ka * self.grip * GRAVITY if self.grip else math.inf
 
     @property
-    def scatter(self) -> float:
+    def acceleration_noise(self) -> float:
         """The noise of an acceleration that is computed from the samples before and after."""
         return self.noise / (math.sqrt(2.0) * PERIOD)
 
-    def speed(self, push: float, ramp: float, time: float) -> float:
-        """The distance from the start after a time of moving [s]."""
+    def compute_speed(self, push: float, ramp: float, time: float) -> float:
+        """The speed after a time of moving [s]."""
         e = -math.expm1(-time / self.tau)
         return (push * e + ramp * (time - self.tau * e)) / self.kv
 
-    def place(self, push: float, ramp: float, time: float) -> float:
+    def compute_position(self, push: float, ramp: float, time: float) -> float:
         """The distance from the start after a time of moving [s]."""
         e, tau = -math.expm1(-time / self.tau), self.tau
         risen = time * time / 2.0 - tau * time + tau * tau * e
         return (push * (time - tau * e) + ramp * risen) / self.kv
 
-    def stops_in(self, speed: float) -> float:
+    def compute_braking_distance(self, speed: float) -> float:
         """The braking distance with 0 V in brake mode."""
-        wall = self.hold / self.kv
+        wall = self.start_voltage / self.kv
         return self.tau * (speed - wall * math.log1p(speed / wall))
 
 
@@ -123,37 +123,39 @@ class Test:
     release: float
 
     @cached_property
-    def lasts(self) -> float:
+    def driven_time(self) -> float:
         """[s] duration of the driven motion."""
         longest = max(self.timeout - self.still, 0.0)
-        if self.place(longest) <= self.release:
+        if self.compute_position(longest) <= self.release:
             return longest
-        return min(longest, self.when(self.place, self.release) + self.machine.reaction)
+        released = self.find_time(self.compute_position, self.release) + self.machine.reaction
+        return min(longest, released)
 
     @property
-    def by_mark(self) -> bool:
-        """Whether the thumb ends it, and not the timeout."""
-        return self.lasts < self.timeout - self.still
+    def ends_at_mark(self) -> bool:
+        """Whether the button is released at the mark, before the timeout."""
+        return self.driven_time < self.timeout - self.still
 
     @property
-    def fastest(self) -> float:
+    def end_speed(self) -> float:
         """The speed at the end of the driven motion."""
-        return self.speed(self.lasts)
+        return self.compute_speed(self.driven_time)
 
     @property
-    def rests(self) -> float:
+    def stop_position(self) -> float:
         """The distance from the start at which it stands again."""
-        return self.place(self.lasts) + self.machine.stops_in(self.fastest)
+        braking = self.machine.compute_braking_distance(self.end_speed)
+        return self.compute_position(self.driven_time) + braking
 
-    def speed(self, time: float) -> float:
+    def compute_speed(self, time: float) -> float:
+        """The speed after a time of moving [s]."""
+        return self.machine.compute_speed(self.push, self.ramp, time)
+
+    def compute_position(self, time: float) -> float:
         """The distance from the start after a time of moving [s]."""
-        return self.machine.speed(self.push, self.ramp, time)
+        return self.machine.compute_position(self.push, self.ramp, time)
 
-    def place(self, time: float) -> float:
-        """The distance from the start after a time of moving [s]."""
-        return self.machine.place(self.push, self.ramp, time)
-
-    def when(self, what: Callable[[float], float], value: float) -> float:
+    def find_time(self, what: Callable[[float], float], value: float) -> float:
         """[s] time of motion after which an increasing quantity reaches a value."""
         low, high = 0.0, 1.0
         while what(high) < value:
@@ -166,11 +168,11 @@ class Test:
 
 def quasistatic(machine: Machine, plan: Plan) -> Test:
     """The slow test of a plan."""
-    still = machine.hold / plan.ramp
+    still = machine.start_voltage / plan.ramp
     return Test(machine, 0.0, plan.ramp, still, plan.timeout, plan.release)
 
 
 def dynamic(machine: Machine, plan: Plan) -> Test:
     """The step test of a plan."""
-    push = max(plan.step - machine.hold, 0.0)
+    push = max(plan.step - machine.start_voltage, 0.0)
     return Test(machine, push, 0.0, 0.0, plan.timeout, plan.release)

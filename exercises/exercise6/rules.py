@@ -42,11 +42,11 @@ def _find_dangers(machine: Machine, plan: Plan) -> Iterator[BrokenRule]:
         fits = CLEARLY * machine.travel < plan.release <= MORE * times * machine.travel
         yield BrokenRule(f"{says}. Is your number in {named}?" if fits else says, UNITS * fits)
     slow = quasistatic(machine, plan)
-    asks = plan.ramp * (slow.still + slow.lasts)
+    asks = plan.ramp * (slow.still + slow.driven_time)
     if asks > MORE * BATTERY:
         yield BrokenRule(f"your ramp reaches {asks:.1f} V; the battery has {BATTERY:g} V")
     for name, test in (("ramp", slow), ("step", dynamic(machine, plan))):
-        if machine.travel is not None and test.rests > MORE * machine.travel:
+        if machine.travel is not None and test.stop_position > MORE * machine.travel:
             yield BrokenRule(_explain_long_run(name, test, machine.travel))
     amps = plan.step / BATTERY * machine.stall
     if amps > MORE * machine.limit:
@@ -54,10 +54,10 @@ def _find_dangers(machine: Machine, plan: Plan) -> Iterator[BrokenRule]:
         yield BrokenRule(
             (f"{says}controller reduces the voltage, and the mechanism starts more slowly"), BIG
         )
-    if plan.step > MORE * GRIP * machine.slip:
-        share = 100.0 * plan.step / machine.slip
+    if plan.step > MORE * GRIP * machine.slip_voltage:
+        share = 100.0 * plan.step / machine.slip_voltage
         says = f"your step is {share:.1f} % of V_slip; at most 90 %"
-        if plan.step > machine.slip:
+        if plan.step > machine.slip_voltage:
             says += ". The wheels spin, and the encoder counts meters that the robot does not move"
         yield BrokenRule(says, BIG)
 
@@ -65,45 +65,44 @@ def _find_dangers(machine: Machine, plan: Plan) -> Iterator[BrokenRule]:
 def _explain_long_run(name: str, test: Test, travel: float) -> str:
     """The run a test needs, and how it ends."""
     symbol = test.machine.symbol
-    says = f"your {name} needs {test.rests:.2f} {symbol}; you have {travel:g} {symbol}. "
-    hit = test.when(test.place, travel)
-    if hit < test.lasts:
-        says += f"It hits the end at {test.speed(hit):.2f} {symbol}/s, {test.still + hit:.1f} s "
-        return says + "after the start, with the voltage still on"
-    late = "the thumb needs time to react, and " if test.by_mark else ""
-    return (
-        f"{says}At its end it moves at {test.fastest:.2f} {symbol}/s: {late}it cannot stop at once"
-    )
+    says = f"your {name} needs {test.stop_position:.2f} {symbol}; you have {travel:g} {symbol}. "
+    hit = test.find_time(test.compute_position, travel)
+    if hit < test.driven_time:
+        says += f"It hits the end at {test.compute_speed(hit):.2f} {symbol}/s, "
+        return says + f"{test.still + hit:.1f} s after the start, with the voltage still on"
+    late = "the thumb needs time to react, and " if test.ends_at_mark else ""
+    says += f"At its end it moves at {test.end_speed:.2f} {symbol}/s: "
+    return f"{says}{late}it cannot stop at once"
 
 
 def _find_lacks(machine: Machine, plan: Plan) -> Iterator[BrokenRule]:
     slow = quasistatic(machine, plan)
-    end = "your mark" if slow.by_mark else "the timeout"
+    end = "your mark" if slow.ends_at_mark else "the timeout"
     needs = "kS + kG" if machine.kind == "elevator" else "kS"
-    if slow.lasts < LESS * MOVES:
-        says = f"your ramp moves it for {slow.lasts:.2f} s until {end}; at least {MOVES:g} s"
-        if not slow.by_mark:
+    if slow.driven_time < LESS * MOVES:
+        says = f"your ramp moves it for {slow.driven_time:.2f} s until {end}; at least {MOVES:g} s"
+        if not slow.ends_at_mark:
             says += f". For the first {slow.still:.2f} s it stands still: until then, "
-            says += f"your ramp is below {needs} ({machine.hold:.2f} V)"
+            says += f"your ramp is below {needs} ({machine.start_voltage:.2f} V)"
         yield BrokenRule(says)
-    if slow.fastest < LESS * QUARTER * machine.free:
+    if slow.end_speed < LESS * QUARTER * machine.free_speed:
         yield _explain_slow_ramp(slow, end)
-    push = plan.step - machine.hold
+    push = plan.step - machine.start_voltage
     if push <= 0.0:
-        yield BrokenRule(f"your step does not move it: {needs} is {machine.hold:.2f} V")
-    elif push / machine.ka < LESS * SIGNAL * machine.scatter:
-        times = push / machine.ka / machine.scatter
+        yield BrokenRule(f"your step does not move it: {needs} is {machine.start_voltage:.2f} V")
+    elif push / machine.ka < LESS * SIGNAL * machine.acceleration_noise:
+        times = push / machine.ka / machine.acceleration_noise
         says = f"your step's acceleration is {times:.2f} times its noise; at least {SIGNAL:g}"
         yield BrokenRule(f"{says} times. You cannot see it in the noise")
 
 
 def _explain_slow_ramp(slow: Test, end: str) -> BrokenRule:
     machine = slow.machine
-    share = 100.0 * slow.fastest / machine.free
+    share = 100.0 * slow.end_speed / machine.free_speed
     says = f"your ramp reaches {share:.1f} % of the free speed at {end}; at least 25 %"
-    run = slow.place(slow.when(slow.speed, QUARTER * machine.free))
+    run = slow.compute_position(slow.find_time(slow.compute_speed, QUARTER * machine.free_speed))
     fits = machine.travel is None or run <= machine.travel
-    if fits and not slow.by_mark:
+    if fits and not slow.ends_at_mark:
         return BrokenRule(says)
     says += f". To reach that, your ramp needs {run:.2f} {machine.symbol}; "
     says += f"your mark is at {slow.release:g}" if fits else f"you have {machine.travel:g}"

@@ -47,7 +47,7 @@ def blame(gain: str, variant: Variant, preparation: Preparation) -> Said:
 
 
 def _compute_error(gain: str, variant: Variant, preparation: Preparation) -> float:
-    """The relative error of a gain; infinite without a fit."""
+    """The absolute error of a fitted gain, in its unit; infinite if there is no fit."""
     try:
         found = fit_prepared(variant.log, preparation).gains[gain]
     except Refusal:

@@ -28,7 +28,7 @@ from sim.core.errors import Refusal
 from sim.inspect.faults import FAULTS
 from sim.physics.motors import find_motor
 
-from .measured import ANALYSES, Measured, noted, of_bench, of_robot, team_of
+from .measured import ANALYSES, Measured, make_team, measure_bench, measure_robot, read_noted_gain
 
 HERE = Path(__file__).resolve().parent
 FILES = ("answers.toml",)
@@ -116,15 +116,15 @@ class Answers:
     def measured(self) -> Measured:
         """The mechanism: with a robot, that of its log; without, the bench's drivetrain."""
         if self.log:
-            return of_robot(self.folder / Path(self.log.replace("\\", "/")).name, self.given)
-        return of_bench(draw(self.student))
+            return measure_robot(self.folder / Path(self.log.replace("\\", "/")).name, self.given)
+        return measure_bench(draw(self.student))
 
     @cached_property
     def constants(self) -> Any:  # noqa: ANN401 - of a module that is loaded by path
-        """As exercise 10 runs it, with this mechanism's gains for the analyzer's."""
+        """Exercise 10's reading of the constants, compared with the gains of this mechanism."""
         code = self._read("constants", TENTH)
         one = self.measured
-        shown = {name: noted(name, self.given, one) for name in one.key.asked}
+        shown = {name: read_noted_gain(name, self.given, one) for name in one.key.asked}
         kind = ANALYSES[one.fit.type]
         parts = (
             {}
@@ -137,7 +137,7 @@ class Answers:
     @cached_property
     def theory(self) -> Any:  # noqa: ANN401 - of a module that is loaded by path
         """The comparison with theory, made as in exercise 2."""
-        return StudentAnswers(self.given, team_of(self.measured, self.given, TEAM), self.student)
+        return StudentAnswers(self.given, make_team(self.measured, self.given, TEAM), self.student)
 
 
 @cache_draws
@@ -161,7 +161,7 @@ def _draw_drivetrain(rng: np.random.Generator) -> Mechanism:
 def make_files(student: str) -> dict[str, Made]:
     """The log of a drivetrain, and its parts."""
     variant = draw(student)
-    parts = of_bench(variant).parts
+    parts = measure_bench(variant).parts
     if parts is None:
         raise RuntimeError("the bench's own mechanism has parts")
     rpm = parts.motor.free_speed * 30.0 / math.pi
@@ -318,7 +318,7 @@ theory_checks = _borrow_checks(
 def theory_verdict(answers: Answers) -> None:
     """Your kV, compared with theory."""
     variant = answers.theory.variant
-    percents = [variant.percent(one) for one in variant.theories]
+    percents = [variant.compute_percent_above(one) for one in variant.theories]
     right = {TEAM.find_verdict(one + off) for one in percents for off in (-NEAR_BOUND, NEAR_BOUND)}
     if BELOW < max(percents) <= 0.0:
         right.add("ok")

@@ -51,7 +51,7 @@ class Measured:
         return UNITS[self.units]
 
 
-def of_bench(variant: object) -> Measured:
+def measure_bench(variant: object) -> Measured:
     """The mechanism of exercise 9, for learners without a robot."""
     built, fit = variant.mechanism, variant.fit  # type: ignore[attr-defined]  # loaded by path
     turns = built.radius == 1.0
@@ -59,7 +59,7 @@ def of_bench(variant: object) -> Measured:
     return _make_measured(fit, "Rotations" if turns else "Meters", parts, "")
 
 
-def of_robot(path: Path, given: Mapping[str, object]) -> Measured:
+def measure_robot(path: Path, given: Mapping[str, object]) -> Measured:
     """A mechanism of the learner's own, from its log.
 
     Raises:
@@ -121,8 +121,8 @@ def _read_parts(given: Mapping[str, object], units: str) -> Parts:
     return Parts(motor, 1, ratio, diameter)
 
 
-def team_of(measured: Measured, given: Mapping[str, object], team: ModuleType) -> object:
-    """The mechanism as a team of exercise 2, which compares its gains with theory.
+def make_team(measured: Measured, given: Mapping[str, object], team: ModuleType) -> object:
+    """The mechanism as a variant of exercise 2, which compares its kV with theory.
 
     Args:
         measured: the mechanism.
@@ -135,15 +135,17 @@ def team_of(measured: Measured, given: Mapping[str, object], team: ModuleType) -
     if measured.parts is None:
         raise NotReachedError(measured.why)
     one = measured.parts
-    kv = noted("kV", given, measured) * (2.0 * math.pi if measured.units == "Radians" else 1.0)
+    kv = read_noted_gain("kV", given, measured) * (
+        2.0 * math.pi if measured.units == "Radians" else 1.0
+    )
     rpm = one.motor.free_speed * 30.0 / math.pi
     built = team.Parts(one.motor.name, rpm, one.motor.back_emf, one.motors, one.ratio, one.diameter)
     told = {"code": {"ratio": repr(one.ratio)}}
     return team.Variant("own", built, kv, measured.fit.gains["kS"], 0.0, (), told)
 
 
-def noted(name: str, given: Mapping[str, object], measured: Measured) -> float:
-    """A gain as the learner wrote it down, where it is right; else as the fit has it."""
+def read_noted_gain(name: str, given: Mapping[str, object], measured: Measured) -> float:
+    """The gain that the learner wrote down if it is right, else the fitted gain."""
     asked = measured.key.asked[name]
     try:
         value = read_answer_number(given.get(name), asked)

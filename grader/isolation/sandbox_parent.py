@@ -71,7 +71,7 @@ class Limits:
     prints: int = 4000
     numbers: int = 64 * 1024
 
-    def for_child(self) -> dict[str, int]:
+    def make_child_limits(self) -> dict[str, int]:
         """The limits that the child sets for itself: processor time [s] and memory [bytes]."""
         return {"seconds": int(self.seconds) + 1, "memory": self.memory, "file": self.file}
 
@@ -123,7 +123,7 @@ def run_functions(
             "landlock_abi": LANDLOCK_ABI,
             "packages": find_package_paths(packages),
             **_write_orders(source, calls, given),
-            "limits": limits.for_child(),
+            "limits": limits.make_child_limits(),
         }
         child = _Child(orders, work=work, limits=limits)
         ended = child.watch(limits.seconds)

@@ -48,7 +48,7 @@ def run_program(
         "landlock_abi": sandbox_parent.LANDLOCK_ABI,
         "given": str(given),
         "packages": sandbox_parent.find_package_paths(packages),
-        "limits": limits.for_child(),
+        "limits": limits.make_child_limits(),
     }
     with tempfile.TemporaryFile() as stdout:
         process = subprocess.Popen(  # noqa: S603 - our own Python and our own program

@@ -126,9 +126,9 @@ def is_contradicted(
 
 
 def list_rival_scores(before: SelectionRound, kept: Sequence[str], name: str) -> dict[str, float]:
-    """Score of each candidate in an effect's round, except of other effects of the last model.
+    """Scores of an effect and its rivals, all candidates in the same round.
 
-    Those explain something else, because the last model needs both.
+    Other effects of the last model are no rivals: it needs them as well.
 
     Args:
         before: the round before the effect was added, with its candidates.

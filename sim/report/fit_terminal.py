@@ -127,7 +127,7 @@ def format_value(value: float, error: float) -> str:
 
 
 def _count_places(value: float, error: float) -> int:
-    """Decimals up to the second digit of an error; negative to the left of the point."""
+    """Decimal places that show two digits of an error; negative for an error of 100 or more."""
     error = max(error, FINEST * abs(value))
     return 1 - math.floor(math.log10(error)) if error > 0.0 else 0
 

@@ -40,14 +40,14 @@ def swap_values(one: str, other: str) -> Callable[[str], str]:
     return edit_text
 
 
-def choose_other_term(text: str) -> str:
-    """The speed's term for the acceleration's, or the other way round."""
+def swap_largest_term(text: str) -> str:
+    """Exchange kV and kA as the answer to which term is largest."""
     right, wrong = ("kV", "kA") if 'largest = "kV"' in text else ("kA", "kV")
     return text.replace(f'largest = "{right}"', f'largest = "{wrong}"')
 
 
-def write_unit(text: str) -> Callable[[str], str]:
-    """Make another unit of kV."""
+def replace_kv_unit(text: str) -> Callable[[str], str]:
+    """Edit that gives kV another unit."""
     return lambda right: re.sub(r'kV_unit = "[^"]*"', f'kV_unit = "{text}"', right)
 
 
@@ -92,14 +92,14 @@ MISTAKES = (
     Mistake("nothing", ANSWERS, replace_text(("forward = ", 'forward = "" # ')), "forward",
         "nothing"),
     Mistake("kA's unit", ANSWERS, replace_text(("V·s/", "V·s²/")), "kv-unit", "to kA", "M-UNITS"),
-    Mistake("kS's unit", ANSWERS, write_unit("V"), "kv-unit", "to kS", "M-UNITS"),
+    Mistake("kS's unit", ANSWERS, replace_kv_unit("V"), "kv-unit", "to kS", "M-UNITS"),
     Mistake("no parentheses", ANSWERS, replace_text(("V·s/", "V/s/")), "kv-unit", "parentheses",
         "M-UNITS"),
-    Mistake("another length", ANSWERS, write_unit("V·s/in"), "kv-unit", "the right kind of unit",
-        "M-UNITS"),
-    Mistake("not a unit", ANSWERS, write_unit("volt per banana"), "kv-unit",
+    Mistake("another length", ANSWERS, replace_kv_unit("V·s/in"), "kv-unit",
+        "the right kind of unit", "M-UNITS"),
+    Mistake("not a unit", ANSWERS, replace_kv_unit("volt per banana"), "kv-unit",
         "'banana' is not known"),
-    Mistake("the other term", ANSWERS, choose_other_term, "largest",
+    Mistake("the other term", ANSWERS, swap_largest_term, "largest",
         "in volts, and compare their sizes"),
     Mistake("a word that is no term",
         ANSWERS, replace_text(("largest = ", 'largest = "torque" # ')), "largest",

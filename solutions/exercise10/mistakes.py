@@ -82,7 +82,7 @@ def write_slot0(scale: str, *, sign: str = "UseVelocitySign") -> Callable[[str],
             )
         made = f"{'new ' * java}Slot0Configs()." + ".".join(settings)
         return add_imports(
-            _replace_line(text, made), "ctre.phoenix6.configs", "ctre.phoenix6.signals"
+            _replace_feedforward(text, made), "ctre.phoenix6.configs", "ctre.phoenix6.signals"
         )
 
     return edit_text
@@ -119,7 +119,7 @@ def write_spark_config(order: dict[str, str]) -> Callable[[str], str]:
     def edit_text(text: str) -> str:
         chain = ".".join(f"{name}({HELD}{gain})" for name, gain in order.items())
         made = f"{'new ' * ('new ' in text)}FeedForwardConfig().{chain}"
-        return add_imports(_replace_line(text, made), "revrobotics.spark.config")
+        return add_imports(_replace_feedforward(text, made), "revrobotics.spark.config")
 
     return edit_text
 
@@ -151,8 +151,8 @@ def _to_snake_case(name: str) -> str:
     return re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name).lower()
 
 
-def _replace_line(text: str, made: str) -> str:
-    """The text with something else in place of WPILib's feedforward."""
+def _replace_feedforward(text: str, made: str) -> str:
+    """The text with other code in place of WPILib's feedforward."""
     found = re.search(rf"(new )?{CLASS}\w*\((?=Char)[^)]*\)", text)
     if found is None:
         raise ValueError("the solution makes no feedforward")

@@ -141,7 +141,7 @@ class ButtonBench(Bench):
         self.released: dict[str, int] = {}
 
     def look(self, facts: dict[str, Any]) -> None:
-        """Press everything."""
+        """Record the bindings, what runs with no button pressed, and the effect of each press."""
         self.simulation = Simulation({}, {}, self.subject.refill)
         self.simulation.jammed = True  # so that no end of travel ends a test
         self.scheduler = CommandScheduler()

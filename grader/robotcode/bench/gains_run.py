@@ -184,7 +184,7 @@ def to_number(value: Any) -> float | None:
 
 
 def watch_configurations() -> None:
-    """Let every configuration of a motor controller be written down when it is made."""
+    """Record every configuration of a motor controller when the program creates it."""
     for base in (Record, BaseConfig):
         make = base.__init__
         if hasattr(make, "watched"):
@@ -215,8 +215,8 @@ def list_feedforwards() -> Iterator[Gains]:
         yield Gains(kind, int(one._line), gains, step=to_number(one.dt))
 
 
-def _list_made(kind: type) -> list[Any]:
-    """The configurations of a vendor that were made."""
+def _list_configurations(kind: type) -> list[Any]:
+    """The configuration objects of a kind that the program created."""
     made = WORLD.configurations
     return [one for one in made if isinstance(one, kind)]
 
@@ -224,7 +224,7 @@ def _list_made(kind: type) -> list[Any]:
 def _find_slots() -> Iterator[tuple[Any, list[Any]]]:
     """Every first slot in use, else every one that was made, and the settings of its feedback."""
     used = [one._config for one in WORLD.devices if hasattr(one, "_config")]
-    for records in (used, _list_made(Record)):
+    for records in (used, _list_configurations(Record)):
         slots = [(one, one._values.get("Slot0", one)) for one in records]
         slots = [(one, slot) for one, slot in slots if type(slot).__name__ == SLOT0]
         slots = [
@@ -263,7 +263,7 @@ def _find_sparks(kind: str) -> Iterator[tuple[int, dict[str, Any]]]:
         for one in WORLD.devices
         if hasattr(one, "_settings")
     ]
-    made = _list_made(BaseConfig)
+    made = _list_configurations(BaseConfig)
     built = [(one._line, one._given) for one in made if type(one).__name__ == kind]
     filled = [(line, given) for line, given in used if given]
     return ((int(line), given) for line, given in filled or built if given)

@@ -94,7 +94,7 @@ class Bench:
         return self.kind(season=self.subject.season, **self.subject.describe() | facts)
 
     def look(self, facts: dict[str, Any]) -> None:
-        """Write down what happens as long as the program runs."""
+        """Record what happens as long as the program runs."""
         raise NotImplementedError
 
     def look_last(self, facts: dict[str, Any]) -> None:
@@ -229,7 +229,7 @@ class RoutineBench(Bench):
             WORLD.battery = BATTERY  # it sags once the motors have their shares of it
             drive(voltage)
             self._note_commands("drive")
-            self._delay_next_loop()
+            self._sag_battery_briefly()
             self.simulation.settle()
             self._note_truth()  # where there is no log callback
             self.where = "command"
@@ -258,7 +258,7 @@ class RoutineBench(Bench):
                 for one in self.simulation.motors
             }
 
-    def _delay_next_loop(self) -> None:
+    def _sag_battery_briefly(self) -> None:
         """Reduce the voltage for a moment, so that requested and applied voltage differ."""
         row = self.row
         now = (
@@ -306,7 +306,7 @@ class RoutineBench(Bench):
                 for one in self.simulation.motors:
                     name = self.simulation.name(one)
                     row.applied[name] = one._applied
-                    row.limits[name] = self.simulation.find_limit(one)
+                    row.limits[name] = self.simulation.find_voltage_share(one)
                     if one._inverted != before[id(one)]:
                         row.flipped.add(name)
                 rows.append(row)

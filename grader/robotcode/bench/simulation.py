@@ -109,7 +109,7 @@ class Simulation:
         return self.names.get(id(device)) or f"{type(device).__name__} {place}"
 
     def find_leader(self, motor: Motor) -> Motor | None:
-        """The motor that another one follows; None if it follows nothing that is there."""
+        """The last leader in the chain that a motor follows; None if it follows no motor."""
         seen = {id(motor)}
         one = motor
         while one._leader is not None:
@@ -134,7 +134,7 @@ class Simulation:
             linked = [one for one in motors if getattr(one, "_turned_by", None) == sensor._port]
             if not motors:
                 return
-            near = linked or self._find_motors_named_like(sensor, motors)
+            near = linked or self._find_motor_named_like(sensor, motors)
             chosen = (
                 near[0]
                 if near
@@ -145,8 +145,8 @@ class Simulation:
             sensor._shaft = shaft
             self.turned_by[id(sensor)] = chosen
 
-    def _find_motors_named_like(self, sensor: Device, motors: list[Motor]) -> list[Motor]:
-        """The motors that share a word of their name, such as ``left``, with a sensor alone."""
+    def _find_motor_named_like(self, sensor: Device, motors: list[Motor]) -> list[Motor]:
+        """The one motor whose name shares most words with a sensor's; [] if there are several."""
         words = split_words(self.name(sensor))
         scores = [(len(words & split_words(self.name(one))), one) for one in motors]
         best = max(score for score, _ in scores)
@@ -158,16 +158,16 @@ class Simulation:
         mount = self.mounts.get(find_device_number(motor), Mount())
         return -1.0 if mount.backward != motor._inverted and self.mounts else 1.0
 
-    def find_limit(self, motor: Motor) -> float:
-        """The share of the voltage asked for that gets through at the moment."""
+    def find_voltage_share(self, motor: Motor) -> float:
+        """The share of the requested voltage that a motor gets at the moment."""
         if not self.hiccup:
             return 1.0
         leader = self.leaders[id(motor)] or motor
         duty = leader._command.kind == "duty"
-        return (SAGGED / BATTERY if duty else 1.0) * self.get_through(leader)
+        return (SAGGED / BATTERY if duty else 1.0) * self.get_current_limit_share(leader)
 
-    def get_through(self, motor: Motor) -> float:
-        """The share of a motor's voltage that its current limit lets through, of each another."""
+    def get_current_limit_share(self, motor: Motor) -> float:
+        """The share of the voltage that a motor's current limit lets through, by motor."""
         if not self.hiccup or motor._port[0] == "PWM":
             return 1.0
         return LIMITED ** (1 + list(self.leaders).index(id(motor)) % MOST_LIMITS)
@@ -176,7 +176,7 @@ class Simulation:
         """Fix the voltage of every motor until the next loop."""
         for one in self.motors:
             if one._leader is None:
-                one._settle(self.get_through(one))
+                one._settle(self.get_current_limit_share(one))
         for one in self.motors:
             if one._leader is not None:
                 leader = self.find_leader(one)

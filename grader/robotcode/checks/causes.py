@@ -22,7 +22,7 @@ WHEN = {  # where a program stopped, in words
 
 
 def explain_doubt(what: str, text: str) -> str:
-    """A message that asks the learner about code with an unknown effect."""
+    """The message that the grader cannot know something, with the code that causes it."""
     return f"the grader cannot know {what}{f': {text}' if text else ''}"
 
 

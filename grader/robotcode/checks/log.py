@@ -359,7 +359,7 @@ def _close(one: float, other: float) -> bool:
 
 
 def _check_gearing(logged: Sequence[DeviceFacts | None]) -> None:
-    """Whether all logged motors report rotations of the mechanism, or none does."""
+    """Raise a fault if only some motors of one type have a gear ratio in their settings."""
     motors = [one for one in logged if one is not None]
     bare = next((one for one in motors if one.gearing == 1.0), None)
     for one in motors:

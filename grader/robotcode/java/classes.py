@@ -113,7 +113,7 @@ class Method:
         )
 
     def bind(self, args: Sequence[Any], *, spread: bool) -> list[Any]:
-        """The arguments as the parameters hold them."""
+        """The arguments, converted to the types of the parameters."""
         given = list(args)
         if spread:
             fixed = len(self.kinds) - 1
@@ -547,7 +547,7 @@ def _make_type(name: str, bases: tuple[type, ...], content: dict[str, Any]) -> t
 
 
 def _make_function(overloads: Overloads, *, static: bool) -> Any:
-    """What a fake, or Java, finds under the method's name."""
+    """The Python function that calls a method's overloads, for fakes of library classes."""
 
     def call(this: Any, *args: Any) -> Any:
         return overloads.call(this, args, ())

@@ -290,7 +290,7 @@ class Program:
         return Unknown(full.rpartition(".")[2])
 
     def _check_import(self, one: Import) -> None:
-        """Write down an import of a class that its library has elsewhere, or does not have."""
+        """Report an import of a class that is in another package, or does not exist."""
         full = one.full.rpartition(".")[0] if one.static and not one.star else one.full
         if one.star and not one.static:
             return

@@ -42,7 +42,7 @@ class StaticTypes:
         return self.program.resolve(name, self.owner, self.frame)
 
     def find_type(self, node: Node | None) -> Any:
-        """The class that a type stands for; an unknown one is written down."""
+        """The class that a type names; an unknown one is reported as an error."""
         if node is None:
             return None
         name = kind_of(node)

@@ -40,15 +40,15 @@ def _list_program_files(file: Path) -> Iterator[Path]:
     """The files of the program. Only a folder with ``robot.py`` is one of a robot as a whole."""
     beside, above = file.parent, file.parent.parent
     for folder in (beside, above):
-        yield from _code(folder)
+        yield from _list_code_files(folder)
     for folder in (beside, above) if (above / "robot.py").is_file() else (beside,):
         for below in _list_folder(folder):
             if below != beside and below.is_dir() and not below.is_symlink():
-                yield from _code(below)
+                yield from _list_code_files(below)
 
 
-def _code(folder: Path) -> Iterator[Path]:
-    """The plain code files; links are left out, because they may lead to other people's files."""
+def _list_code_files(folder: Path) -> Iterator[Path]:
+    """The code files of a folder, without links: they may lead to other people's files."""
     for found in _list_folder(folder):
         if (
             found.suffix in SUFFIXES

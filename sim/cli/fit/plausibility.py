@@ -45,7 +45,7 @@ def read_motor_parts(
 def check_against_physics(
     found: Fit, log: Log, *, parts: Parts | None, notes: tuple[str, ...] = ()
 ) -> tuple[Fit, tuple[str, ...]]:
-    """The fit with the doubts of the plausibility checks before its own, and its notes.
+    """The fit with the doubts of the plausibility checks added first, and all notes.
 
     Args:
         found: the fit, in any unit.

@@ -32,7 +32,7 @@ from sim.inspect.fault import (
     rescale_motion,
 )
 from sim.inspect.log_features import LogFeatures, find_driven_samples
-from sim.inspect.step_rise import StepRise, find_rise, spin_wheels
+from sim.inspect.step_rise import StepRise, find_rise, simulate_wheels
 
 KEEPS = (
     1.0 / 3.0
@@ -118,7 +118,7 @@ def _clip_voltage(features: LogFeatures, index: int, *, keeps: float) -> Run | N
     speeds = []
     for asked, keep in ((run.voltage, np.inf), (np.full(len(run), volts), keeps)):
         push = way * baseline.compute_steady_speed(asked, run.position)[first:]
-        spin = spin_wheels(
+        spin = simulate_wheels(
             np.interp(fine, since, push),
             fine,
             scales=np.array([baseline.timescale]),

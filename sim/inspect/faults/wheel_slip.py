@@ -37,7 +37,7 @@ from sim.inspect.fault import (
 )
 from sim.inspect.launch import LEAST, find_launch_event, find_step_start
 from sim.inspect.log_features import LogFeatures
-from sim.inspect.step_rise import find_rise, spin_wheels
+from sim.inspect.step_rise import find_rise, simulate_wheels
 
 HELD = 0.4  # [share of the step] grip of the tires at severity 1
 SPIN = 8.0  # [times the speed without slip] largest speed of spinning wheels
@@ -76,7 +76,7 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
     limit = float(np.max(push - speed, initial=0.0))  # of the current, or the step itself
     limited = limit < LIMITED * push.max()
     command = np.full(grid.size, push.max()) if limited else np.interp(grid, since, push)
-    spun = spin_wheels(
+    spun = simulate_wheels(
         command,
         grid,
         scales=np.array((baseline.timescale,)),

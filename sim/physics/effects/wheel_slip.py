@@ -31,7 +31,7 @@ def motor_inertia_share(share: float) -> float:
 
 
 def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
-    """Parameters of a given size; size 1 is grip for two thirds of the traction of a step."""
+    """Parameters of a given size; at size 1, grip is two thirds of the traction a step needs."""
     push = max(scale.step - scale.ks, 0.1 * scale.step)
     return {"grip": (1.0 - LIGHT) * push / (1.0 + 0.5 * size), "share": LIGHT}
 

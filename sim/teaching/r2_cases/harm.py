@@ -10,7 +10,7 @@ from sim.bench.routine import LOOPS_BEFORE_DRIVE
 from sim.core.log import Array, Log, Run, integrate_velocity
 from sim.inspect.fault import FaultStrike, replace_run, rescale_motion
 from sim.inspect.faults import find_fault
-from sim.inspect.step_rise import spin_wheels
+from sim.inspect.step_rise import simulate_wheels
 from sim.teaching.r2_cases.drivetrains import Setup
 
 Harm: TypeAlias = Callable[[Log, np.random.Generator], Log]
@@ -164,7 +164,7 @@ def _add_slip(run: Run, setup: Setup) -> Run:
     time = np.linspace(run.time[0], run.time[-1], FINE * len(run))
     held = np.abs(run.voltage)[np.searchsorted(run.time, time, side="right") - 1]
     push = (held - gains["kS"]) / gains["kV"]
-    plain, slipping = spin_wheels(
+    plain, slipping = simulate_wheels(
         push,
         time,
         scales=np.full(2, gains["kA"] / gains["kV"]),

@@ -71,7 +71,7 @@ def read(path: Path, options: ReadOptions) -> dict[str, Log]:
         raise _make_unreadable_error(damage, found.end, where, missing.what) from None
     if damage and not damage.torn and spans[0].end == NO_END:
         raise _make_unreadable_error(damage, found.end, where, "no run is whole before it")
-    doubts = [*_doubt_orphans(found.orphans, where)]
+    doubts = [*_doubt_records_before_start(found.orphans, where)]
     doubts += [_doubt_damage(damage, where)] if damage else _doubt_unfinished_run(spans[-1], where)
     return {name: log.add_doubts(*doubts) for name, log in logs.items()}
 
@@ -101,8 +101,8 @@ def _make_unreadable_error(
     )
 
 
-def _doubt_orphans(count: int, where: str) -> Iterator[Doubt]:
-    """A doubt about records before the start of their entry."""
+def _doubt_records_before_start(count: int, where: str) -> Iterator[Doubt]:
+    """A doubt about records that come before the start record of their entry."""
     if count:
         yield Doubt(
             "orphan-records",
