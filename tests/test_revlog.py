@@ -62,7 +62,7 @@ def run():
     return next(one for one in drive_log().runs if one.test == "dynamic-forward")
 
 
-def test_a_file_is_the_test_that_its_name_says(tmp_path, run):
+def test_a_file_name_gives_the_name_of_the_test(tmp_path, run):
     path = write(tmp_path / "dynamic-forward.revlog", *map(record, frames_of(run)))
     log = read(path)
     read_run = log.runs[0]

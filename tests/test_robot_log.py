@@ -100,7 +100,7 @@ def theirs(path: Path) -> dict[str, tuple[str, str, list[int], list[object]]]:
     return {name: tuple(rest) for name, *rest in found.values()}
 
 
-def test_wpilib_reads_the_same_in_a_log_that_was_written_here(tmp_path: Path) -> None:
+def test_wpilibs_reader_gets_the_values_that_sim_wrote(tmp_path: Path) -> None:
     rng = np.random.default_rng(7)
     runs = [
         Run(test, 60.0 * k + np.cumsum(rng.uniform(0.005, 0.03, 200)), *rng.normal(size=(4, 200)))

@@ -102,7 +102,7 @@ def test_an_item_is_taught_where_the_table_says(item):
 
 
 @each_item
-def test_an_item_is_checked_and_a_wrong_answer_falls_to_the_check(item):
+def test_the_checks_of_an_item_reject_its_wrong_answers(item):
     checks = {tuple(one.split(".")) for one in item["checks"]}
     for name, check in checks:
         assert check in [one.id for one in EXERCISES[name].checks], f"{name} has no check {check}"

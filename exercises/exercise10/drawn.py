@@ -36,7 +36,7 @@ def draw(student: str) -> Variant:
 
 
 def _is_clear(variant: Variant) -> bool:
-    """Whether every number is known by its size, wherever the learner puts the gains."""
+    """Whether the value of a gain tells which gain it is, in every class that may get it."""
     places = [variant.convert_for_class(place) for place in ("", *PLACES)]
     return all(map(_are_numbers_distinguishable, places)) and _is_gearing_distinguishable(
         variant.convert_for_class(SLOT0)

@@ -154,7 +154,7 @@ def first_effect(answers: Answers) -> None:
     hint = "another effect alone makes the gap of the validation smaller than this one does"
     if first in answers.variant.hidden:
         hint = f"it is one of the hidden effects, but {hint}"
-    raise WrongAnswer(f'"{first}"', hint=f"{hint}{_describe_alone(answers)}")
+    raise WrongAnswer(f'"{first}"', hint=f"{hint}{_describe_gap_with_first_effect(answers)}")
 
 
 def _require_narrower(answers: Answers) -> None:
@@ -180,7 +180,7 @@ def _require_narrower(answers: Answers) -> None:
         )
 
 
-def _describe_alone(answers: Answers) -> str:
+def _describe_gap_with_first_effect(answers: Answers) -> str:
     """The gap with the first effect alone, in the size that the learner chose."""
     try:
         part = answers.parts[0]
@@ -307,9 +307,7 @@ def justified(answers: Answers) -> None:
     whole = answers.measure_gap(parts)
     for part in parts:
         without = answers.measure_gap([one for one in parts if one is not part])
-        if not _is_worth_its_parameters(
-            part, whole=whole, without=without, count=answers.validation_count
-        ):
+        if not _is_worth(part, whole=whole, without=without, count=answers.validation_count):
             raise WrongAnswer(
                 part.effect,
                 hint=f"without it, the gap of the validation is {without / whole:.3g} times as "
@@ -318,7 +316,7 @@ def justified(answers: Answers) -> None:
             )
 
 
-def _is_worth_its_parameters(part: Part, *, whole: float, without: float, count: int) -> bool:
+def _is_worth(part: Part, *, whole: float, without: float, count: int) -> bool:
     """Whether an effect lowers the BIC of runs that its parameters were not fitted to."""
     if not whole <= NARROWER * without:  # a simulation that diverged is not narrower, either
         return False

@@ -131,7 +131,7 @@ def prepare_log(log: Log, preparation: Preparation) -> Log:
 
 
 def fit_prepared(log: Log, preparation: Preparation) -> Fit:
-    """The gains that SysId's method fits to the prepared log, in the unit of the log.
+    """What SysId's recipe finds in the log, so prepared, in the unit of the log.
 
     Raises:
         NotIdentifiable: too little is left.

@@ -159,12 +159,12 @@ class AnswerSelector:
 
     def _add_candidate(self, found: SubmittedFile) -> None:
         path = found.path
-        exercise, place = self._of_folder(path), _Place.FOLDER
+        exercise, place = self._find_by_folder(path), _Place.FOLDER
         self._has_folders = self._has_folders or exercise is not None
         if exercise is None and COURSE_FOLDERS & {*path.parts[:-1]}:
             return
         if exercise is None:
-            exercise, place = self._of_name(path), _Place.NAME
+            exercise, place = self._find_by_name(path), _Place.NAME
         if exercise is None and not self._has_folders:
             exercise, place = self._only, _Place.ONLY
         if exercise is None:
@@ -198,11 +198,11 @@ class AnswerSelector:
             raise ValueError(f"it holds more than {MAX_TOTAL / 1e6:g} MB of answers")
         return content
 
-    def _of_folder(self, path: PurePosixPath) -> Exercise | None:
+    def _find_by_folder(self, path: PurePosixPath) -> Exercise | None:
         found = (self._find_by_word(part) for part in reversed(path.parts[:-1]))
         return next((one for one in found if one), None)
 
-    def _of_name(self, path: PurePosixPath) -> Exercise | None:
+    def _find_by_name(self, path: PurePosixPath) -> Exercise | None:
         """The exercise that a file's own name means."""
         named = self._find_by_word(path.stem)
         if named and path.suffix.lower() in _list_endings(named):

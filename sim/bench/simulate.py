@@ -79,7 +79,7 @@ def simulate(
         voltage = np.array([routine.command_voltage(test, t) for t in time.tolist()])
         cut = cut or _is_cut(state)
         state.clock = float(start + time[0] - runs[0].time[0]) if runs else 0.0  # as in the log
-        begin, active = _place_at_rest(state, _find_start(mechanism, test, last)), model
+        begin, active = _at_rest(state, _find_start(mechanism, test, last)), model
         time, voltage = _divide_loops(time, voltage, parts)
         track, state = _move(active, time, voltage, begin=begin, wires=wires)
         if wheels_slip(mechanism, track):
@@ -98,7 +98,7 @@ def simulate(
     return log.add_doubts(*_make_doubts(mechanism, cut=cut or _is_cut(state), gripped=gripped))
 
 
-def _place_at_rest(state: State, position: float) -> State:
+def _at_rest(state: State, position: float) -> State:
     """The state at rest at a position [m or rad], with the memory of effects."""
     return replace(_copy_state(state), body=State.cold_at(position).body)
 

@@ -236,7 +236,7 @@ def _add_everyday_effects(found: Solution) -> Solution:
 
 
 def _fit_both_lags(problem: PredictionErrorProblem, plain: Estimate) -> Estimate:
-    """The best of the estimates that start with a window and a lag at once.
+    """The best of several fits that start with both a velocity window and a lag.
 
     If the log has both, the gains of a model without them are so wrong that the predicted
     improvement by one alone is unreliable.

@@ -33,7 +33,7 @@ FINER = (1.0, 0.5, 0.2, 0.07)  # [share of the coarse grid's cells] the finer gr
 CELLS = np.linspace(-1.0, 1.0, 9)  # of a finer grid, around the best point so far
 
 
-class WheelSpin(NamedTuple):
+class Spin(NamedTuple):
     """Simulated wheels, for several mechanisms at once.
 
     Args:
@@ -49,7 +49,7 @@ class WheelSpin(NamedTuple):
 
 def simulate_wheels(
     push: Array, time: Array, *, scales: Array, grips: Array, limits: Array
-) -> WheelSpin:
+) -> Spin:
     """Simulate the speed of wheels after a voltage step, by exact steps of a first-order lag.
 
     Args:
@@ -77,7 +77,7 @@ def simulate_wheels(
         speeds.append(wheel)
         pushes.append(asked)
         slips.append(loose)
-    return WheelSpin(np.stack(speeds, axis=1), np.stack(pushes, axis=1), np.stack(slips, axis=1))
+    return Spin(np.stack(speeds, axis=1), np.stack(pushes, axis=1), np.stack(slips, axis=1))
 
 
 @dataclass(frozen=True)
@@ -153,8 +153,8 @@ class StepRise:
         loose = np.flatnonzero(spin.loose[0])
         return float(fine[loose[-1]]) if loose.size else 0.0
 
-    def _simulate(self, limited_by: str, scales: Array, shares: Array) -> tuple[Array, WheelSpin]:
-        """The times [s] and the simulated wheels for each time constant and limit."""
+    def _simulate(self, limited_by: str, scales: Array, shares: Array) -> tuple[Array, Spin]:
+        """The times of a simulation [s], and the wheels at each time constant and limit."""
         fine = np.linspace(0.0, float(self.time[-1]), STEPS)
         limits = {"grip": NEVER, "current": NEVER} | {limited_by: shares * self.step}
         return fine, simulate_wheels(

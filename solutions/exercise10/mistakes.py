@@ -152,7 +152,7 @@ def _to_snake_case(name: str) -> str:
 
 
 def _replace_feedforward(text: str, made: str) -> str:
-    """The text with other code in place of WPILib's feedforward."""
+    """The text with something else in place of WPILib's feedforward."""
     found = re.search(rf"(new )?{CLASS}\w*\((?=Char)[^)]*\)", text)
     if found is None:
         raise ValueError("the solution makes no feedforward")

@@ -184,7 +184,7 @@ def to_number(value: Any) -> float | None:
 
 
 def watch_configurations() -> None:
-    """Record every configuration of a motor controller when the program creates it."""
+    """Let every configuration of a motor controller be written down when it is made."""
     for base in (Record, BaseConfig):
         make = base.__init__
         if hasattr(make, "watched"):

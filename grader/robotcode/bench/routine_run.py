@@ -94,7 +94,7 @@ class Bench:
         return self.kind(season=self.subject.season, **self.subject.describe() | facts)
 
     def look(self, facts: dict[str, Any]) -> None:
-        """Record what happens as long as the program runs."""
+        """Write down what happens as long as the program runs."""
         raise NotImplementedError
 
     def look_last(self, facts: dict[str, Any]) -> None:

@@ -134,7 +134,7 @@ class Simulation:
             linked = [one for one in motors if getattr(one, "_turned_by", None) == sensor._port]
             if not motors:
                 return
-            near = linked or self._find_motor_named_like(sensor, motors)
+            near = linked or self._find_motors_named_like(sensor, motors)
             chosen = (
                 near[0]
                 if near
@@ -145,7 +145,7 @@ class Simulation:
             sensor._shaft = shaft
             self.turned_by[id(sensor)] = chosen
 
-    def _find_motor_named_like(self, sensor: Device, motors: list[Motor]) -> list[Motor]:
+    def _find_motors_named_like(self, sensor: Device, motors: list[Motor]) -> list[Motor]:
         """The one motor whose name shares most words with a sensor's; [] if there are several."""
         words = split_words(self.name(sensor))
         scores = [(len(words & split_words(self.name(one))), one) for one in motors]
@@ -164,9 +164,9 @@ class Simulation:
             return 1.0
         leader = self.leaders[id(motor)] or motor
         duty = leader._command.kind == "duty"
-        return (SAGGED / BATTERY if duty else 1.0) * self.get_current_limit_share(leader)
+        return (SAGGED / BATTERY if duty else 1.0) * self.get_through(leader)
 
-    def get_current_limit_share(self, motor: Motor) -> float:
+    def get_through(self, motor: Motor) -> float:
         """The share of the voltage that a motor's current limit lets through, by motor."""
         if not self.hiccup or motor._port[0] == "PWM":
             return 1.0
@@ -176,7 +176,7 @@ class Simulation:
         """Fix the voltage of every motor until the next loop."""
         for one in self.motors:
             if one._leader is None:
-                one._settle(self.get_current_limit_share(one))
+                one._settle(self.get_through(one))
         for one in self.motors:
             if one._leader is not None:
                 leader = self.find_leader(one)

@@ -113,7 +113,7 @@ class Method:
         )
 
     def bind(self, args: Sequence[Any], *, spread: bool) -> list[Any]:
-        """The arguments, converted to the types of the parameters."""
+        """The arguments as the parameters hold them."""
         given = list(args)
         if spread:
             fixed = len(self.kinds) - 1

@@ -33,7 +33,7 @@ _UTIL = "java.util"
 MOST = 100_000  # elements of one collection
 
 
-def count_as_steps(items: Iterable[Any]) -> Iterator[Any]:
+def counted(items: Iterable[Any]) -> Iterator[Any]:
     """Items, each of which counts as a step of the program."""
     for item in items:
         STATE.tick()
@@ -44,7 +44,7 @@ def sort(items: Iterable[Any], comparator: Any = None) -> list[Any]:
     """Items in the order of a comparator, unknown with one; in their own where that is null."""
     if type(comparator) is Unknown:
         return shuffle(items)
-    return sorted(count_as_steps(items), key=cmp_to_key(comparator or compare))
+    return sorted(counted(items), key=cmp_to_key(comparator or compare))
 
 
 def shuffle(items: Iterable[Any]) -> list[Any]:
@@ -76,7 +76,7 @@ class Collection(JavaIterable, package=_UTIL, others="spliterator hashCode itera
 
     def _keep(self, test: Callable[[Any], Any]) -> bool:
         """Keep the elements that pass a test; return whether that changed anything."""
-        kept = [one for one in count_as_steps(self) if test(one)]
+        kept = [one for one in counted(self) if test(one)]
         changed = len(kept) < len(self)
         self._replace(kept)
         return changed
@@ -88,7 +88,7 @@ class Collection(JavaIterable, package=_UTIL, others="spliterator hashCode itera
 
     size = lambda self: len(self)
     isEmpty = lambda self: not len(self)
-    contains = lambda self, item: any(equals(item, one) for one in count_as_steps(self))
+    contains = lambda self, item: any(equals(item, one) for one in counted(self))
     containsAll = lambda self, items: all(self.contains(one) for one in items)
     addAll = lambda self, items: sum(bool(self.add(one)) for one in list(items)) > 0
     removeIf = lambda self, test: self._keep(lambda one: not test(one))
@@ -140,7 +140,7 @@ class List(Collection, list[Any], package=_UTIL, others="listIterator"):
 
     def indexOf(self, wanted: object) -> int:
         """The first place of an element, -1 if there is none."""
-        found = (at for at, item in enumerate(count_as_steps(self)) if equals(wanted, item))
+        found = (at for at, item in enumerate(counted(self)) if equals(wanted, item))
         return next(found, -1)
 
     __iter__ = list.__iter__

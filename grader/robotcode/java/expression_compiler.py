@@ -82,7 +82,7 @@ class ExpressionCompiler(StaticTypes):
     # -- help -------------------------------------------------------------------------------
 
     def refuse(self, message: str, node: Node) -> Code:
-        """Report an error; the value is unknown, so that the rest can be checked, too."""
+        """Write an error down; the value is unknown, so that the rest can be looked at, too."""
         self.program.error(message, self.at(node))
         return self.make_unknown(node)
 
@@ -104,7 +104,7 @@ class ExpressionCompiler(StaticTypes):
         return Code(lambda _env: unknown, place=lambda _env: (unknown, ""))
 
     def coerce(self, code: Code, kind: str, node: Node) -> Run:
-        """Compile the conversion of an assignment, or report that Java refuses it."""
+        """Compile the conversion of an assignment, or write down that Java refuses it."""
         refusal = self.explain_refusal(kind, code)
         if refusal:
             return self.refuse(refusal, node).run

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from grader.robotcode.java.collections import ArrayList, HashSet, Optional, count_as_steps
+from grader.robotcode.java.collections import ArrayList, HashSet, Optional, counted
 from grader.robotcode.java.values import (
     NAMES,
     Array,
@@ -24,7 +24,7 @@ class Stream(JavaClass, package=_STREAMS, partial=True):
     _kind = "Object"
 
     def __init__(self, items: Iterable[Any]) -> None:
-        self._items: Any = count_as_steps(convert(self._kind, one) for one in items)
+        self._items: Any = counted(convert(self._kind, one) for one in items)
 
     def __iter__(self) -> Iterator[Any]:
         return self._items

@@ -135,7 +135,7 @@ class PythonSubject(Subject):
             getattr(self.instance, "robotInit", list)()
 
     def _install(self) -> str:
-        """Make imports find the program's files, else fakes; return the file's module name."""
+        """Let its imports find the program; the name of the file as a module."""
         levels = [
             node.level
             for tree in self.trees.values()

@@ -102,13 +102,13 @@ def _find_stop(index: int, run: Run, *, still: float, period: float) -> Damage |
         evidence=f"The mechanism stops from {_format_percent(speed, run)} of its top speed within "
         f"{SETTLES:g} s and stays there for {lasts:.2f} s, although the voltage stays "
         f"at up to {volts[impact:].max():.1f} V: it hit its end, "
-        f"{_measure_distance_to_impact(run, impact):.3g} from where the run started.",
+        f"{_measure_distance(run, impact):.3g} from where the run started.",
         advice="Keep only the part of the run before the impact. Or set soft limits, run the test "
         "again, and let go of the button earlier.",
     )
 
 
-def _measure_distance_to_impact(run: Run, impact: int) -> float:
+def _measure_distance(run: Run, impact: int) -> float:
     """[m or rad] distance from the start of the run to the impact."""
     return abs(float(run.position[impact] - run.position[0]))
 

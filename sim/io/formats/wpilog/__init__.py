@@ -102,7 +102,7 @@ def _make_unreadable_error(
 
 
 def _doubt_records_before_start(count: int, where: str) -> Iterator[Doubt]:
-    """A doubt about records that come before the start record of their entry."""
+    """A doubt about records before the start of their entry."""
     if count:
         yield Doubt(
             "orphan-records",
