@@ -12,7 +12,7 @@ ANSWERS = {  # exercise -> the numbers that are right for a variant
     "exercise1": lambda variant: [variant.asked(name).expected for name in variant.moments],
     "exercise2": lambda variant: [
         variant.parts.theoretical_kv,
-        variant.percent(variant.parts.theoretical_kv),
+        variant.compute_percent_above(variant.parts.theoretical_kv),
     ],
     "exercise3": lambda variant: [
         *(one.expected for name, one in variant.asked.items() if name.endswith("kG")),
