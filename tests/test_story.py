@@ -117,7 +117,7 @@ def test_gains_that_move_far_while_the_gap_hardly_shrinks_are_doubted():
     wide = replace(moved, gap_after=0.9 * moved.gap_before)
     (doubt,) = list_gain_doubts(wide)
     assert doubt.gains == ("kV",)
-    assert not describe_story(wide)["narrows"]
+    assert describe_story(wide)["why_unticked"]
     still = replace(wide, gains=EXPLAINED.gains_without)
     assert list_gain_doubts(still) == ()
 

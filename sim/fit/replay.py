@@ -16,6 +16,7 @@ from sim.core.units import find_unit
 from sim.estimation.measurements import (
     MIN_SAMPLES,
     RunMeasurements,
+    compute_noise_at_speed,
     compute_noise_deviation,
     estimate_noise,
     measure_runs,
@@ -80,7 +81,8 @@ def replay_fit(found: Fit, log: Log) -> tuple[RunReplay, ...]:
     ]  # fmt: skip
     runs = [run for run in log.runs if len(run) >= MIN_SAMPLES]
     position_noise = _measure_position_noise(measured, tracks)
-    velocity_noise = estimate_noise(measured).velocity
+    noise = estimate_noise(measured)
+    velocity_noise = max(compute_noise_at_speed(measured, noise), noise.velocity)
     return tuple(
         RunReplay(
             run.select(slice(len(run) - part.time.size, None)),

@@ -170,6 +170,17 @@ def narrows_gap(story: Story) -> bool:
     return bool(added - SENSOR_LAGS) and story.gap_after < MAJOR_UNEXPLAINED * story.gap_before
 
 
+def explain_unapplied_effects(story: Story) -> str:
+    """Why the gains are those without the effects; empty if they are those with them."""
+    if narrows_gap(story):
+        return ""
+    if {one.added for one in story.chapters[1:]} <= SENSOR_LAGS:
+        return (
+            "The fit of the gains accounts for this delay of the sensor already, so its gains hold."
+        )
+    return "The effects narrow the gap only a little, so the gains are those without them."
+
+
 def _differ(one: ParameterEstimate, other: ParameterEstimate) -> bool:
     """Whether two estimates differ by more than their errors allow."""
     spread = math.hypot(one.error or math.inf, other.error or math.inf)

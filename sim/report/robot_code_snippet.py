@@ -202,7 +202,7 @@ def write_robot_code(
         loops_without_gains=loops,
         constants=[
             *_list_gains(found, converted),
-            *_list_offset(found, chosen),
+            *_list_offset(found, chosen, converted),
             *(constant for _, constant in feedback),
         ],
         unit=converted.per,
@@ -241,7 +241,7 @@ def _list_gains(found: Fit, converted: Conversion) -> Iterator[Constant]:
         )
 
 
-def _list_offset(found: Fit, chosen: Target) -> Iterator[Constant]:
+def _list_offset(found: Fit, chosen: Target, converted: Conversion) -> Iterator[Constant]:
     """Where an arm is level: an angle for WPILib, the sensor's reading for a motor controller."""
     if found.type != "arm":
         return
@@ -250,8 +250,9 @@ def _list_offset(found: Fit, chosen: Target) -> Iterator[Constant]:
         known = _format_error(offset, error)
         yield Constant("kAngleOffset", round_to_error(offset, error), f"[rad]{known}")
     else:
-        reading = f"{-offset / TURN:.6f}"
-        yield Constant("kLevelReading", reading, "[rot] of the sensor when the arm is level")
+        unit = TURN if converted.per == "rot" else find_unit(found.units).si
+        known = f"[{converted.per}] of the sensor when the arm is level"
+        yield Constant("kLevelReading", f"{-offset / unit:.6f}", known)
 
 
 def _list_feedback(

@@ -34,6 +34,7 @@ from sim.physics.model import Part
 from sim.physics.motors import MOTORS, find_motor
 from sim.reconcile.model_variant import ModelVariant
 from sim.reconcile.story import ParameterEstimate
+from sim.reconcile.thresholds import LEAST_FLOOR
 from sim.report.fit_terminal import format_gains
 from sim.report.gain_verdicts import judge_gains, write_gain_verdict
 from sim.report.robot_code_snippet import ORDER, write_robot_code
@@ -224,8 +225,12 @@ def describe_fit(
 
 
 def _list_tracks(chosen: ModelVariant, log: Log) -> list[list[float]]:
-    """The simulated velocity [SI] of each run; empty if motors were averaged."""
+    """The simulated velocity [SI] of each run; empty if it has other samples.
+
+    A model of the mean of two sides stands for the runs of each side.
+    """
     tracks = [run[:, 1].tolist() for run in chosen.tracks]
+    tracks *= len(log.runs) // max(len(tracks), 1)
     return tracks if list(map(len, tracks)) == list(map(len, log.runs)) else []
 
 
@@ -254,7 +259,8 @@ def describe_directions(one: OpenLog, reading: Reading) -> dict[str, Any]:
 def _describe_starts(found: Fit, log: Log) -> dict[str, Any]:
     """Simulated position and velocity at the start of each run, and velocity noise, in SI.
 
-    A run that is not simulated has None; the velocity noise is None if no run is simulated.
+    A run that is not simulated has None; the velocity noise is None if no run is simulated. It has
+    the least value that a search for effects gives it, so that both count the same noise.
     """
     try:
         replays = iter(replay_fit(found, log))
@@ -264,7 +270,8 @@ def _describe_starts(found: Fit, log: Log) -> dict[str, Any]:
     noise = None
     for run in log.runs:
         replay = next(replays, None) if len(run) >= MIN_SAMPLES else None
-        noise = replay.velocity_noise if replay is not None else noise
+        if replay is not None:
+            noise = max(replay.velocity_noise, LEAST_FLOOR * log.top_speed)
         starts.append(
             None
             if replay is None
@@ -302,7 +309,7 @@ def write_code(
     moved = {name: float(query[name]) for name in found.gains if _is_number(query.get(name, ""))}
     errors = {name: error for name, error in found.errors.items() if name not in moved}
     # A value set by hand has no standard error
-    known = (*found.doubts, *_doubt_faults(one, reading))
+    known = (*found.doubts, *_doubt_faults(one, reading, known=found.doubts))
     doubts = tuple(replace(some, message=_without_path(some.message, one)) for some in known)
     found = replace(found, gains={**found.gains, **moved}, errors=errors, doubts=doubts)
     radius = float(query["radius"]) if _is_number(query.get("radius", "")) else None
@@ -313,8 +320,8 @@ def write_code(
     return {"code": code}
 
 
-def _doubt_faults(one: OpenLog, reading: Reading) -> Iterator[Doubt]:
-    """A doubt for each kind of fault that is sure, where it was not left out."""
+def _doubt_faults(one: OpenLog, reading: Reading, *, known: Sequence[Doubt]) -> Iterator[Doubt]:
+    """A doubt for each kind of fault that is sure, not left out, and not doubted already."""
     gone = [LeftOutPart.parse(part) for part in reading.left_out]
     for kind in one.inspect(reading).group_by_kind():
         left = [
@@ -322,7 +329,7 @@ def _doubt_faults(one: OpenLog, reading: Reading) -> Iterator[Doubt]:
             for where in (fault.where for fault in kind if fault.confidence >= SURE)
             if not any(part.covers(where.test, where.start, where.end) for part in gone)
         ]
-        if left:
+        if left and kind[0].fault not in {doubt.code for doubt in known}:
             tests = join_names(list(dict.fromkeys(left)))
             yield Doubt(
                 kind[0].fault, f"{kind[0].fault.replace('-', ' ').capitalize()} in {tests}."

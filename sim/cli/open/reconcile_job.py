@@ -15,13 +15,13 @@ from sim.reconcile import DamagedInterval, Story, reconcile
 from sim.reconcile.damage import LEFT_OUT
 from sim.reconcile.model_variant import ModelVariant
 from sim.reconcile.story_text import (
+    explain_unapplied_effects,
     format_gap,
     format_parameter,
     list_gain_doubts,
     list_inspections,
     list_next_tests,
     list_remarks,
-    narrows_gap,
     write_headline,
 )
 
@@ -67,6 +67,8 @@ class ReconcileJob:
         if self._refusal is not None:
             raise self._refusal
         story = None if self.story is None else describe_story(self.story, self._said)
+        if story is not None and self._stopped.is_set() and not story["complete"]:
+            story["headline"] = f"You stopped the search. {story['headline']}"
         return {"words": self._words, "share": self._share, "story": story}
 
     def stop(self) -> None:
@@ -124,7 +126,8 @@ def describe_story(story: Story, said: Collection[str] = ()) -> dict[str, Any]:
         said: remarks to leave out.
     """
     remarks = list_remarks(story) if story.complete else story.notes
-    names = ["base model", *(f"+ {one.added}" for one in story.chapters[1:])]
+    added = [one.added for one in story.chapters[1:]]
+    names = ["base model", *(f"+ {one}" for one in added)]
     findings = [
         {
             "name": " or ".join([one.effect, *one.ambiguous_with]),
@@ -150,9 +153,10 @@ def describe_story(story: Story, said: Collection[str] = ()) -> dict[str, Any]:
         "headline": write_headline(story),
         "verdict": story.verdict,
         "complete": story.complete,
-        "effects": [one.added for one in story.chapters[1:]] if story.variants else [],
+        "effects": added if story.variants else [],
         "tried": [
-            f"{one.effect}: {one.improvement:.0f}, {one.why or 'could be added'}"
+            f"{one.effect}: {one.improvement:.0f}, "
+            + ("added" if one.effect in added else one.why or "could be added")
             for one in story.chapters[0].tried
         ],
         "findings": findings,
@@ -160,7 +164,7 @@ def describe_story(story: Story, said: Collection[str] = ()) -> dict[str, Any]:
         "places": [place.sentence for place in story.where[:PLACES]],
         "next": list(list_next_tests(story)),
         "caution": " ".join(one.text for one in list_gain_doubts(story)),
-        "narrows": narrows_gap(story),
+        "why_unticked": explain_unapplied_effects(story),
         "remarks": [one for one in remarks if one not in said],
         "how": story.how,
     }

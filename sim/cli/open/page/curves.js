@@ -45,8 +45,8 @@ export const VIEWS = {
     },
     curves: [
       { panel: "voltage", label: "voltage", unit: ofVoltage, of: recorded("voltage"), color: "volts", width: 1.5, steps: true, dots: true },
-      { panel: "velocity", label: "velocity", unit: ofSpeed, of: recorded("velocity"), color: "measured", width: 4, alpha: 0.5, dots: true },
-      { panel: "velocity", label: "slope of position", unit: ofSpeed, of: derived("slope", 0), fitted: derived("bounded", 0), color: "position", width: 1.3 },
+      { panel: "velocity", label: "slope of position", unit: ofSpeed, of: derived("slope", 0), fitted: derived("bounded", 0), color: "position", width: 1, alpha: 0.55 },
+      { panel: "velocity", label: "velocity", unit: ofSpeed, of: recorded("velocity"), color: "measured", width: 2.5, alpha: 0.9, dots: true },
       { panel: "position", label: "position", unit: ofLength, of: recorded("position"), color: "position", width: 1.7, dots: true },
       { panel: "step", label: "time step", unit: () => "ms", of: derived("step", 1), color: "ink", width: 1, alpha: 0.8, dots: true, steps: true },
     ],

@@ -80,17 +80,15 @@ async function showCode() {
   const log = shownLog();
   const moved = log.fit.gains.map(({ name, value }) => [name, log.gains[name] === value ? undefined : log.gains[name]]);
   const [language, season] = [at("language").value, at("season").value];
+  const asked = showCode.asked = {}; // an answer that a later question overtakes is not shown
   const query = { ...modelQuery(log), ...Object.fromEntries(moved), language, season, radius: at("radius").value.replace(",", ".") };
   at("code-text").textContent = "Writing…";
-  at("copy").disabled = true; // a refusal is no code
-  try {
-    at("code-text").textContent = (await askLog(log.id, "code", query)).code;
-    at("copy").disabled = false;
-    at("radius-row").hidden = !query.radius;
-  } catch (problem) {
-    at("code-text").textContent = sentence(problem);
-    at("radius-row").hidden = problem.asks !== "radius";
-  }
+  at("copy").disabled = true;
+  const [text, problem] = await askLog(log.id, "code", query).then(({ code }) => [code], (refusal) => [sentence(refusal), refusal]);
+  if (asked !== showCode.asked) return;
+  at("code-text").textContent = text;
+  at("copy").disabled = Boolean(problem); // a refusal is no code
+  at("radius-row").hidden = problem ? problem.asks !== "radius" : !query.radius;
 }
 
 at("reset").addEventListener("click", () => sliders.reset());

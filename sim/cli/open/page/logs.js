@@ -226,7 +226,7 @@ export async function reconcile(log, settings, effects) {
       changed(log, "story");
       if (!search.story) await new Promise((done) => setTimeout(done, POLL));
     }
-    const chosen = effects ?? (search.story.narrows ? search.story.effects : []);
+    const chosen = effects ?? (search.story.why_unticked ? [] : search.story.effects);
     if (chosen.length && log.plain) await chooseEffects(log, chosen);
   } catch (problem) {
     if (log.asked !== asked) return;

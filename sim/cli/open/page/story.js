@@ -44,7 +44,7 @@ function storyParts(story, log, choose) {
 }
 
 /** A box to tick for each effect, and the gains without effects and with those ticked. */
-function modelChoice({ effects, narrows }, { effects: chosen, plain: without, fit }, choose) {
+function modelChoice({ effects, why_unticked: reason }, { effects: chosen, plain: without, fit }, choose) {
   const boxes = effects.map((name) => {
     const onchange = ({ target }) => choose(effects.filter((one) => (one === name ? target.checked : chosen.includes(one))));
     return make("label", "", make("input", { type: "checkbox", checked: chosen.includes(name), onchange }), plain(name));
@@ -54,7 +54,7 @@ function modelChoice({ effects, narrows }, { effects: chosen, plain: without, fi
   const withThem = chosen.length ? [`with ${chosen.map(plain).join(", ")}`] : [];
   const table = make("table", "gains-table", row("th", ["gain", "without", ...withThem, "unit"]),
     without.gains.map((gain, k) => row("td", [gain.label, say(gain), ...withThem.map(() => say(fit.gains[k])), gain.unit])));
-  const why = !chosen.length && !narrows && "They narrow the gap only a little, so the gains are those without them. Tick them to see what they change.";
+  const why = !chosen.length && reason && `${reason} Tick an effect to see what it changes.`;
   return make("fieldset", "models", make("legend", "", "Effects in the model"), boxes, why && make("p", "quiet", why), table);
 }
 

@@ -26,7 +26,7 @@ export function showFaults() {
   const left = faults.filter((one) => !isLeftOut(log, one));
   const lines = left.slice(0, MOST_LINES).map((one) => {
     const words = `${one.fault.replaceAll("-", " ")} (${one.sureness})${one.test ? `: ${nameOfTest(log, one)}` : ""}`;
-    return make("li", "grave", button("link", words, () => showFault(one)), canLeaveOut(one) && [" · ", leaveButton(log, one, "link")]);
+    return make("li", "grave", button("link", words, () => showFault(one)), canLeaveOut(one) && make("span", "leave", " · ", leaveButton(log, one, "link")));
   });
   if (left.length > MOST_LINES) lines.push(make("li", "busy", button("link", `${left.length - MOST_LINES} more below`, () => at("faults").scrollIntoView({ behavior: "smooth" }))));
   at("fault-lines").replaceChildren(...faults.length ? lines : [make("li", "well", none)], ...leftOutLines(log));
