@@ -1,11 +1,13 @@
 """The lessons as a learner meets them: JupyterLab in a real browser, offline, in both themes."""
 
 import io
+import os
 import re
 import shutil
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from urllib.parse import urlsplit
 
 import numpy as np
@@ -24,6 +26,9 @@ from lab import (
     wait_until_idle,
 )
 from matplotlib.image import imread
+from places import ROOT
+
+from grader.exercise import list_exercises
 
 TEXTS = (
     ".jp-OutputArea td, .jp-OutputArea th, .jp-OutputArea caption, .jp-OutputArea summary, "
@@ -235,6 +240,84 @@ def test_a_student_finds_what_lesson_9_hides_by_clicks(address, page, tmp_path):
     assert float(window[1]) == pytest.approx(float(window[2]), rel=0.05)  # yours, and the truth
     assert widget.get_by_role("button", name="Add and fit").is_disabled()
     page.screenshot(path=tmp_path / "opened.png")
+
+
+@pytest.mark.parametrize("number", range(int(os.environ.get("SYSID_STUDENTS", "0"))))
+def test_what_lesson_9_asks_gives_a_student_full_marks(number, page, tmp_path):
+    """On the student's own log: each effect of the largest share's line, the best one stays."""
+    student, home = f"student {number}", tmp_path / "home"
+    (every,) = (one for one in list_exercises(ROOT) if one.name == "exercise12")
+    mine = replace(every, folder=home / "exercises" / every.name)
+    shutil.copytree(every.folder, mine.folder, ignore=shutil.ignore_patterns("data", "__pycache__"))
+    mine.prepare(student, say=lambda _: None)
+    with serving(home) as address:
+        run_all(page, address.format(name="09_reality_gap.ipynb"))
+        listed = (" ".join(one.split()) for one in page.locator("li").all_inner_texts())
+        found = [re.fullmatch(r"([\w ]+): ([\w-]+(?:, [\w-]+)*)[;.]", one) for one in listed]
+        lines = {one[1]: one[2].split(", ") for one in found if one}
+        widget = page.locator(".jp-Notebook .widget-vbox").filter(
+            has=page.get_by_role("button", name="Add and fit")
+        )
+        answer = StudentByPage(widget.last, lines).find_effects()
+    (mine.folder / "answers.toml").write_text(answer, encoding="utf-8")
+    graded = mine.grade(mine.folder / "answers.toml", student=student)
+
+    assert [check for check in graded.checks if check.status != "passed"] == []
+    assert graded.score == graded.max_score
+
+
+class StudentByPage:
+    """A student who does with the search of lesson 9 what the page asks, and nothing else."""
+
+    def __init__(self, widget, lines):
+        self.widget, self.lines, self.model = widget, lines, []
+        self.said = widget.locator("p b")
+
+    def press(self, button, effect):
+        """Press a button for an effect: the gap and the verdict that are then shown."""
+        before = self.said.all_inner_texts()
+        self.widget.locator("select").select_option(effect)
+        self.widget.get_by_role("button", name=button).click()
+        deadline = time.monotonic() + PATIENCE / 1000
+        while self.said.all_inner_texts() == before or "Fitting…" in self.widget.inner_text():
+            assert time.monotonic() < deadline, f"{button} {effect}: no answer"
+            time.sleep(OFTEN / 1000)
+        shown = r"log is ([\d.]+).*That is ((?:no )?better than)"
+        return re.search(shown, self.said.last.inner_text())
+
+    def try_effects(self, names):
+        """The effect with the smallest gap of those that make it smaller; empty if none does."""
+        gaps = {}
+        for name in (name for name in names if name not in self.model):
+            gap, verdict = self.press("Add and fit", name).groups()
+            if name in self.said.last.inner_text():  # it was not refused
+                self.press("Take back", name)
+                gaps |= {name: float(gap)} if verdict == "better than" else {}
+        return min(gaps, key=gaps.get, default="")
+
+    def list_lines(self):
+        """The effects of each plot, that of the largest share first; all if no plot shows most."""
+        words = self.widget.locator("figure.picture img").last.get_attribute("alt")
+        listed = re.search(r"squared residual: (.*?)\.", words)[1].split(", ")
+        shares = dict(one.removesuffix(" %").rsplit(" ", 1) for one in listed)
+        hidden = re.search(r"(\d+) % of the gap beyond noise shows in no plot", words)
+        if hidden and int(hidden[1]) > 50:
+            return [[name for line in self.lines.values() for name in line]]
+        return [self.lines[name] for name in sorted(shares, key=lambda one: -int(shares[one]))]
+
+    def find_effects(self):
+        """Add effects until none helps, check each, and open the held-out log: its lines."""
+        while best := next(filter(None, map(self.try_effects, self.list_lines())), ""):
+            self.model.append(best)
+            if float(self.press("Add and fit", best)[1]) < 1.1:
+                break
+        for name in self.model[:] if len(self.model) > 1 else []:
+            self.press("Take back", name)
+            if self.press("Add and fit", name)[2] == "no better than":
+                self.press("Take back", name)
+                self.model.remove(name)
+        self.press("Stop, open the held-out log", self.model[0])
+        return self.widget.locator("pre").inner_text()
 
 
 def _check_pictures(page):

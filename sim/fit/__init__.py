@@ -72,6 +72,6 @@ def _type_from_name(log: Log) -> Doubt:
     """A warning that the type was taken from the name of the mechanism."""
     return Doubt(
         "type-from-name",
-        f"Fitted as of type {log.type}, as the log's mechanism is named {log.mechanism!r}.",
+        f"Fitted with the type {log.type}, because the log's mechanism is named {log.mechanism!r}.",
         action=Action("other-type"),
     )
