@@ -36,10 +36,8 @@ FOLDERS = ("exercises", "lessons")
 STARTERS = "exercises/starters.toml"
 AUTHORED = ("README.md", "hints.toml")  # of an exercise, besides checks.py and its modules
 SOURCES = (
-    ".py", ".md", ".html", ".jinja", ".js", ".css", ".svg", "overrides.json", "example.toml",
-    "lesson_answers.toml", "misconceptions.toml", "probability.json", "phoenix6.toml",
-    "revlib.toml", "wpilib.toml",
-    "setup.sh", "run_autograder",
+    ".py", ".md", ".html", ".jinja", ".js", ".css", ".svg", ".toml", "overrides.json",
+    "probability.json", "setup.sh", "run_autograder",
 )  # fmt: skip
 """Ends of names of what belongs to the packages."""
 MADE = {"__pycache__", "data", "build", "dist"}  # by Python, and a learner's own data

@@ -197,7 +197,7 @@ def test_grading_needs_none_of_the_packages_that_are_not_installed_there(root, t
         ('{"users": []}', "email", "does not say who handed in"),
         ('{"users": ["ann"]}', "email", "does not say who handed in"),
         ('{"users": [{"email": null}]}', "email", "the student has no email"),
-        ('{"users": [{"email": "a@b.c"}]}', "sid", "Export the autograder anew"),
+        ('{"users": [{"email": "a@b.c"}]}', "sid", "Export the autograder again"),
         ('{"users": [{"name": "a/b"}]}', "name", "path separator"),
     ],
 )

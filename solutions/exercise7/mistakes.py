@@ -72,7 +72,7 @@ MISTAKES = (
     Mistake("a filter for everything", ANSWERS, first(WHOLE, action=lambda _: "filter"), "log01",
         "filter helps if single samples are noisy"),
     Mistake("a fault too many", ANSWERS, first(f"{WHOLE} + sign-flip whole fix-config"), "log01",
-        "Can you find that in a plot? What"),
+        "Can you find that in a plot? Something"),
     Mistake("a word that is none", ANSWERS, make_wrong_answer("log01", '"sensor broke, rerun"'),
         "log01", "Choose one of: clean, encoder-slip"),
 )  # fmt: skip

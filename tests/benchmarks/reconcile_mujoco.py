@@ -25,7 +25,7 @@ from reconcile_strangers import SHAKES
 from sim.bench.mechanism import Mechanism
 from sim.bench.routine import Routine
 from sim.bench.sensor_model import read_sensor
-from sim.bench.simulate import PAUSE, _find_end, _find_start, _loop_times
+from sim.bench.simulate import PAUSE, _find_end, _find_start, _make_loop_times
 from sim.core.log import Array, Run
 from sim.core.units import find_unit
 from sim.physics.effect import HOOK_ARGUMENTS
@@ -65,7 +65,7 @@ def moved(
     runs: list[Run] = []
     start, last = PAUSE, 0.0
     for test in routine.tests:
-        time = _loop_times(mechanism, routine, test, period=period, rng=rng)
+        time = _make_loop_times(mechanism, routine, test, period=period, rng=rng)
         volts = np.array([routine.command_voltage(test, one) for one in time.tolist()])
         rubs = 1.0 + wobble * float(np.clip(rng.standard_normal(), -WIDEST, WIDEST))
         body.clock = float(start + time[0] - (runs[0].time[0] if runs else start + time[0]))
