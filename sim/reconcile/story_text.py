@@ -171,14 +171,16 @@ def narrows_gap(story: Story) -> bool:
 
 
 def explain_unapplied_effects(story: Story) -> str:
-    """Why the gains are those without the effects; empty if they are those with them."""
+    """Why the effects are not applied unasked; empty if they are."""
     if narrows_gap(story):
         return ""
     if {one.added for one in story.chapters[1:]} <= SENSOR_LAGS:
         return (
-            "The fit of the gains accounts for this delay of the sensor already, so its gains hold."
+            "The fit of the gains accounts for this delay of the sensor already, which the base "
+            "model of the search does not. So the fit's gains hold, and its error is small without "
+            "the effect."
         )
-    return "The effects narrow the gap only a little, so the gains are those without them."
+    return "The effects narrow the gap only a little, so they are not applied unasked."
 
 
 def _differ(one: ParameterEstimate, other: ParameterEstimate) -> bool:

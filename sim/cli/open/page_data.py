@@ -270,8 +270,7 @@ def _describe_starts(found: Fit, log: Log) -> dict[str, Any]:
     noise = None
     for run in log.runs:
         replay = next(replays, None) if len(run) >= MIN_SAMPLES else None
-        if replay is not None:
-            noise = max(replay.velocity_noise, LEAST_FLOOR * log.top_speed)
+        noise = max(replay.velocity_noise, LEAST_FLOOR * log.top_speed) if replay else noise
         starts.append(
             None
             if replay is None
@@ -370,8 +369,8 @@ def describe_feedback(query: Mapping[str, str]) -> dict[str, Any]:
     delays = {name: numbers.get(name, 0.0) for name in ("position_delay", "velocity_delay")}
     gains = {name: numbers.get(name, 0.0) for name in (*ORDER.get(type_, ()), "offset_rad")}
     units = query.get("units", "meters")
-    given = Fit.from_gains(gains, type=type_, units=query.get("before") or units, **delays)
-    found = given.in_units(units)
+    before = query.get("before") or units
+    found = Fit.from_gains(gains, type=type_, units=before, **delays).in_units(units)
     per = find_unit(units)
     if query.get("motor"):
         count, ratio, radius = (numbers.get(name, 1.0) for name in ("count", "ratio", "radius"))
@@ -381,6 +380,8 @@ def describe_feedback(query: Mapping[str, str]) -> dict[str, Any]:
         theory = {"kV": parts.kv * per.si, "kA": (parts.ka or 0.0) * per.si}
         found = replace(found, gains=gains | theory)
     allowed = {name: numbers[name] for name in ALLOWED if name in numbers}
+    for name in allowed.keys() - {"volts"}:  # the unit of these has changed as that of the gains
+        allowed[name] *= find_unit(before).si / per.si
     tried = try_feedback_gains(found, PRESETS[chosen], allowed=allowed)
     rows = []
     for trial in filter(lambda trial: trial.is_good, tried):
@@ -389,7 +390,8 @@ def describe_feedback(query: Mapping[str, str]) -> dict[str, Any]:
         shown = [f"{name} {value:.4g} {unit}" for name, value, unit in pairs if value]
         rows.append({"loop": trial.loop, "gains": shown, "step": trial.verdict.description})
     doubts = [one.message for one in warn_of_bad_suggestions(found, tried)]
-    return {"gains": found.gains, "rows": rows, "doubts": doubts, "symbol": per.symbol}
+    gains = {**found.gains, **allowed}
+    return {"gains": gains, "rows": rows, "doubts": doubts, "symbol": per.symbol}
 
 
 def describe_entries(entries: Sequence[Entry]) -> list[dict[str, Any]]:

@@ -35,7 +35,7 @@ async function showLoops(event) {
   try {
     const { gains, rows, doubts, symbol } = await ask(`feedback?${new URLSearchParams({ ...query, before })}`);
     if (showLoops.asked !== asked) return;
-    if (query.motor || before) for (const name of ["kV", "kA"]) form[name].value = Number(gains[name].toPrecision(DIGITS));
+    if (query.motor || before) for (const name of ["kV", "kA", "velocity_error", "position_error"]) if (name in gains) form[name].value = Number(gains[name].toPrecision(DIGITS));
     for (const one of form.querySelectorAll("i")) one.textContent = symbol;
     const shown = rows.map(({ loop, gains: words, step }) => [
       make("dt", "", `${loop} loop`), make("dd", "", words.join("\n")), make("dd", "quiet", `In simulation, it ${step}.`)]);

@@ -54,8 +54,7 @@ function modelChoice({ effects, why_unticked: reason }, { effects: chosen, plain
   const withThem = chosen.length ? [`with ${chosen.map(plain).join(", ")}`] : [];
   const table = make("table", "gains-table", row("th", ["gain", "without", ...withThem, "unit"]),
     without.gains.map((gain, k) => row("td", [gain.label, say(gain), ...withThem.map(() => say(fit.gains[k])), gain.unit])));
-  const why = !chosen.length && reason && `${reason} Tick an effect to see what it changes.`;
-  return make("fieldset", "models", make("legend", "", "Effects in the model"), boxes, why && make("p", "quiet", why), table);
+  return make("fieldset", "models", make("legend", "", "Effects in the model"), boxes, reason && make("p", "quiet", `${reason} Tick an effect to see what it changes.`), table);
 }
 
 /** Other open logs that take part, and the button that begins a search. */

@@ -77,13 +77,12 @@ export function showDoubts() {
   const log = shownLog();
   const { fit, fitRefused, faults } = log;
   const sure = faults?.faults.some((one) => one.sureness === "sure" && !isLeftOut(log, one));
-  const word = fitRefused ? "No gains" : !fit ? "Fitting…" : !faults ? "Checking…" : sure && fit.word !== "Do not use" ? "Check first" : fit.word;
+  const word = fitRefused ? "No gains" : !fit ? "Fitting…" : !faults ? "Checking…" : sure && ["Usable", "Partly usable"].includes(fit.word) ? "Check first" : fit.word;
   at("word").textContent = word;
   if (fit) at("verdict").replaceChildren(...prose(fit.verdict));
   at("verdict-card").classList.toggle("wrong", Boolean(fitRefused) || word === "Do not use");
   at("verdict-card").classList.toggle("well", word === "Usable");
-  const isFault = ({ code }) => faults?.faults.some(({ fault }) => fault === code); // its card says it
-  const said = [...fit?.doubts ?? [], ...faults?.doubts ?? []].filter((one) => !isFault(one)).sort((a, b) => Number(b.grave) - Number(a.grave));
+  const said = [...fit?.doubts ?? [], ...faults?.doubts ?? []].filter(({ code }) => !faults?.faults.some(({ fault }) => fault === code)).sort((a, b) => Number(b.grave) - Number(a.grave));
   const known = [...Map.groupBy(said, ({ code }) => code).values()].map((alike) =>
     ({ ...alike[0], message: [...new Set(alike.map(({ message }) => message))].join(" ") }));
   const notes = (fit?.notes ?? []).map((note) => foldedItem("well", "Note", note));
