@@ -152,7 +152,7 @@ def find_package_paths(packages: Sequence[str]) -> dict[str, str]:
 
 
 def _write_orders(source: Path, calls: Sequence[FunctionCall], given: Path) -> dict[str, object]:
-    """Write the child's orders to a file; the part of them that names the file."""
+    """Copy the source and the arrays into a folder; returns the orders to the child."""
     copy = given / source.name
     copy.write_bytes(source.read_bytes())
     orders: list[dict[str, object]] = []

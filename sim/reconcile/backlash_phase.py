@@ -55,7 +55,7 @@ def estimate_backlash_phase(
 
 
 def halve_backlash(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
-    """The estimate with half the backlash, and new estimates of each run's phase."""
+    """The estimate with half the backlash, and a new start of each run between the teeth."""
     halves = {name: 0.5 * point.values[name] for name in point.structure.backlash_names}
     values, nuisance = {**point.values, **halves}, point.nuisance.without_backlash_phase
     start = problem.change(point, values=values, nuisance=nuisance)

@@ -488,7 +488,7 @@ class ExpressionCompiler(StaticTypes):
         kind = self.erased(kind_of(type_))
         code = self.compile(value)
         run, owner = code.run, self.owner
-        refusal = self.why_unrelated(kind, code)
+        refusal = self.explain_unrelated_types(kind, code)
         if refusal:
             return self.refuse(refusal, node)
         if kind in PRIMITIVES:

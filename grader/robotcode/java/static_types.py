@@ -83,7 +83,7 @@ class StaticTypes:
     def explain_refusal(self, kind: str, code: Code) -> str:
         """The error of javac for a number in place of another type; empty if it is allowed."""
         source, target = BOXES.get(code.kind, code.kind), BOXES.get(kind, kind)
-        refusal = self.why_unrelated(kind, code)
+        refusal = self.explain_unrelated_types(kind, code)
         if refusal or not (source in PRIMITIVES and target in PRIMITIVES) or source == target:
             return refusal
         if kind in WIDENS[source] or (target in SMALL and source in SMALL | {"int"}):
@@ -91,7 +91,7 @@ class StaticTypes:
         return f"incompatible types: possible lossy conversion from {code.kind} to {kind}"
 
     @staticmethod
-    def why_unrelated(kind: str, code: Code) -> str:
+    def explain_unrelated_types(kind: str, code: Code) -> str:
         """What javac says of a type that no cast converts to another; empty if one does."""
         both = {BOXES.get(code.kind, code.kind), BOXES.get(kind, kind)}
         if code.kind == "void" and kind:
