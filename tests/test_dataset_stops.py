@@ -5,6 +5,7 @@ import signal
 import sys
 import time
 from contextlib import contextmanager, suppress
+from uuid import uuid4
 
 import psutil
 import pytest
@@ -62,6 +63,8 @@ def test_killed_run_leaves_whole_files_and_the_next_run_continues(tmp_path, undi
     assert there.items() <= whole.items()
     assert not psutil.wait_procs(workers, timeout=5.0)[1]  # nobody works on for no one
 
+    for folder in (tmp_path, tmp_path / "data"):  # as if it was killed while it wrote
+        (folder / f".{uuid4().hex}.part.json").touch()
     before = {path: path.stat().st_ino for path in (tmp_path / "data").glob("log*")}
     kept = sum(None not in entry["files"].values() for entry in key(tmp_path / "data")["logs"])
     folder = make_dataset(path, "data", "--processes", 1)

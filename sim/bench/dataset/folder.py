@@ -14,7 +14,7 @@ from sim.bench.dataset.key import Entry, encode, read_key, write_key
 from sim.bench.dataset.making import MadeLog
 from sim.bench.dataset.plan import LogJob
 from sim.core.errors import BadRequest
-from sim.support.atomic_file import atomic_path
+from sim.support.atomic_file import PARTS, atomic_path
 from sim.support.os_errors import refuse_os_errors
 from sim.support.printable import list_first
 from sim.support.secret import Secret
@@ -118,6 +118,8 @@ class DatasetPlace:
         }
         with refuse_os_errors("cannot be written", self.folder, advice=WRITE):
             self.folder.mkdir(parents=True, exist_ok=True)
+            for part in (*self.folder.rglob(PARTS), *self.key.parent.glob(PARTS)):
+                part.unlink(missing_ok=True)  # a run that was killed left it
         self._write_key(entries)
         saved, took = time.monotonic(), 0.0
         try:
