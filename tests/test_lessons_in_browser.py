@@ -29,6 +29,7 @@ from matplotlib.image import imread
 from places import ROOT
 
 from grader.exercise import list_exercises
+from sim.physics.effects import EFFECTS
 
 TEXTS = (
     ".jp-OutputArea td, .jp-OutputArea th, .jp-OutputArea caption, .jp-OutputArea summary, "
@@ -276,11 +277,14 @@ class StudentByPage:
 
     def press(self, button, effect):
         """Press a button for an effect: the gap and the verdict that are then shown."""
+        menu = self.widget.locator("select")
+        if menu.input_value() != effect:
+            menu.select_option(effect)
+            self.widget.get_by_text(EFFECTS[effect].summary).wait_for()
         before = self.said.all_inner_texts()
-        self.widget.locator("select").select_option(effect)
         self.widget.get_by_role("button", name=button).click()
         deadline = time.monotonic() + PATIENCE / 1000
-        while self.said.all_inner_texts() == before or "Fitting…" in self.widget.inner_text():
+        while (said := self.said.all_inner_texts()) == before or "Fitting…" in "".join(said):
             assert time.monotonic() < deadline, f"{button} {effect}: no answer"
             time.sleep(OFTEN / 1000)
         shown = r"log is ([\d.]+).*That is ((?:no )?better than)"
