@@ -44,7 +44,7 @@ def fake(name, *, whole=False, about="motion", says=()):
         ordinary="1",
         spoil=lambda log, _blow, _rng: DamagedLog(log, ()),
         detect=lambda _features: [
-            Damage(name, LogInterval(run, "dynamic-forward", start, end), sure, "seen", "act")
+            Damage(LogInterval(run, "dynamic-forward", start, end), sure, "seen", "act")
             for run, start, end, sure in says
         ],
         whole=whole,

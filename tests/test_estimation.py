@@ -118,7 +118,11 @@ PERIOD = 0.02
 
 def run_kalman_filter(process_noise):
     return make_steady_state_filter(
-        MODEL, noise=KALMAN_NOISE, process_noise=process_noise, period=PERIOD
+        MODEL.gains["kV"],
+        MODEL.gains["kA"],
+        noise=KALMAN_NOISE,
+        process_noise=process_noise,
+        period=PERIOD,
     )
 
 

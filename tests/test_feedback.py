@@ -28,7 +28,6 @@ from sim.fit.feedback_trial import (
     OWN,
     SUGGESTED,
     OwnGains,
-    choose_feedback_delay,
     try_feedback_gains,
     warn_of_bad_suggestions,
 )
@@ -213,9 +212,9 @@ def test_the_learners_own_gains_are_tried_and_reported_without_a_warning():
 def test_the_measured_delay_is_used_with_the_default_preset_only():
     late = found(velocity_delay=0.14, position_delay=0.02)
 
-    assert choose_feedback_delay(late, PRESETS["default"], loop="velocity") == 0.14
-    assert choose_feedback_delay(late, PRESETS["default"], loop="position") == 0.02
-    assert choose_feedback_delay(late, PRESETS["venom"], loop="velocity") == 5e-3
+    assert late.choose_feedback_delay(PRESETS["default"], loop="velocity") == 0.14
+    assert late.choose_feedback_delay(PRESETS["default"], loop="position") == 0.02
+    assert late.choose_feedback_delay(PRESETS["venom"], loop="velocity") == 5e-3
 
 
 @settings(max_examples=30)  # each tries up to ten loops

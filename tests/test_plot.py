@@ -44,7 +44,9 @@ PICTURES = {
     ),
     "time series with damage": lambda: plot_time_series(
         DRIVE,
-        damages=[Damage("overrun", LogInterval(0, DRIVE.runs[0].test, 2.0, 2.5), 0.9, "", "")],
+        damages=[
+            Damage(LogInterval(0, DRIVE.runs[0].test, 2.0, 2.5), 0.9, "", "", fault="overrun")
+        ],
     ),
     "acceleration against velocity": lambda: plot_acceleration_velocity(DRIVE),
 }

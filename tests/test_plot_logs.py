@@ -31,7 +31,8 @@ from sim.plot.voltage_residual import compute_missing_volts, simulate_velocity
 
 
 def _damage(fault, run, test="", start=0.0, end=0.0):
-    return Damage(fault, LogInterval(run, test, start, end), 0.9, "seen", "Run it again.")
+    where = LogInterval(run, test, start, end)
+    return Damage(where, 0.9, "seen", "Run it again.", fault=fault)
 
 
 def _hatched(picture):

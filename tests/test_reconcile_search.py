@@ -11,7 +11,7 @@ from sim.core.log import Log
 from sim.estimation.likelihood import LARGEST, PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import make_joint_jacobian
-from sim.estimation.run_nuisance import RunNuisance
+from sim.estimation.run_nuisance import POSITION, RunNuisance
 from sim.estimation.run_records import make_run_records
 from sim.physics.effects import EFFECTS
 from sim.physics.engine import State
@@ -126,7 +126,7 @@ def test_a_start_moves_its_own_run_and_heats_as_the_runs_before_it_did(effect):
     for number in range(count):
         by = np.zeros(count)
         by[number] = problem.noise.position
-        moved = problem.evaluate(base, values, nuisance.shift_positions(by), point.process_noise)
+        moved = problem.evaluate(base, values, nuisance.add(POSITION, by), point.process_noise)
         change = (
             problem.whiten(point, moved.innovations - point.innovations) / problem.noise.position
         )

@@ -44,7 +44,7 @@ from sim.reconcile.probability import (
 from sim.reconcile.residual_tests.repeatability import RepeatedResidual
 from sim.reconcile.residual_tests.spectrum import SpectralPeak
 from sim.reconcile.residual_tests.summary import ResidualSummary
-from sim.reconcile.residual_tests.whiteness import NO_WINDOW
+from sim.reconcile.residual_tests.whiteness import WorstWindow
 from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound, WeighedCandidate
 from sim.reconcile.story import TriedCandidate
@@ -299,7 +299,7 @@ def test_the_size_of_an_effect_is_given_in_everyday_sizes(times):
 )
 def test_residuals_are_judged_by_their_worst_statistic(window, repeated, peak, ratio):
     left = ResidualSummary(
-        replace(NO_WINDOW, size=window),
+        WorstWindow(window),
         replace(RepeatedResidual(), size=repeated),
         replace(SpectralPeak(), size=peak),
     )

@@ -73,13 +73,12 @@ def test_sentences_of_reconcile_equal_the_snapshot():
 
 
 def test_sentences_about_the_gap_equal_the_snapshot():
-    signals = {
-        f"{signal}, {error:+g} noises": replace(PLACE, signal=signal, error=error).sentence
-        for signal in ("velocity", "position")
+    sizes = {
+        f"velocity, {error:+g} noises": replace(PLACE, error=error).sentence
         for error in (-2.0, 2.0)
     }
 
-    compare("gap", signals)
+    compare("gap", sizes)
 
 
 def test_sentences_of_inspect_equal_the_snapshot(tmp_path, monkeypatch, capsys):

@@ -28,6 +28,10 @@ class Unit:
     si: float
     angular: bool
 
+    def format_speed(self, speed: float) -> str:
+        """A speed [m/s or rad/s] in this unit: ``1.25 m/s``."""
+        return f"{speed / self.si:.3g} {self.symbol}/s"
+
 
 UNITS: dict[str, Unit] = {
     unit.name: unit

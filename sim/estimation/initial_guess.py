@@ -15,6 +15,7 @@ import numpy as np
 
 from sim.core.errors import NotIdentifiable
 from sim.core.log import STANDSTILL, Array, Log, Run
+from sim.estimation.model_structure import BASE
 
 INTERVAL = 0.2  # [s] length of an integration interval; at least four samples
 LEAST_VARIATION = 0.03  # [share of the voltage] a voltage that varies less is constant
@@ -41,8 +42,8 @@ def guess_gains(log: Log, *, type: str) -> dict[str, float]:  # noqa: A002 - the
         for run in log.runs
         if len(run) > 1
     ]
-    table = np.concatenate(parts) if parts else np.empty((0, 4))
-    names = ("kS", "kV", "kA", *{"elevator": ("kG",), "arm": ("level", "upright")}.get(type, ()))
+    names = BASE[type]
+    table = np.concatenate([np.empty((0, 1 + len(names))), *parts])
     if top == 0.0 or table.shape[0] < 2 * len(names):
         raise NotIdentifiable(
             "the mechanism hardly moves in this log",
@@ -119,8 +120,6 @@ def _integrate_rows(run: Run, *, standing: float, type: str) -> Array:  # noqa: 
     """(rows, 1 + gains): ∫V dt and the regressors, over intervals without a change of direction."""
     dt = np.diff(run.time)
     reach = max(4, round(INTERVAL / float(np.median(dt))))
-    if len(run) <= reach:
-        return np.empty((0, 4 + {"elevator": 1, "arm": 2}.get(type, 0)))
     direction = np.sign(run.velocity)
     moving = np.abs(run.velocity) > standing
     begin = np.arange(0, len(run) - reach, max(1, reach // 4))

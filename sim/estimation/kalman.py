@@ -22,7 +22,6 @@ from sim.core.log import Array
 from sim.estimation.measurements import SensorNoise
 from sim.feedback.linear_quadratic import Matrix, solve_riccati
 from sim.physics.engine import NO_CORRECTION
-from sim.physics.model import Model
 
 RELEVANT = 0.01  # [share of an innovation's variance] less, from a voltage, is ignored
 
@@ -111,7 +110,9 @@ class KalmanFilter:
         variances = np.square(voltage_error).tolist()
         places: list[int] = []
         covs: list[tuple[float, float, float]] = []
-        for first in np.flatnonzero(self._is_relevant(voltage_error)).tolist():
+        usual = np.diag(self.predicted_cov) + self.measured_var
+        changes = voltage_error**2 * np.max(np.diag(self.voltage_cov) / usual) > RELEVANT
+        for first in np.flatnonzero(changes).tolist():
             if places and first <= places[-1]:
                 continue
             xx, xv, vv = steady_x, steady, steady_v
@@ -132,11 +133,6 @@ class KalmanFilter:
                 vv = decay * decay * after_v + process_v
         return np.array(places, dtype=np.intp), np.array(covs).reshape(-1, 3).T
 
-    def _is_relevant(self, voltage_error: Array) -> NDArray[np.bool_]:
-        """(n,) whether the voltage before a sample is uncertain enough to change the gain."""
-        usual = np.diag(self.predicted_cov) + self.measured_var
-        return np.asarray(voltage_error**2 * np.max(np.diag(self.voltage_cov) / usual) > RELEVANT)
-
 
 OPEN_LOOP = KalmanFilter(
     NO_CORRECTION, np.zeros((2, 2)), np.ones(2), np.eye(2), np.zeros((2, 2)), np.zeros((2, 2))
@@ -144,25 +140,19 @@ OPEN_LOOP = KalmanFilter(
 """A filter that corrects nothing: its predictions are a simulation."""
 
 
+@lru_cache(maxsize=2)  # a search that does not move kV and kA needs the same filter each time
 def make_steady_state_filter(
-    model: Model, *, noise: SensorNoise, process_noise: float, period: float
+    kv: float, ka: float, *, noise: SensorNoise, process_noise: float, period: float
 ) -> KalmanFilter:
     """The Kalman filter of position and velocity in its steady state.
 
     Args:
-        model: its kV/kA [1/s] is the rate at which velocity decays.
+        kv: [V·s/unit].
+        ka: [V·s²/unit]; kV/kA is the rate at which velocity decays.
         noise: standard deviations of the measurements.
         process_noise: [unit²/s³] spectral density of the random acceleration; 0 corrects nothing.
         period: [s] time between samples.
     """
-    gains = model.gains
-    return _solve_steady_state_filter(gains["kV"], gains["kA"], noise, process_noise, period)
-
-
-@lru_cache(maxsize=2)  # a search that does not move kV and kA needs the same filter each time
-def _solve_steady_state_filter(
-    kv: float, ka: float, noise: SensorNoise, process_noise: float, period: float
-) -> KalmanFilter:
     rate, dt = kv / ka, period
     # both states are divided by the velocity noise, so that the numbers are near one
     decay = math.exp(-rate * dt)
@@ -176,7 +166,10 @@ def _solve_steady_state_filter(
         return replace(
             OPEN_LOOP, measured_var=variance, transition=transition, voltage_cov=voltage_cov
         )
-    predicted = _compute_steady_covariance(transition, process_cov, variance)
+    # the covariance of the prediction solves X = A X Aᵀ - A X (X + R)⁻¹ X Aᵀ + Q, the Riccati
+    # equation that is the dual of a regulator's
+    a, g, h = map(_as_four, (transition.T, np.diag(1.0 / variance), process_cov))
+    predicted = np.array(solve_riccati(a, g, h)).reshape(2, 2)
     steady = np.ascontiguousarray(predicted @ np.linalg.inv(predicted + np.diag(variance)))
     return KalmanFilter(steady, predicted, variance, transition, process_cov, voltage_cov)
 
@@ -192,15 +185,6 @@ def _compute_voltage_covariance(rate: float, period: float) -> Array:
     late = np.array([half - (1.0 - decay) / rate, 1.0 - decay])
     early = np.array([late[0] + late[1] * (1.0 - decay) / rate, late[1] * decay])
     return np.asarray(2.0 * (np.outer(early, early) + np.outer(late, late)))
-
-
-def _compute_steady_covariance(transition: Array, process_cov: Array, variance: Array) -> Array:
-    """(2, 2) steady-state covariance of the prediction: the solution X of the Riccati equation.
-
-    X = A X Aᵀ - A X (X + R)⁻¹ X Aᵀ + Q        the dual of a regulator's
-    """
-    a, g, h = map(_as_four, (transition.T, np.diag(1.0 / variance), process_cov))
-    return np.array(solve_riccati(a, g, h)).reshape(2, 2)
 
 
 def _as_four(matrix: Array) -> Matrix:

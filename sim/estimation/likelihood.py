@@ -86,6 +86,11 @@ class Estimate:
     cost: float
 
     @cached_property
+    def model(self) -> Model:
+        """The model with these values."""
+        return self.structure.model(self.values)
+
+    @cached_property
     def whitening(self) -> Array:
         """(2, 2) matrix that makes innovations independent, with unit variance."""
         return np.asarray(np.linalg.inv(np.linalg.cholesky(self.innovation_cov)))
@@ -117,18 +122,9 @@ class PredictionErrorProblem:
     simulated: SampleCounter = field(default_factory=SampleCounter)
 
     @classmethod
-    def from_records(
-        cls,
-        records: Sequence[RunRecord],
-        *,
-        varying_friction: bool = True,
-        backlash_allowance: float = 0.0,
-    ) -> "PredictionErrorProblem":
+    def from_records(cls, records: Sequence[RunRecord]) -> "PredictionErrorProblem":
         """The problem of these runs, their noise estimated from their samples."""
-        return cls(
-            tuple(records), estimate_noise(tuple(record.measurements for record in records)),
-            varying_friction=varying_friction, backlash_allowance=backlash_allowance,
-        )  # fmt: skip
+        return cls(tuple(records), estimate_noise(tuple(one.measurements for one in records)))
 
     def select_runs(
         self, chosen: Sequence[int], *, compared: Sequence[int] | None = None
@@ -151,6 +147,11 @@ class PredictionErrorProblem:
         return np.concatenate(
             ([0], np.cumsum([record.measurements.time.size for record in self.records]))
         )
+
+    @cached_property
+    def run_slices(self) -> tuple[slice, ...]:
+        """Per run, its samples among all."""
+        return tuple(slice(*edges) for edges in pairwise(self.run_edges.tolist()))
 
     def _join(self, name: str) -> NDArray[Any]:
         """A signal of the measurements, of all runs."""
@@ -351,8 +352,9 @@ class PredictionErrorProblem:
             over="ignore", invalid="ignore"
         ):  # a diverging simulation has an infinite cost
             kalman_filter = make_steady_state_filter(
-                model, noise=self.noise, process_noise=process_noise, period=self.period
-            )
+                values["kV"], values["kA"], noise=self.noise,
+                process_noise=process_noise, period=self.period,
+            )  # fmt: skip
             innovations = self.predict_errors(model, nuisance, kalman_filter)
             cov = self.compute_covariance(innovations)
             cost = self._compute_cost(cov) + float(np.sum(nuisance.backlash_phase_costs))
@@ -526,8 +528,7 @@ class PredictionErrorProblem:
             LAG: LAG_STEP * self.lag_sd,
         }[name]
         ways = (by, -by) if name == FRICTION else (by,)  # friction that holds has a kink
-        model = point.structure.model(point.values)
-        tried = [(model, point.nuisance.add(name, way)) for way in ways]
+        tried = [(point.model, point.nuisance.add(name, way)) for way in ways]
         with np.errstate(over="ignore", invalid="ignore"):  # diverging ones are clipped by whiten
             found = [*self._simulate_in_parallel(tried, point.kalman_filter), point.innovations]
             return self.whiten(point, (found[0] - found[1]) / (by * len(ways)))

@@ -7,7 +7,7 @@ model, from third differences, which are almost zero for a smooth motion:
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -167,33 +167,28 @@ def merge_stale_samples(measurements: RunMeasurements) -> RunMeasurements:
 
 def estimate_noise(measurements: tuple[RunMeasurements, ...]) -> SensorNoise:
     """Standard deviations of the fresh samples while the mechanism moves, over all runs."""
-    thirds: list[list[Array]] = [[], []]
-    fresh: list[list[Array]] = [[], []]
-    for run in measurements:
-        for column in (0, 1):
-            there = run.moving & ~np.isnan(run.measured[:, column])
-            values = run.measured[there, column]
-            if values.size >= MIN_SAMPLES:
-                thirds[column].append(compute_third_differences(run.time[there], values))
-                fresh[column].append(values)
-    sizes = []
-    for third, values in zip(thirds, fresh, strict=True):
-        spread = compute_noise_deviation(third)
-        least = find_sensor_step(values) / math.sqrt(12.0)  # the standard deviation of rounding
-        sizes.append(max(spread, least, 1e-12))
-    ranges = [
-        _compute_range([run.measured[:, column] for run in measurements]) for column in (0, 1)
-    ]
-    grain = tuple(DIGITS * span + 1e-12 for span in ranges)
+    sizes, ranges = [], []
+    for column in (0, 1):
+        fresh = list(_list_moving_readings(measurements, column))
+        spread = compute_noise_deviation([compute_third_differences(*one) for one in fresh])
+        step = find_sensor_step([values for _, values in fresh])
+        sizes.append(max(spread, step / math.sqrt(12.0), 1e-12))  # the deviation of rounding
+        every = np.concatenate([run.measured[:, column] for run in measurements])
+        every = every[~np.isnan(every)]
+        ranges.append(float(np.ptp(every)) if every.size else 0.0)
     position = sizes[0] if ranges[0] else UNKNOWN  # without positions nothing is known of them
-    return SensorNoise(position, sizes[1], (grain[0], grain[1]))
+    x, v = (DIGITS * span + 1e-12 for span in ranges)
+    return SensorNoise(position, sizes[1], (x, v))
 
 
-def _compute_range(readings: Sequence[Array]) -> float:
-    """[unit] difference of the largest and the smallest reading; 0 if there is none."""
-    there = np.concatenate(readings)
-    there = there[~np.isnan(there)]
-    return float(np.ptp(there)) if there.size else 0.0
+def _list_moving_readings(
+    measurements: Sequence[RunMeasurements], column: int
+) -> Iterator[tuple[Array, Array]]:
+    """Times and fresh readings in motion, of each run that has enough of them."""
+    for run in measurements:
+        there = run.moving & ~np.isnan(run.measured[:, column])
+        if np.count_nonzero(there) >= MIN_SAMPLES:
+            yield run.time[there], run.measured[there, column]
 
 
 def compute_noise_at_speed(measurements: Sequence[RunMeasurements], noise: SensorNoise) -> float:
@@ -208,12 +203,9 @@ def compute_noise_at_speed(measurements: Sequence[RunMeasurements], noise: Senso
         noise: noise of all samples together; its velocity is returned if the noise does not grow.
     """
     every, speeds = [np.zeros(0)], [np.zeros(0)]
-    for run in measurements:
-        there = run.moving & ~np.isnan(run.measured[:, 1])
-        velocity = run.measured[there, 1]
-        if velocity.size >= MIN_SAMPLES:
-            every.append(compute_third_differences(run.time[there], velocity))
-            speeds.append(np.abs(velocity[1:-2] + velocity[2:-1]))
+    for time, velocity in _list_moving_readings(measurements, 1):
+        every.append(compute_third_differences(time, velocity))
+        speeds.append(np.abs(velocity[1:-2] + velocity[2:-1]))
     order = np.argsort(np.concatenate(speeds), kind="stable")
     classes = np.array_split(np.concatenate(every)[order], SPEED_CLASSES)
     if not classes[-1].size:
@@ -297,12 +289,12 @@ def _measure_run(
         friction: as in ``measure_runs``.
         noise: noise of the samples, if the position decides what is at rest; else None.
     """
-    moving = np.abs(run.velocity) > LEAST_SPEED * top
     least = LEAST_SPEED * top
+    progress = np.zeros(len(run), dtype=bool)
     if noise is not None:
+        progress = _find_progress(run, speed=least, noise=noise)
         least += OUTLIER * noise.velocity
-        progress = _find_progress(run, speed=LEAST_SPEED * top, noise=noise)
-        moving = (np.abs(run.velocity) > least) | progress
+    moving = (np.abs(run.velocity) > least) | progress
     first = 0
     if friction is not None and moving.any() and not moving[0]:
         go = _find_departure(run, moving, step=step)
@@ -370,9 +362,8 @@ def _find_repeated_frames(run: Run, *, fast: NDArray[np.bool_], step: float) -> 
     """
     ways, pairs = np.abs(np.diff(run.position)), fast[1:] & fast[:-1]
     same = (ways == 0.0) & (np.diff(run.velocity) == 0.0) & pairs
-    coarse = (
-        not pairs.any() or float(np.median(ways[pairs])) < FINE * step
-    )  # it repeats by rounding
+    # a coarse sensor repeats by rounding
+    coarse = not pairs.any() or float(np.median(ways[pairs])) < FINE * step
     if coarse or float(np.mean(same[pairs])) > REPEATED:
         same[:] = False
     return np.asarray(np.append(same, False) | np.insert(same, 0, False))
@@ -399,9 +390,8 @@ def _find_step_begin(run: Run, go: int) -> int:
     """
     early = np.arange(go + 1)[run.time[: go + 1] >= run.time[go] - RISE]
     pushes = run.voltage[early] * np.sign(run.voltage[go]) >= 0.5 * abs(run.voltage[go])
-    return (
-        int(early[early.size - int(np.argmin(pushes[::-1]))]) if not pushes.all() else int(early[0])
-    )
+    first = 0 if pushes.all() else early.size - int(np.argmin(pushes[::-1]))
+    return int(early[first])
 
 
 def _find_far_sample(run: Run) -> int:
@@ -429,10 +419,9 @@ def _find_sensor_activity(run: Run, moving: NDArray[np.bool_]) -> NDArray[np.boo
 
 def _find_informative(run: Run, moving: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """(n,) whether the mechanism moves, or a sample nearby has a velocity that is not zero."""
-    wide = (
-        np.convolve(_find_sensor_activity(run, moving), np.ones(2 * AROUND + 1), mode="same") > 0.0
-    )
-    return np.asarray(wide[: len(run)] | moving)
+    active = _find_sensor_activity(run, moving)
+    wide = np.convolve(active, np.ones(2 * AROUND + 1), mode="same")[: len(run)] > 0.0
+    return np.asarray(wide | moving)
 
 
 def _find_rest_readings(run: Run, moving: NDArray[np.bool_]) -> NDArray[np.bool_]:

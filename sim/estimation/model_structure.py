@@ -100,6 +100,17 @@ class ModelStructure:
             model += Part(name, {p: values[f"{name}.{p}"] for p in EFFECTS[name].names})
         return model
 
+    @staticmethod
+    def split_model(model: Model) -> tuple["ModelStructure", dict[str, float]]:
+        """The structure of a model, and the values of its parameters: the inverse of ``model``."""
+        values = dict(model.gains)
+        if model.type == "arm":
+            size, angle = values.pop("kG"), values.pop("offset_rad")
+            values |= {"level": size * math.cos(angle), "upright": -size * math.sin(angle)}
+        for part in model.parts:
+            values |= {f"{part.effect}.{name}": value for name, value in part.parameters.items()}
+        return ModelStructure(model.type, tuple(part.effect for part in model.parts)), values
+
     def find_parameter_scale(self, name: str, value: float) -> float:
         """Typical size of a parameter, in its unit: its value, or an ordinary one if larger."""
         if name in POSITIVE:

@@ -66,7 +66,7 @@ class JointJacobian:
             columns: (2 n, m) their derivatives by the further parameters.
             sd: standard deviation of the further parameters' normal prior.
         """
-        slope, square = self._compute_products(columns, white)
+        slope, square = self.compute_residual_products(columns, white)
         square = square + np.eye(columns.shape[1]) / sd**2
         return float(slope @ np.linalg.solve(square, slope))
 
@@ -74,13 +74,11 @@ class JointJacobian:
         """(k,) shift of the parameters by a small change (2 n,) of whitened innovations."""
         return np.asarray(-self.root @ self._project_data(change))
 
-    def compute_residual_products(self, change: Array, white: Array) -> tuple[float, float]:
-        """Products of a change with innovations and itself, the Jacobian projected out."""
-        product, square = self._compute_products(change, white)
-        return float(product), float(square)
+    def compute_residual_products(self, columns: Array, white: Array) -> tuple[Array, Array]:
+        """(m,) and (m, m) products of changes (2 n, m) with innovations and with each other.
 
-    def _compute_products(self, columns: Array, white: Array) -> tuple[Array, Array]:
-        """(m,) and (m, m) the same of some changes (2 n, m)."""
+        The Jacobian is projected out of both.
+        """
         projected = self._project_data(columns)
         product = columns.T @ white - projected.T @ self.project(white)
         return product, columns.T @ columns - projected.T @ projected

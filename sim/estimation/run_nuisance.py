@@ -54,10 +54,6 @@ class RunNuisance:
         """A copy with ``by``, for all runs or (runs,), added to one of the offsets."""
         return replace(self, **{name: getattr(self, name) + by})
 
-    def shift_positions(self, by: Array) -> "RunNuisance":
-        """A copy with positions shifted by ``by`` (runs,) [unit]."""
-        return self.add(POSITION, by)
-
     @property
     def with_common_friction(self) -> "RunNuisance":
         """A copy with one friction for all runs."""

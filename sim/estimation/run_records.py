@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -88,16 +89,16 @@ class RunRecord:
         bend, command = bend_voltage(slides), np.max(np.abs(volts), initial=0.0)
         room = (command - np.abs(volts + 0.5 * slides)) * np.sign(volts)
         more = np.where((slides != 0.0) & (bend == 0.0), room, bend)
-        return replace(self, measurements=replace(self.measurements, voltage=volts + more))
+        return self.change(voltage=volts + more)
+
+    def change(self, **signals: Any) -> "RunRecord":  # noqa: ANN401 - as dataclasses.replace
+        """A copy with other signals of its measurements."""
+        return replace(self, measurements=replace(self.measurements, **signals))
 
     def _leave_out(self, out: NDArray[np.bool_]) -> "RunRecord":
         """A copy in which the samples marked in ``out`` (n,) are not used."""
-        measurements = replace(
-            self.measurements,
-            informative=self.measurements.informative & ~out,
-            moving=self.measurements.moving & ~out,
-        )
-        return replace(self, measurements=measurements)
+        run = self.measurements
+        return self.change(informative=run.informative & ~out, moving=run.moving & ~out)
 
 
 def make_run_records(
@@ -151,10 +152,8 @@ def compute_session_length(*logs: Log) -> float:
 
     Pauses between runs count where the runs share a clock.
     """
-    lasted = (one.runs[-1].time[-1] - one.runs[-1].time[0] for one in logs)
-    return float(
-        sum(list_run_start_times(one)[-1] + last for one, last in zip(logs, lasted, strict=True))
-    )
+    lasted = (list_run_start_times(one)[-1] + np.ptp(one.runs[-1].time) for one in logs)
+    return float(sum(lasted))
 
 
 def join_records(log: Log, later: Log) -> Log:
@@ -172,12 +171,7 @@ def _start_at_rest(measurements: RunMeasurements, *, top: float) -> RunMeasureme
     fresh = np.flatnonzero(~np.isnan(x))[:2]
     if fresh.size < 2:  # noqa: PLR2004 - two make a rate
         return measurements
-    rate = abs(
-        float(
-            (x[fresh[1]] - x[fresh[0]])
-            / (measurements.time[fresh[1]] - measurements.time[fresh[0]])
-        )
-    )
+    (rate,) = np.abs(np.diff(x[fresh]) / np.diff(measurements.time[fresh]))
     return replace(measurements, velocity=0.0) if rate < AT_REST * top else measurements
 
 

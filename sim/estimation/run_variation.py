@@ -111,8 +111,7 @@ def _compute_voltage_shift(problem: PredictionErrorProblem, point: Estimate) -> 
     if not (sliding and point.structure.has_joint):
         return np.zeros(count)
     raised = replace(problem, records=tuple(one.raise_voltage() for one in problem.records))
-    model = point.structure.model(point.values)
-    innovations = raised.predict_errors(model, point.nuisance, point.kalman_filter)
+    innovations = raised.predict_errors(point.model, point.nuisance, point.kalman_filter)
     change = problem.whiten(point, innovations - point.innovations)
     return make_joint_jacobian(problem, point, fine=True).compute_shift(change)[:count]
 
@@ -128,17 +127,14 @@ def compute_standard_errors(problem: PredictionErrorProblem, point: Estimate) ->
     """
     structure = point.structure
     variances = np.diag(compute_run_variation_covariance(problem, point)).tolist()
-    errors = {
-        name: math.sqrt(max(variance, 0.0))
-        for name, variance in zip(structure.searched_names, variances, strict=True)
-    }
-    for name in errors.keys() & structure.parameters:
-        errors[name] = math.hypot(errors[name], SIMULATION * point.values[name])
-    most = {
-        name: LARGEST_ERROR * structure.find_parameter_scale(name, point.values[name])
-        for name in errors
-    }
-    return {name: error if error < most[name] else math.inf for name, error in errors.items()}
+    errors = {}
+    for name, variance in zip(structure.searched_names, variances, strict=True):
+        value, error = point.values[name], math.sqrt(max(variance, 0.0))
+        if name in structure.parameters:
+            error = math.hypot(error, SIMULATION * value)
+        most = LARGEST_ERROR * structure.find_parameter_scale(name, value)
+        errors[name] = error if error < most else math.inf
+    return errors
 
 
 def _estimate_variances(runs: list[RunInformation], guess: Array) -> Array:
@@ -204,10 +200,8 @@ def _run_information(
     effects = problem.list_random_effects(point.values)
     known = np.array([1.0 / sd**2 for sd in effects.values()])
     places = count + len(problem.records) * np.arange(len(effects))
-    for number, (first, last) in enumerate(
-        zip(problem.run_edges, problem.run_edges[1:], strict=False)
-    ):
-        rows = slice(2 * int(first), 2 * int(last))
+    for number, samples in enumerate(problem.run_slices):
+        rows = slice(2 * samples.start, 2 * samples.stop)
         columns = jacobian[rows, :count] * sizes
         if not columns.any():
             continue
@@ -218,18 +212,14 @@ def _run_information(
         information = free.T @ columns
         score = free.T @ innovations[rows] - shares.T @ own
         time = problem.records[number].measurements.time
-        starts = 2 * _find_interval_starts(time, INTERVAL)  # two measurements to a sample
+        begins = np.diff((time - time[0]) // INTERVAL, prepend=-1.0)
+        starts = 2 * np.flatnonzero(begins)  # two measurements to a sample
         scores = np.add.reduceat(free.T * innovations[rows], starts, axis=1).T
         excess = max(_compute_excess_variance(information, scores), 1.0)
         whole = np.vstack([free, np.sqrt(known)[:, None] * shares])
         root = np.asarray(np.linalg.qr(whole, mode="r"))
         runs.append(RunInformation(root / math.sqrt(excess), score / excess))
     return runs
-
-
-def _find_interval_starts(time: Array, length: float) -> NDArray[np.intp]:
-    """Index of the first sample in each interval of this length [s] that has samples."""
-    return np.flatnonzero(np.diff((time - time[0]) // length, prepend=-1.0))
 
 
 def _compute_excess_variance(information: Array, scores: Array) -> float:

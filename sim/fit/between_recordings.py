@@ -6,7 +6,6 @@ measured on 241 logs of real robots, as ``tests/benchmarks/bench_real.py`` does 
 recordings of one mechanism on one day differ, the median over all pairs.
 """
 
-import math
 from collections.abc import Mapping
 
 from sim.fit.result import Fit
@@ -25,19 +24,13 @@ def describe_next_recording(found: Fit) -> tuple[str, ...]:
     Returns:
         The sentence; nothing if no error is small enough for this to matter.
     """
-    known = {
-        gain: share
-        for gain, share in SHARES.items()
-        if gain in found.gains
-        and math.isfinite(found.errors.get(gain, math.nan))
-        and found.errors[gain] < share * abs(found.gains[gain])
-    }
-    if not known:
-        return ()
-    told = [f"{gain} by about {100.0 * share:.0f} %" for gain, share in known.items()]
-    listed = join_names(told)
+    told = [
+        f"{gain} by about {100.0 * SHARES[gain]:.0f} %"
+        for gain, error in found.errors.items()
+        if error < SHARES.get(gain, 0.0) * abs(found.gains[gain])
+    ]
     said = (
-        f"These errors are of this log alone. The next recording will differ: {listed}, as on most "
-        "robots. To see yours, record twice and fit both: sysid fit ONE TWO"
+        f"These errors are of this log alone. The next recording will differ: {join_names(told)}, "
+        "as on most robots. To see yours, record twice and fit both: sysid fit ONE TWO"
     )
-    return (said,)
+    return (said,) if told else ()

@@ -12,15 +12,12 @@ from dataclasses import dataclass
 from sim.core.doubt import Doubt
 from sim.core.units import find_unit
 from sim.feedback import (
-    PRESETS,
     Feedback,
     Plant,
     Preset,
     StepResponse,
     Verdict,
     compute_allowed_velocity_error,
-    design_position_loop,
-    design_velocity_loop,
     judge_step_response,
     simulate_step_response,
 )
@@ -107,20 +104,14 @@ def _try_loop(
     """The trial of gains of one loop; None if no step of it can be simulated."""
     gains_of_plant = {**found.gains, "kS": max(found.gains["kS"], 0.0)}  # no negative friction
     plant = Plant(found.type, gains_of_plant, angle=find_unit(found.units).si)
-    target, delay = plant.choose_target_step(loop), choose_feedback_delay(found, preset, loop=loop)
+    target = plant.choose_target_step(loop)
+    delay = found.choose_feedback_delay(preset, loop=loop)
     if not target > 0.0:
         return None
     response = simulate_step_response(
         plant, loop=loop, feedback=gains, target=target, preset=preset, delay=delay
     )
     return FeedbackTrial(whose, loop, gains, preset, delay, response, judge_step_response(response))
-
-
-def choose_feedback_delay(found: Fit, preset: Preset, *, loop: str) -> float:
-    """[s] delay for which gains are designed: the log's for the default preset, else its own."""
-    if preset is not PRESETS["default"]:
-        return preset.delay
-    return max(0.0, found.velocity_delay if loop == "velocity" else found.position_delay)
 
 
 def warn_of_bad_suggestions(found: Fit, tried: tuple[FeedbackTrial, ...]) -> tuple[Doubt, ...]:
@@ -158,21 +149,13 @@ def _doubt_suggestion(found: Fit, trial: FeedbackTrial) -> Doubt:
 
 def _suggest_others(found: Fit, trial: FeedbackTrial) -> Iterator[FeedbackTrial]:
     """Suggestions for larger allowed errors, or for smaller ones if the gains are too weak."""
-    kv, ka, preset, delay = found.gains["kV"], found.gains["kA"], trial.preset, trial.delay
-    allowed = compute_allowed_velocity_error(ks=found.gains["kS"], kv=kv)
+    loop, preset = trial.loop, trial.preset
+    allowed = compute_allowed_velocity_error(ks=found.gains["kS"], kv=found.gains["kV"])
     weak = trial.verdict.kind in WEAK and trial.gains.kp > 0.0
     for times in STIFFER if weak else GENTLER:
-        least = max(times, 1.0) * allowed
-        if trial.loop == "velocity":
-            gains = design_velocity_loop(
-                kv=kv, ka=ka, preset=preset, velocity_error=times * allowed, delay=delay
-            )
-        else:
-            gains = design_position_loop(
-                kv=kv, ka=ka, preset=preset, position_error=times * POSITION_ERROR,
-                velocity_error=least, delay=delay,
-            )  # fmt: skip
-        other = _try_loop(found, preset, whose=trial.owner, loop=trial.loop, gains=gains)
+        speed = allowed * (times if loop == "velocity" else max(times, 1.0))
+        gains = found.feedback(preset, position_error=times * POSITION_ERROR, velocity_error=speed)
+        other = _try_loop(found, preset, whose=trial.owner, loop=loop, gains=gains[loop])
         if other is not None:
             yield other
 

@@ -1,7 +1,7 @@
 """Warnings about an output-error fit: lags, and a model that does not fit."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from sim.core.advice import Action
 from sim.core.doubt import GAINS, Doubt
@@ -18,37 +18,31 @@ MISFIT = frozenset({"model-strays", "small-misfit", "strong-effect"})
 """Warnings that kS, kV, kA and kG alone do not describe the log; a model with effects may."""
 
 
-def warn_of_lags(window: float, lag: float) -> tuple[Doubt, ...]:
+def warn_of_lags(window: float, lag: float) -> Iterator[Doubt]:
     """Warnings about a filtered velocity and about a delay.
 
     Args:
         window: [s] time over which the velocity is averaged; 0 if it is not.
         lag: [s] delay from voltage to motion.
     """
-    said = []
     if window > LEAST_LAG:
-        said.append(
-            Doubt(
-                "velocity-lag",
-                f"The velocity is averaged over {window * 1000:.0f} ms, so it is "
-                f"{window * 500:.0f} ms late. The gains account for this delay. Your feedback "
-                "controller gets the same delay: shorten the filter of the motor controller.",
-            )
+        yield Doubt(
+            "velocity-lag",
+            f"The velocity is averaged over {window * 1000:.0f} ms, so it is "
+            f"{window * 500:.0f} ms late. The gains account for this delay. Your feedback "
+            "controller gets the same delay: shorten the filter of the motor controller.",
         )
     if lag > LEAST_LAG:
-        said.append(
-            Doubt(
-                "late-answer",
-                f"The mechanism reacts {lag * 1000:.0f} ms after the logged voltage. The gains "
-                "account for this delay. Your feedback controller gets the same delay.",
-            )
+        yield Doubt(
+            "late-answer",
+            f"The mechanism reacts {lag * 1000:.0f} ms after the logged voltage. The gains "
+            "account for this delay. Your feedback controller gets the same delay.",
         )
-    return tuple(said)
 
 
 def warn_of_misfit(
     replay: OpenLoopReplay, gains_only: OpenLoopReplay, *, per: Unit, hint: Action | None = None
-) -> tuple[Doubt, ...]:
+) -> Iterator[Doubt]:
     """A warning if a simulation differs from the log by more than its noise.
 
     Args:
@@ -64,30 +58,25 @@ def warn_of_misfit(
         f"{gains_only.rmse / top_speed:.0%} of its top speed"
     )
     if share > NOTICED:
-        return (
-            Doubt(
-                "model-strays",
-                f"A simulation with these gains has a velocity error of {size}. A controller "
-                "would notice that. The errors above include it, but kS, kV and kA do not "
-                "describe this log well.",
-                grave=share > FAR,
-                action=hint or Action("inspect-and-reconcile"),
-                gains=GAINS,
-            ),
+        yield Doubt(
+            "model-strays",
+            f"A simulation with these gains has a velocity error of {size}. A controller "
+            "would notice that. The errors above include it, but kS, kV and kA do not "
+            "describe this log well.",
+            grave=share > FAR,
+            action=hint or Action("inspect-and-reconcile"),
+            gains=GAINS,
         )
-    if not replay.has_misfit:
-        return ()
-    return (
-        Doubt(
+    elif replay.has_misfit:
+        yield Doubt(
             "small-misfit",
             f"A simulation with these gains has a velocity error of {size}. That is small, but "
             "larger than the sensor noise. The errors above include it.",
             action=Action("look-for-cause"),
-        ),
-    )
+        )
 
 
-def warn_of_strong_effects(parts: Sequence[Part], priors: Mapping[str, float]) -> tuple[Doubt, ...]:
+def warn_of_strong_effects(parts: Sequence[Part], priors: Mapping[str, float]) -> Iterator[Doubt]:
     """A warning if a small effect is larger than on a healthy robot.
 
     Args:
@@ -103,14 +92,11 @@ def warn_of_strong_effects(parts: Sequence[Part], priors: Mapping[str, float]) -
             if EFFECTS[part.effect].neutral[name] == 0.0
         )
     ]
-    if not strong:
-        return ()
-    return (
-        Doubt(
+    if strong:
+        yield Doubt(
             "strong-effect",
             "There is an effect in this log that kS, kV and kA do not describe: "
             f"{'; '.join(strong)}. It is larger than on a healthy robot. A feedforward with "
             "these gains does not correct it.",
             action=Action("look-for-cause"),
-        ),
-    )
+        )

@@ -9,7 +9,7 @@ from sim.core.advice import Action
 from sim.core.doubt import Doubt
 from sim.core.errors import NotIdentifiable
 from sim.core.log import Log
-from sim.core.units import Unit, convert_gains, find_unit
+from sim.core.units import convert_gains, find_unit
 from sim.estimation.measurements import RunMeasurements
 from sim.fit.open_loop_fallback import OpenLoopReplay
 from sim.fit.result import format_gain_unit
@@ -109,15 +109,10 @@ def refuse_unrelated(replay: OpenLoopReplay, *, log: Log, hint: Action | None = 
     if replay.r2 >= LEAST_R2:
         return
     per = find_unit(log.units)
-    error, top_speed = (_format_speed(one, per) for one in (replay.rmse, replay.top_speed))
+    error = per.format_speed(replay.rmse) if math.isfinite(replay.rmse) else "any amount"
     raise NotIdentifiable(
         "no gains describe this log: the velocity error of the best simulation is "
-        f"{error}, with a top speed of {top_speed}",
+        f"{error}, with a top speed of {per.format_speed(replay.top_speed)}",
         where=log.source,
         advice=hint or Action("inspect-and-reconcile", before="Check the type and the units."),
     )
-
-
-def _format_speed(speed: float, per: Unit) -> str:
-    """A speed [m/s or rad/s] in the log's unit."""
-    return f"{speed / per.si:.3g} {per.symbol}/s" if math.isfinite(speed) else "any amount"

@@ -48,13 +48,7 @@ def compute_innovations(found: Fit, log: Log) -> tuple[RunInnovations, ...]:
     """
     model, log, measured = measure_as_fitted(found, log)
     problem = make_fit_problem(log, measured)
-    values = dict(model.gains)
-    if found.type == "arm":
-        size, angle = values.pop("kG"), values.pop("offset_rad")
-        values |= {"level": size * math.cos(angle), "upright": -size * math.sin(angle)}
-    for part in model.parts:
-        values |= {f"{part.effect}.{name}": value for name, value in part.parameters.items()}
-    structure = ModelStructure(found.type, tuple(part.effect for part in model.parts))
+    structure, values = ModelStructure.split_model(model)
     noise = TRACKING * problem.noise.velocity**2
     point = problem.evaluate(structure, values, problem.initial_nuisance, noise)
     if math.isfinite(point.cost):
@@ -63,10 +57,8 @@ def compute_innovations(found: Fit, log: Log) -> tuple[RunInnovations, ...]:
         return ()
     compared = ~problem.ignored_readings
     innovations = []
-    for record, first, last in zip(
-        problem.records, problem.run_edges[:-1], problem.run_edges[1:], strict=True
-    ):
-        time, errors = record.measurements.time, point.innovations[first:last]
-        x, v = compared[first:last].T
+    for record, rows in zip(problem.records, problem.run_slices, strict=True):
+        time, errors = record.measurements.time, point.innovations[rows]
+        x, v = compared[rows].T
         innovations.append(RunInnovations(time[x], errors[x, 0], time[v], errors[v, 1]))
     return tuple(innovations)

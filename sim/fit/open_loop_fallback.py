@@ -100,7 +100,7 @@ def replay_open_loop(
         velocity_only: as in ``OpenLoopReplay``.
     """
     nuisance = problem.initial_nuisance.add(LAG, point.nuisance.lag_offset)
-    track = problem.simulate(point.structure.model(point.values), nuisance)
+    track = problem.simulate(point.model, nuisance)
     both = np.column_stack([problem.measured[:, 1], track.seen])
     fresh = ~np.isnan(both[:, 0])
     changes = []
@@ -164,13 +164,11 @@ def fit_velocity_only(found: Solution) -> Solution:
     if not found.is_incomplete:
         return found
     problem, point = found.problem, found.point
-    records = []
-    for record in problem.records:
-        measured = record.measurements.measured.copy()
-        measured[:, 0] = np.nan
-        run = replace(record.measurements, measured=measured)
-        records.append(replace(record, measurements=run))
-    velocities = replace(problem, records=tuple(records), lag_sd=0.0)
+    records = tuple(  # without positions
+        record.change(measured=record.measurements.measured * [np.nan, 1.0])
+        for record in problem.records
+    )
+    velocities = replace(problem, records=records, lag_sd=0.0)
     structure = replace(point.structure, fixed=LAGS)
     nuisance = velocities.initial_nuisance.add(LAG, point.nuisance.lag_offset)
     begin = velocities.evaluate(structure, point.values, nuisance, 0.0)

@@ -5,6 +5,7 @@ whole mechanism reacts late, these delays are fitted as well and reported.
 """
 
 import math
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from itertools import product
@@ -17,7 +18,7 @@ from sim.core.log import Array, Log, Run
 from sim.core.units import find_unit
 from sim.estimation.initial_guess import clamp_to_physical, orient_forward
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
-from sim.estimation.measurements import LEAST_SPEED, MIN_SAMPLES, measure_runs
+from sim.estimation.measurements import LEAST_SPEED, measure_runs
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import compute_parameter_covariance, make_joint_jacobian
 from sim.estimation.run_variation import compute_run_variation_covariance
@@ -42,7 +43,7 @@ from sim.fit.open_loop_fallback import (
     fit_velocity_only,
     replay_open_loop,
 )
-from sim.fit.result import Fit, refuse_length_of_arm
+from sim.fit.result import Fit, multiply_gains, refuse_length_of_arm
 from sim.fit.run_differences import fit_run_differences
 from sim.fit.search import (
     TRACKING,
@@ -53,7 +54,7 @@ from sim.fit.search import (
     predict_improvement,
     refine,
 )
-from sim.fit.sysid_doubts import warn_of_opposed_signs
+from sim.fit.sysid_doubts import OPPOSED_SIGNS
 
 PENALTY = 4.0  # [of -2 log L] more for a window below a sample period, which noise can imitate
 HINT = 2.0  # [of -2 log L] predicted improvement by short lags from which on longer ones are tried
@@ -90,9 +91,7 @@ def fit_output_error(log: Log, *, type: str) -> Fit:  # noqa: A002 - SysId's wor
             found = _fit_problem(log, type=type)
     except np.linalg.LinAlgError:
         found = None
-    if found is None or not all(
-        map(math.isfinite, (*found.gains.values(), *found.errors.values()))
-    ):
+    if found is None or not np.isfinite([*found.gains.values(), *found.errors.values()]).all():
         raise _refuse_motion(log)
     return replace(found, doubts=(*still, *found.doubts))
 
@@ -175,9 +174,7 @@ def _fit_problem(log: Log, *, type: str) -> Fit:  # noqa: A002 - as above
     _, errors = compute_gains_with_errors(
         whole[1], compute_run_variation_covariance(*whole), type=type
     )
-    gains_only = replay
-    if list_everyday_effects(point):
-        gains_only = replay_open_loop(searched, remove_everyday_effects(point))
+    gains_only = replay_open_loop(searched, remove_everyday_effects(point))
     said = (
         *unknown,
         *warn_of_misfit(replay, gains_only, per=find_unit(log.units), hint=hint),
@@ -349,21 +346,18 @@ def _make_result(
     point, replay = found.point, found.replay
     change = replay.acceleration_scores
     window, lag = (point.values.get(name, 0.0) for name in LAGS)
-    signed = {
-        name: value if name == "offset_rad" else sign * value for name, value in gains.items()
-    }
     return Fit(
         type=point.structure.type,
         method="output-error",
         units="radians" if find_unit(log.units).angular else "meters",
         log_units=find_unit(log.units).name,
-        gains=signed,
+        gains=multiply_gains(gains, sign),
         errors=errors,
         acceleration_r2=change[0],
         acceleration_rmse=change[1],
         simulated_velocity_r2=replay.r2,
         simulated_velocity_rmse=replay.rmse,
-        samples_used=_count_samples(log, found.problem),
+        samples_used=_count_samples(found.problem),
         position_delay=lag,
         velocity_delay=lag + 0.5 * window,
         velocity_threshold=0.0,
@@ -372,17 +366,16 @@ def _make_result(
         parts=list_everyday_effects(point),
         doubts=(
             *log.doubts,
-            *(warn_of_opposed_signs() if sign < 0.0 else ()),
+            *((OPPOSED_SIGNS,) if sign < 0.0 else ()),
             *warn_of_lags(window, lag),
             *said,
         ),
     )
 
 
-def _count_samples(log: Log, problem: PredictionErrorProblem) -> dict[str, int]:
+def _count_samples(problem: PredictionErrorProblem) -> dict[str, int]:
     """Test -> number of samples in motion that were compared."""
-    counts: dict[str, int] = {}
-    long = [run for run in log.runs if len(run) >= MIN_SAMPLES]
-    for run, record in zip(long, problem.records, strict=True):
-        counts[run.test] = counts.get(run.test, 0) + int(record.measurements.moving.sum())
-    return counts
+    counts: Counter[str] = Counter()
+    for record in problem.records:
+        counts[record.test] += int(record.measurements.moving.sum())
+    return dict(counts)

@@ -16,13 +16,14 @@ than the scatter of the parts says (J. Hartung and G. Knapp, 2001).
 """
 
 import math
+from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 
 from sim.core.advice import Action
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
-from sim.fit.result import Fit
+from sim.fit.result import Fit, multiply_gains
 
 LEAST_ERROR = 1e-9  # [share of a gain] smaller standard errors count as this
 
@@ -139,13 +140,11 @@ def _orient_alike(fits: list[Fit]) -> list[Fit]:
     """
     if all(one.gains["kV"] < 0.0 for one in fits):
         return fits
-    return [_invert_gains(one) if one.gains["kV"] < 0.0 else one for one in fits]
-
-
-def _invert_gains(found: Fit) -> Fit:
-    """The fit with all gains times -1."""
-    gains = {name: value if name == "offset_rad" else -value for name, value in found.gains.items()}
-    return replace(found, gains=gains)
+    signs = [-1.0 if one.gains["kV"] < 0.0 else 1.0 for one in fits]
+    return [
+        replace(one, gains=multiply_gains(one.gains, sign))
+        for one, sign in zip(fits, signs, strict=True)
+    ]
 
 
 def _get_gain(first: Fit, other: Fit, name: str) -> float:
@@ -187,11 +186,10 @@ def _pool_quality(
 
 def _sum_samples(fits: list[Fit]) -> dict[str, int]:
     """Test -> number of samples used, summed over the parts."""
-    counts: dict[str, int] = {}
+    counts: Counter[str] = Counter()
     for one in fits:
-        for test, count in one.samples_used.items():
-            counts[test] = counts.get(test, 0) + count
-    return counts
+        counts.update(one.samples_used)
+    return dict(counts)
 
 
 def _compute_mean(values: Iterable[float]) -> float:

@@ -4,7 +4,6 @@ The simulation is open loop and starts with each run. It includes the lag and th
 velocity that the fit found, so the residual is noise and what the gains do not explain.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -17,12 +16,12 @@ from sim.estimation.measurements import (
     MIN_SAMPLES,
     RunMeasurements,
     compute_noise_at_speed,
-    compute_noise_deviation,
     estimate_noise,
     measure_runs,
 )
 from sim.fit import Fit
-from sim.physics.engine import State, Track, simulate_run
+from sim.fit.result import multiply_gains
+from sim.physics.engine import State, simulate_run
 from sim.physics.model import Model, Part
 
 LEAST_LAG = 1e-5  # [s] a shorter lag is left out
@@ -37,7 +36,6 @@ class RunReplay:
         position: (n,) [m or rad] simulated position.
         velocity: (n,) [m/s or rad/s] simulated velocity, as the sensor would report it.
         moving: (n,) whether the mechanism moves.
-        position_noise: [m or rad] standard deviation of one sample.
         velocity_noise: [m/s or rad/s] standard deviation of one sample.
     """
 
@@ -45,7 +43,6 @@ class RunReplay:
     position: Array
     velocity: Array
     moving: NDArray[np.bool_]
-    position_noise: float
     velocity_noise: float
 
     @property
@@ -80,7 +77,6 @@ def replay_fit(found: Fit, log: Log) -> tuple[RunReplay, ...]:
         for part in measured
     ]  # fmt: skip
     runs = [run for run in log.runs if len(run) >= MIN_SAMPLES]
-    position_noise = _measure_position_noise(measured, tracks)
     noise = estimate_noise(measured)
     velocity_noise = max(compute_noise_at_speed(measured, noise), noise.velocity)
     return tuple(
@@ -89,7 +85,6 @@ def replay_fit(found: Fit, log: Log) -> tuple[RunReplay, ...]:
             track.position,
             track.seen,
             part.moving,
-            position_noise,
             velocity_noise,
         )
         for run, part, track in zip(runs, measured, tracks, strict=True)
@@ -117,9 +112,7 @@ def make_fit_model(found: Fit) -> tuple[float, Model]:
         BadRequest: kV or kA is not positive, or only one of them is negative.
     """
     sign = -1.0 if found.gains["kV"] < 0.0 and found.gains["kA"] < 0.0 else 1.0
-    gains = {
-        name: value if name == "offset_rad" else sign * value for name, value in found.gains.items()
-    }
+    gains = multiply_gains(found.gains, sign)
     gains["kS"] = max(gains["kS"], 0.0)  # no negative friction
     if not (gains["kV"] > 0.0 and gains["kA"] > 0.0):
         raise BadRequest(
@@ -145,16 +138,3 @@ def _list_sensor_lags(found: Fit) -> list[Part]:
     return [
         Part(effect, {name: size}) for effect, (name, size) in sizes.items() if size > LEAST_LAG
     ]
-
-
-def _measure_position_noise(measured: Sequence[RunMeasurements], tracks: Sequence[Track]) -> float:
-    """[m or rad] position noise, from third differences of the residual.
-
-    They hardly depend on errors of the model. Those of the position itself would be large wherever
-    a sample is late.
-    """
-    thirds = [
-        np.diff((run.measured[:, 0] - track.position)[run.moving], 3)
-        for run, track in zip(measured, tracks, strict=True)
-    ]
-    return compute_noise_deviation([third[~np.isnan(third)] for third in thirds])

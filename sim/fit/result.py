@@ -141,7 +141,6 @@ class Fit:
         allowed = velocity_error or compute_allowed_velocity_error(ks=self.gains["kS"], kv=kv)
         if not allowed > 0.0:
             return {}
-        of_log = preset is PRESETS["default"]
         return {
             "velocity": design_velocity_loop(
                 kv=kv,
@@ -149,7 +148,7 @@ class Fit:
                 preset=preset,
                 velocity_error=allowed,
                 volts=volts,
-                delay=self.velocity_delay if of_log else None,
+                delay=self.choose_feedback_delay(preset, loop="velocity"),
             ),
             "position": design_position_loop(
                 kv=kv,
@@ -158,9 +157,15 @@ class Fit:
                 position_error=position_error,
                 velocity_error=allowed,
                 volts=volts,
-                delay=self.position_delay if of_log else None,
+                delay=self.choose_feedback_delay(preset, loop="position"),
             ),
         }
+
+    def choose_feedback_delay(self, preset: Preset, *, loop: str) -> float:
+        """[s] delay for which gains are designed: the log's for WPILib's preset, else its own."""
+        if preset is not PRESETS["default"]:
+            return preset.delay
+        return max(0.0, self.velocity_delay if loop == "velocity" else self.position_delay)
 
     def list_doubts(self, preset: Preset = PRESETS["default"]) -> tuple[Doubt, ...]:
         """The doubts about the gains, and those about the feedback gains of one preset."""
@@ -218,6 +223,11 @@ def refuse_length_of_arm(log: Log, *, type: str) -> None:  # noqa: A002 - the fi
             where=log.source,
             advice=Action("angle"),
         )
+
+
+def multiply_gains(gains: Mapping[str, float], sign: float) -> dict[str, float]:
+    """The gains times a sign; an angle stays as it is."""
+    return {name: value if name == "offset_rad" else sign * value for name, value in gains.items()}
 
 
 def format_gain_unit(gain: str, per: Unit) -> str:

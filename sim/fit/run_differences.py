@@ -84,13 +84,13 @@ def fit_run_differences(
         return problem, point
     common = fit_tracking(every, point.structure, point.values)
     lags, frictions, both = (
-        _fit_rival(replace(every, lag_sd=sd, varying_friction=friction), common, period)
+        _fit_differences(replace(every, lag_sd=sd, varying_friction=friction), common, period)
         for sd, friction in ((lag_sd, False), (0.0, True), (lag_sd, True))
     )
-    small = _fit_small_effects(every, common)
+    small = _fit_rival(*add_everyday_effects(every, common, first=FIRST))
     unclear = abs(lags.evidence - frictions.evidence) < WORTH
     best = both if unclear else min(lags, frictions, both, key=lambda one: one.evidence)
-    if not best.evidence < min(common.cost, small) - WORTH:
+    if not best.evidence < min(common.cost, small.evidence) - WORTH:
         return problem, point
     extended, tracked = best.problem, best.estimate
     extended = drop_outliers(extended, tracked)
@@ -114,7 +114,13 @@ class _Rival(NamedTuple):
     estimate: Estimate
 
 
-def _fit_rival(problem: PredictionErrorProblem, common: Estimate, period: float) -> _Rival:
+def _fit_rival(problem: PredictionErrorProblem, begin: Estimate) -> _Rival:
+    """The best estimate near a start, and its evidence: what has a prior is integrated out."""
+    found = levenberg_marquardt(problem, begin, steps=2 * STEPS, enough=ROUGHLY)
+    return _Rival(found.cost + _compute_occam_factor(problem, found), problem, found)
+
+
+def _fit_differences(problem: PredictionErrorProblem, common: Estimate, period: float) -> _Rival:
     """Fit runs that may differ.
 
     Args:
@@ -122,22 +128,12 @@ def _fit_rival(problem: PredictionErrorProblem, common: Estimate, period: float)
         common: the best estimate without differences.
         period: [s] time between samples of the log.
     """
-    begin = problem.change(common)
-    if problem.lag_sd:
-        begin = _add_shared_lag(problem, common, least=0.5 * period)
-    found = levenberg_marquardt(problem, begin, steps=2 * STEPS, enough=ROUGHLY)
-    if problem.lag_sd:
-        lags = found.values["delay.lag"] + found.nuisance.lag_offset
-        if lags.min() < -EARLY * period:  # a reading cannot be newer than its sample's voltage
-            return _Rival(math.inf, problem, found)
-    return _Rival(found.cost + _compute_occam_factor(problem, found), problem, found)
-
-
-def _fit_small_effects(problem: PredictionErrorProblem, common: Estimate) -> float:
-    """-2 log L of runs that do not differ, with the small effects that every mechanism has."""
-    extended, begin = add_everyday_effects(problem, common, first=FIRST)
-    found = levenberg_marquardt(extended, begin, steps=2 * STEPS, enough=ROUGHLY)
-    return found.cost + _compute_occam_factor(extended, found)
+    if not problem.lag_sd:
+        return _fit_rival(problem, problem.change(common))
+    found = _fit_rival(problem, _add_shared_lag(problem, common, least=0.5 * period))
+    lags = found.estimate.values["delay.lag"] + found.estimate.nuisance.lag_offset
+    # a reading cannot be newer than its sample's voltage
+    return found._replace(evidence=math.inf) if lags.min() < -EARLY * period else found
 
 
 def _compute_occam_factor(problem: PredictionErrorProblem, point: Estimate) -> float:
@@ -179,15 +175,15 @@ def _correct_jitter(problem: PredictionErrorProblem, point: Estimate) -> Predict
         measured = run.measured + slopes[first : first + own.size] * own[:, None]
         jumps = np.abs(np.diff(run.voltage, prepend=0.0)) > JUMP
         measured[1:][jumps[:-1], 1] = np.nan  # an average over a sudden change of slope
-        records.append(replace(record, measurements=replace(run, measured=measured)))
+        records.append(record.change(measured=measured))
     return replace(problem, records=tuple(records))
 
 
 def _compute_reading_slopes(problem: PredictionErrorProblem, point: Estimate) -> Array:
     """(n, 2) derivative of the simulated readings by time [unit/s, unit/s²]."""
-    model = point.structure.model(point.values)
     base = problem.initial_nuisance.add(LAG, point.nuisance.lag_offset)
-    readings = [problem.simulate(model, base.add(LAG, by)) for by in (-SLOPE_STEP, SLOPE_STEP)]
+    steps = (-SLOPE_STEP, SLOPE_STEP)
+    readings = [problem.simulate(point.model, base.add(LAG, by)) for by in steps]
     early, late = (np.column_stack((one.expected, one.seen)) for one in readings)
     return np.asarray((early - late) / (2.0 * SLOPE_STEP))
 

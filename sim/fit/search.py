@@ -39,9 +39,8 @@ def make_fit_problem(log: Log, measured: Sequence[RunMeasurements]) -> Predictio
         measured: the measurements of each run that has enough samples.
     """
     records = make_separate_records(log, [merge_stale_samples(one) for one in measured])
-    return PredictionErrorProblem.from_records(
-        records, varying_friction=False, backlash_allowance=SLACK
-    )
+    problem = PredictionErrorProblem.from_records(records)
+    return replace(problem, varying_friction=False, backlash_allowance=SLACK)
 
 
 def fit_tracking(
@@ -142,7 +141,7 @@ def drop_outliers(problem: PredictionErrorProblem, point: Estimate) -> Predictio
         # a start determines kA, and a large innovation there is more likely an error of the model
         own[run.time < run.time[int(np.argmax(run.moving))] + START] = False
         wide = np.convolve(own, np.ones(2 * AROUND + 1), mode="same")[: run.time.size] > 0.0
-        kept.append(replace(record, measurements=replace(run, informative=run.informative & ~wide)))
+        kept.append(record.change(informative=run.informative & ~wide))
     same = all(
         np.array_equal(one.measurements.informative, other.measurements.informative)
         for one, other in zip(kept, problem.records, strict=True)

@@ -1,6 +1,6 @@
 """Warnings about a log that SysId's recipe does not give: repeats, stale samples, signs."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
@@ -16,6 +16,12 @@ DUBIOUS_R2 = 0.2  # acceleration R² below which WPILib's documentation calls kA
 GOOD_R2 = 0.9  # simulated velocity R² above which WPILib's documentation calls a fit good
 STALE = 0.6  # [share of accelerating samples] that repeat; up to one half, kA has no bias
 SURELY = 2.0  # [standard errors] below zero, from which on noise is not the cause
+OPPOSED_SIGNS = Doubt(
+    "sign-opposed",
+    "kV and kA are negative: a positive voltage gives a negative velocity in this log. Invert "
+    "the encoder or the motor, and record again.",
+    grave=True,
+)
 
 
 def list_sysid_doubts(
@@ -38,29 +44,22 @@ def list_sysid_doubts(
     )
 
 
-def _doubt_repeats(log: Log) -> list[Doubt]:
+def _doubt_repeats(log: Log) -> Iterator[Doubt]:
     """Doubts about runs that SysId does not use: repeated and unknown tests."""
-    again = [
-        f"{test} ({len(log.list_runs_of_test(test))} runs)"
-        for test in FOUR_TESTS
-        if len(log.list_runs_of_test(test)) > 1
-    ]
+    counts = {test: len(log.list_runs_of_test(test)) for test in FOUR_TESTS}
+    again = [f"{test} ({count} runs)" for test, count in counts.items() if count > 1]
     other = sorted({run.test for run in log.runs} - set(FOUR_TESTS))
-    doubts = []
     if again:
-        doubts.append(
-            Doubt(
-                "repeated-test",
-                f"Only the first run of each test is used, as in SysId; recorded more than once: "
-                f"{', '.join(again)}. If the first was the bad one, delete it from the log.",
-            )
+        yield Doubt(
+            "repeated-test",
+            f"Only the first run of each test is used, as in SysId; recorded more than once: "
+            f"{', '.join(again)}. If the first was the bad one, delete it from the log.",
         )
     if other:
-        doubts.append(Doubt("unused-test", f"SysId's method does not use: {', '.join(other)}."))
-    return doubts
+        yield Doubt("unused-test", f"SysId's method does not use: {', '.join(other)}.")
 
 
-def _doubt_stale_velocities(log: Log) -> list[Doubt]:
+def _doubt_stale_velocities(log: Log) -> Iterator[Doubt]:
     """A doubt about velocities that were logged more often than they were measured.
 
     If a velocity repeats for n samples, SysId uses the two samples at each jump and divides the
@@ -75,18 +74,16 @@ def _doubt_stale_velocities(log: Log) -> list[Doubt]:
     repeated = np.concatenate(steps) == 0.0
     share = float(repeated.mean()) if repeated.size else 0.0
     if share < STALE:
-        return []
-    return [
-        Doubt(
-            "stale-velocity",
-            f"While the mechanism speeds up, {share:.0%} of the samples repeat the velocity of the "
-            "sample before: the log is faster than the motor controller sends. SysId's recipe "
-            "computes the acceleration from these velocities, so kA becomes about "
-            f"{2 * (1 - share):.0%} of its true value. Log at the controller's own rate, or raise "
-            "that rate.",
-            gains=("kA",),
-        )
-    ]
+        return
+    yield Doubt(
+        "stale-velocity",
+        f"While the mechanism speeds up, {share:.0%} of the samples repeat the velocity of the "
+        "sample before: the log is faster than the motor controller sends. SysId's recipe "
+        "computes the acceleration from these velocities, so kA becomes about "
+        f"{2 * (1 - share):.0%} of its true value. Log at the controller's own rate, or raise "
+        "that rate.",
+        gains=("kA",),
+    )
 
 
 def _measure_rise_changes(run: Run) -> Array:
@@ -102,7 +99,7 @@ def _doubt_signs(
 ) -> list[Doubt]:
     """Doubts about gains with a wrong sign."""
     if gains["kV"] < 0 and gains["kA"] < 0:
-        return [*warn_of_opposed_signs()]
+        return [OPPOSED_SIGNS]
     cause = {
         "kS": "friction cannot push. Look for noise in the velocity, for a mechanism that was "
         "moved by hand, or for gravity that the type leaves out",
@@ -124,51 +121,35 @@ def _doubt_signs(
     ]
 
 
-def warn_of_opposed_signs() -> tuple[Doubt, ...]:
-    """The warning that positive voltage drives the mechanism backward."""
-    text = (
-        "kV and kA are negative: a positive voltage gives a negative velocity in this log. Invert "
-        "the encoder or the motor, and record again."
-    )
-    return (Doubt("sign-opposed", text, grave=True),)
-
-
-def _doubt_low_r2(r2: float, simulated: tuple[SimulationScore, ...]) -> list[Doubt]:
+def _doubt_low_r2(r2: float, simulated: tuple[SimulationScore, ...]) -> Iterator[Doubt]:
     """Doubts about a low R² of the acceleration or of the simulated velocity."""
-    doubts = [
-        Doubt(
-            "low-simulated-r2",
-            f"The simulated velocity R² of the {way} tests is {part.r2:.2f}; a fit that reproduces "
-            f"its log has {GOOD_R2} or more. Plot the velocity: did the mechanism slip, stop or "
-            "sag?",
-            gains=GAINS,
-        )
-        for way, part in zip(DIRECTIONS, simulated, strict=True)
-        if part.r2 < GOOD_R2
-    ]
-    if r2 < DUBIOUS_R2:
-        doubts.append(
-            Doubt(
-                "low-acceleration-r2",
-                f"The acceleration R² is {r2:.2f}. WPILib's documentation calls kA dubious if "
-                f"it is below {DUBIOUS_R2}. Look for noise in the velocity, and try --median 5.",
-                gains=("kA",),
+    for way, part in zip(DIRECTIONS, simulated, strict=True):
+        if part.r2 < GOOD_R2:
+            yield Doubt(
+                "low-simulated-r2",
+                f"The simulated velocity R² of the {way} tests is {part.r2:.2f}; a fit that "
+                f"reproduces its log has {GOOD_R2} or more. Plot the velocity: did the mechanism "
+                "slip, stop or sag?",
+                gains=GAINS,
             )
+    if r2 < DUBIOUS_R2:
+        yield Doubt(
+            "low-acceleration-r2",
+            f"The acceleration R² is {r2:.2f}. WPILib's documentation calls kA dubious if "
+            f"it is below {DUBIOUS_R2}. Look for noise in the velocity, and try --median 5.",
+            gains=("kA",),
         )
-    return doubts
 
 
-def _doubt_slow_steps(delay: float, gains: Mapping[str, float]) -> list[Doubt]:
+def _doubt_slow_steps(delay: float, gains: Mapping[str, float]) -> Iterator[Doubt]:
     """A doubt about a delay [s] of the velocity that is longer than kA/kV."""
     timescale = gains["kA"] / gains["kV"] if gains["kV"] else 0.0
     if not 0.0 < timescale < delay:
-        return []
-    return [
-        Doubt(
-            "slow-measurement",
-            f"The velocity reacts {delay * 1000:.0f} ms after the voltage, more slowly than the "
-            f"mechanism itself (kA/kV = {timescale * 1000:.0f} ms): do not trust kA. Shorten the"
-            " velocity filter of the motor controller, or log faster.",
-            gains=("kA",),
-        )
-    ]
+        return
+    yield Doubt(
+        "slow-measurement",
+        f"The velocity reacts {delay * 1000:.0f} ms after the voltage, more slowly than the "
+        f"mechanism itself (kA/kV = {timescale * 1000:.0f} ms): do not trust kA. Shorten the"
+        " velocity filter of the motor controller, or log faster.",
+        gains=("kA",),
+    )

@@ -91,7 +91,7 @@ def prepare_rows(log: Log, *, median: int = 1) -> PreparedRows:
     )
     rows: dict[str, Rows] = {}
     duration, delays = 0.0, []
-    longest = max(_compute_duration(raw[test]) for test in FOUR_TESTS if test.startswith("dyn"))
+    longest = max(float(np.ptp(raw[test].time)) for test in FOUR_TESTS if test.startswith("dyn"))
     for test in sorted(raw):  # SysId's order: the forward step sets the duration for both
         if test.startswith("quasi"):
             raw[test] = _drop_standstill(raw[test], threshold=threshold, test=test)
@@ -114,20 +114,21 @@ def prepare_rows(log: Log, *, median: int = 1) -> PreparedRows:
     )
 
 
-def estimate_noise_floor(velocity: Array, *, window: int = NOISE_WINDOW) -> float:
+def estimate_noise_floor(velocity: Array) -> float:
     """[m/s or rad/s] RMS deviation of a velocity from its moving mean.
 
         sqrt( Σ (v[i - step] - mean(v[i - window + 1 … i]))² / (n - step) ),  step = window // 2
+
+    The window is ``NOISE_WINDOW``.
 
     The history before the first sample counts as zeros. Source: SysId, ``GetNoiseFloor``.
 
     Args:
         velocity: (n,) [m/s or rad/s], n > window // 2.
-        window: [samples] length of the moving mean.
     """
-    step = window // 2
-    summed = np.concatenate((np.zeros(window), np.cumsum(velocity)))
-    mean = (summed[window:] - summed[:-window]) / window
+    step = NOISE_WINDOW // 2
+    summed = np.concatenate((np.zeros(NOISE_WINDOW), np.cumsum(velocity)))
+    mean = (summed[NOISE_WINDOW:] - summed[:-NOISE_WINDOW]) / NOISE_WINDOW
     stray = velocity[: velocity.size - step] - mean[step:]
     return float(np.sqrt(stray @ stray / stray.size))
 
@@ -240,11 +241,6 @@ def _make_rows(run: Run) -> Rows:
         run.velocity[:-1],
         np.zeros(period.size),
     )
-
-
-def _compute_duration(rows: Rows) -> float:
-    """[s] from the first to the last row."""
-    return float(rows.time[-1] - rows.time[0])
 
 
 def _drop_standstill(rows: Rows, *, threshold: float, test: str) -> Rows:

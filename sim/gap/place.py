@@ -4,12 +4,7 @@ from dataclasses import dataclass
 
 RUN, SPEED, POSITION = "run", "direction-speed", "direction-position"
 STEPS, REST = "after-steps", "at-rest"
-SIGNALS = ("position", "velocity")  # columns of measurements and simulations
 MANY = 99.5  # [noises] from which on all digits before the point are given
-FASTER = {
-    "position": ("ahead of the position in the model", "behind the position in the model"),
-    "velocity": ("faster than in the model", "slower than in the model"),
-}
 
 
 @dataclass(frozen=True)
@@ -19,26 +14,23 @@ class Place:
     Args:
         what: ``run``, ``direction-speed``, ``direction-position``, ``after-steps`` or ``at-rest``.
         where: the bin in words: ``dynamic-forward, 0.2 to 0.4 s``.
-        error: [noises of the signal] mean residual in the direction of motion: above 0 the robot is
-            faster than the model, or ahead of it.
+        error: [noises of a velocity] mean residual in the direction of motion: above 0 the robot is
+            faster than the model.
         sure: [standard errors] absolute value of this mean.
-        signal: ``velocity`` or ``position``.
     """
 
     what: str
     where: str
     error: float
     sure: float
-    signal: str = "velocity"
 
     @property
     def sentence(self) -> str:
         """The disagreement in a sentence: where, in which direction, by how much."""
-        ahead, behind = FASTER[self.signal]
-        way = ahead if self.error > 0.0 else behind
+        way = "faster" if self.error > 0.0 else "slower"
         return (
-            f"{self.where}: the robot is {way}, by {format_noises(abs(self.error))} times the "
-            f"noise of its {self.signal}"
+            f"{self.where}: the robot is {way} than in the model, by "
+            f"{format_noises(abs(self.error))} times the noise of its velocity"
         )
 
 

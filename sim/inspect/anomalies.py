@@ -144,11 +144,12 @@ def find_anomalies(
         late = LATE * np.abs(np.gradient(expected[index], run.time))
         within = (WITHIN + early) / baseline.kv + SHARE * np.abs(expected[index]) + late + sigma
         residual = run.velocity - expected[index]
-        residual -= _measure_ordinary_residual(residual, within)
+        usual = np.abs(residual) <= 2.0 * within
+        residual -= np.median(residual[usual]) if usual.any() else 0.0
         anomalous = np.abs(_compute_running_mean(residual, wide)) > within
         anomalous[:begin] = False
         longest = LONGEST * (len(run) - begin)
-        for first, last in _find_intervals(anomalous, join=round(JOIN / period)):
+        for first, last in find_intervals(anomalous, join=round(JOIN / period)):
             if last - first + 1 < max(2, round(SHORTEST / period)) or last - first > longest:
                 continue
             around = max(3, round(AROUND / period))
@@ -187,19 +188,13 @@ def _recur(one: Anomaly, other: Anomaly, runs: Sequence[Run], *, still: float) -
     return (mine.kind == others.kind and have_common_span(*since)) or have_common_span(*place)
 
 
-def _measure_ordinary_residual(residual: Array, within: Array) -> Array:
-    """(n,) the usual residual of a run: the median of samples without an anomaly."""
-    usual = np.abs(residual) <= 2.0 * within
-    return np.full(residual.size, np.median(residual[usual]) if usual.any() else 0.0)
-
-
 def _compute_running_mean(values: Array, wide: int) -> Array:
     """(n,) centered running mean; beyond the ends the values are repeated."""
     padded = np.pad(values, (wide // 2, wide - 1 - wide // 2), mode="edge")
     return np.asarray(np.convolve(padded, np.full(wide, 1.0 / wide), mode="valid"))
 
 
-def _find_intervals(
+def find_intervals(
     flags: "np.ndarray[tuple[int], np.dtype[np.bool_]]", *, join: int
 ) -> list[tuple[int, int]]:
     """First and last index of each interval of flags; gaps up to ``join`` samples are closed."""

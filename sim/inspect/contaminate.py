@@ -3,7 +3,6 @@
 contaminate(log, "encoder-slip", severity=0.5, test="dynamic-forward", at=0.4, rng=rng)
 """
 
-import math
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -57,9 +56,9 @@ def parse_fault_request(text: str) -> FaultRequest:
         raise _refuse_syntax(text, "no test is named after @")
     return FaultRequest(
         name,
-        severity=_parse_number(text, parts["severity"], default=1.0),
+        severity=1.0 if parts["severity"] is None else _parse_number(text, parts["severity"]),
         test=None if test is None else test.strip(),
-        at=None if parts["at"] is None else _parse_number(text, parts["at"], default=math.nan),
+        at=None if parts["at"] is None else _parse_number(text, parts["at"]),
     )
 
 
@@ -224,9 +223,7 @@ def _describe_place(log: Log, test: str) -> str:
     return f"{log.source}, {test}" if log.source else test
 
 
-def _parse_number(text: str, part: str | None, *, default: float) -> float:
-    if part is None:
-        return default
+def _parse_number(text: str, part: str) -> float:
     try:
         return float(part)
     except ValueError:

@@ -195,7 +195,7 @@ def _doubt_ordinary(damages: Iterable[Damage]) -> tuple[Doubt, ...]:
 def _run_detector(fault: Fault, features: LogFeatures) -> list[Damage]:
     """The damages that one detector finds; none if its equations have no solution."""
     try:
-        return list(fault.detect(features))
+        return [replace(damage, fault=fault.name) for damage in fault.detect(features)]
     except np.linalg.LinAlgError:
         return []
 

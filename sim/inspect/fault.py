@@ -5,7 +5,7 @@ should not contain. A module of ``faults/`` defines one fault as ``FAULT``: ``sp
 damage, and ``detect`` finds it.
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Self
 
@@ -30,10 +30,10 @@ class LogInterval:
         end: [s] on the log's clock.
     """
 
-    run: int | None
-    test: str
-    start: float
-    end: float
+    run: int | None = None
+    test: str = ""
+    start: float = 0.0
+    end: float = 0.0
 
     @classmethod
     def of_samples(cls, index: int, run: Run, first: int = 0, last: int = -1) -> Self:
@@ -67,20 +67,20 @@ class Damage:
     """A fault that was found in a log.
 
     Args:
-        fault: name of the fault.
         where: the damaged interval.
         confidence: 0 to 1; near 1 no other cause is plausible.
         evidence: one sentence with a number, for the user.
         advice: one sentence: run again, trim, filter, or fix the code.
         ordinary: whether many robots record like this, so that there is no need to record again.
+        fault: name of the fault, which the inspection writes.
     """
 
-    fault: str
     where: LogInterval
     confidence: float
     evidence: str
     advice: str
     ordinary: bool = False
+    fault: str = ""
 
 
 @dataclass(frozen=True)
@@ -175,6 +175,13 @@ def rescale_motion(run: Run, pace: Array) -> Run:
         velocity=run.velocity * pace[latest],
         position=np.where(same, run.position, position),
     )
+
+
+def damage_runs(log: Log, damaged: Mapping[int, Run]) -> DamagedLog:
+    """The log with damaged runs, by index; each is damaged from its first to its last sample."""
+    runs = tuple(damaged.get(index, run) for index, run in enumerate(log.runs))
+    where = (LogInterval.of_samples(index, run) for index, run in damaged.items() if len(run))
+    return DamagedLog(replace(log, runs=runs), tuple(where))
 
 
 def replace_run(log: Log, index: int, run: Run) -> Log:

@@ -48,14 +48,6 @@ class LogFeatures:
         return float(np.median(np.concatenate(steps))) if steps else float("nan")
 
     @cached_property
-    def position_slopes(self) -> tuple[Array, ...]:
-        """Per run, (n,) [m/s or rad/s]: velocity by central differences of the position."""
-        return tuple(
-            np.gradient(run.position, run.time) if len(run) > 1 else np.zeros(len(run))
-            for run in self.log.runs
-        )
-
-    @cached_property
     def position_step(self) -> float:
         """[m or rad] the smallest change of a position in the log; inf if none ever changes."""
         return _find_smallest_step([run.position for run in self.log.runs])
@@ -214,9 +206,8 @@ def _measure_distance_ratio(run: Run) -> float:
     if far.sum() < parts // 2:
         return 1.0
     usual = float(np.median(np.abs(summed[far] / changed[far])))
-    whole = float(
-        np.abs(summed[far]).sum() / np.abs(changed[far]).sum()
-    )  # long frames change single parts
+    # long frames change single parts
+    whole = float(np.abs(summed[far]).sum() / np.abs(changed[far]).sum())
     return min(usual, whole, key=lambda scale: abs(np.log(max(scale, TINY))))
 
 

@@ -46,14 +46,14 @@ class UnitError:
         evidence: what shows it.
         advice: what to do.
         confidence: 0 to 1.
-        runs: indices of the runs that show it; empty for the whole log.
+        run: index of the run that shows it; None for the whole log.
         grave: whether no gain can be right.
     """
 
     evidence: str
     advice: str | Action
     confidence: float
-    runs: tuple[int, ...] = ()
+    run: int | None = None
     grave: bool = False
 
 
@@ -74,7 +74,7 @@ def find_unit_errors(features: LogFeatures) -> Iterator[UnitError]:
                 "Log the encoder's velocity in place of its position, and record again. Until "
                 "then, `sysid fit` takes the slope of the position.",
                 confidence=0.97,
-                runs=(index,),
+                run=index,
             )
         elif said:
             yield UnitError(
@@ -85,7 +85,7 @@ def find_unit_errors(features: LogFeatures) -> Iterator[UnitError]:
                     before="Make the conversion factors of position and velocity agree.",
                 ),
                 confidence=0.95,
-                runs=(index,),
+                run=index,
                 grave=True,
             )
     yield from _check_drive_speed(features)
@@ -103,27 +103,25 @@ def doubt_units(log: Log) -> tuple[Doubt, ...]:
     with np.errstate(all="ignore"):  # huge numbers may overflow; then nothing is found
         found = max(find_unit_errors(features), key=lambda one: one.confidence, default=None)
         if found is None:
-            return doubt_scale(features)
+            return tuple(doubt_scale(features))
     start = f"{log.source}: {found.evidence[:1].lower()}{found.evidence[1:]}"
     if isinstance(found.advice, Action):
         return (Doubt(CODE, start, grave=found.grave, action=found.advice, gains=SCALED),)
     return (Doubt(CODE, f"{start} {found.advice}", grave=found.grave, gains=SCALED),)
 
 
-def doubt_scale(features: LogFeatures) -> tuple[Doubt, ...]:
+def doubt_scale(features: LogFeatures) -> Iterator[Doubt]:
     """A warning if the velocity is a little too large or too small for its position."""
     usual = features.usual_distance_ratio
     if abs(usual - 1.0) <= SCALE or not 1.0 / FAR < usual < FAR:
-        return ()
-    return (
-        Doubt(
-            "scales-differ",
-            f"The velocity is {usual:.3f} times the slope of the position in all runs: one of "
-            "the two has a wrong conversion factor. kV and kA depend on the velocity. Move the "
-            "mechanism by a known distance, and check whether the position agrees.",
-            action=Action("velocity-scale", f"{1.0 / usual:.3g}"),
-            gains=SCALED,
-        ),
+        return
+    yield Doubt(
+        "scales-differ",
+        f"The velocity is {usual:.3f} times the slope of the position in all runs: one of "
+        "the two has a wrong conversion factor. kV and kA depend on the velocity. Move the "
+        "mechanism by a known distance, and check whether the position agrees.",
+        action=Action("velocity-scale", f"{1.0 / usual:.3g}"),
+        gains=SCALED,
     )
 
 

@@ -117,7 +117,7 @@ def _make_story(
     """
     unit = recordings.unit
     chapters = shown.make_chapters(rounds)
-    log_notes = shown.notes(chapters[-1], rounds[-1].gap.velocity)
+    log_notes = shown.notes(rounds[-1], chapters[-1].gap)
     residuals = ResidualSummary.summarize(problem, rounds[-1].candidate.estimate)
     findings, judged, refuted = make_findings(
         problem, rounds, recordings.damage.reported, chapters,
@@ -147,7 +147,7 @@ def _make_story(
         chapters=chapters, shown=shown.log, how=shown.usage,
         gains=gains, gains_without=gains_without,
         notes=(*list_remarks(problem, rounds, findings, judged, residuals), *log_notes),
-        compared=shown.compared_samples,
+        compared=tuple(one.measurements.informative for one in shown.problem.records),
         judged=judged,
         complete=complete,
         variants=ModelVariants(recordings, problem, reported[-1].candidate, shown),

@@ -6,7 +6,6 @@ run starts depends on the motion before it, which is not recorded.
 
 import math
 from dataclasses import replace
-from itertools import pairwise
 
 import numpy as np
 
@@ -40,11 +39,10 @@ def estimate_backlash_phase(
             np.where(np.isnan(before), math.copysign(1.0, by), np.clip(before + by, -1.0, 1.0))
             for by in (-PHASE_STEP, PHASE_STEP)
         ]
-    model = point.structure.model(point.values)
     costs = [_compute_costs_by_run(problem, point, point.innovations, old)]
     for each in others:
         other = replace(old, backlash_phase=each)
-        innovations = problem.predict_errors(model, other, point.kalman_filter)
+        innovations = problem.predict_errors(point.model, other, point.kalman_filter)
         costs.append(_compute_costs_by_run(problem, point, innovations, other))
     tried, chosen = np.stack([before, *others]), np.argmin(np.stack(costs), axis=0)
     if not chosen.any():
@@ -74,7 +72,6 @@ def _compute_costs_by_run(
 def reverses_within_run(problem: PredictionErrorProblem) -> bool:
     """Whether a run moves in both directions, and so crosses all of a backlash."""
     signs = [
-        np.sign(problem.measured[first:last, 1][problem.moving[first:last]])
-        for first, last in pairwise(problem.run_edges.tolist())
+        np.sign(problem.measured[rows, 1][problem.moving[rows]]) for rows in problem.run_slices
     ]
     return any((one > 0.0).any() and (one < 0.0).any() for one in signs)

@@ -1,13 +1,12 @@
 """Backward elimination: remove or simplify effects that others have made needless."""
 
 import math
-from collections.abc import Sequence
 from dataclasses import replace
 
 from sim.estimation.likelihood import PredictionErrorProblem
-from sim.physics.effects import EFFECTS, list_look_alikes
+from sim.physics.effects import EFFECTS
 from sim.reconcile.candidates import Candidate, score_estimate, simplify_effect
-from sim.reconcile.cross_validation import Gap, compute_validation_gap
+from sim.reconcile.cross_validation import compute_validation_gap
 from sim.reconcile.local_minimum import minimize
 from sim.reconcile.model_selection import find_required_improvement, is_wider
 from sim.reconcile.selection_data import SelectionData
@@ -36,22 +35,12 @@ def simplify_effects(data: SelectionData, rounds: list[SelectionRound]) -> list[
         found = score_estimate(problem, minimize(problem, start), start.structure.effects[-1])
         gap = compute_validation_gap(problem, found.estimate, data.folds)
         if found.bic <= last.candidate.bic and not is_wider(gap, last.gap):
-            rounds = _replace_one(rounds, place, found, gap)
+            swapped = replace(rounds[place].candidate, effect=found.effect)
+            rounds = [*rounds]
+            rounds[place] = replace(rounds[place], candidate=swapped, rivals=())
+            end = replace(found, effect=rounds[-1].candidate.effect)
+            rounds[-1] = replace(rounds[-1], candidate=end, gap=gap, rivals=())
     return rounds
-
-
-def _replace_one(
-    rounds: Sequence[SelectionRound], place: int, found: Candidate, gap: Gap
-) -> list[SelectionRound]:
-    """The rounds, with the effect at ``place`` replaced; ``found`` is the new last model."""
-    last = rounds[-1]
-    old = rounds[place]
-    if old is last:
-        return [*rounds[:place], replace(last, candidate=found, gap=gap, rivals=())]
-    swapped = replace(old.candidate, effect=found.effect)
-    middle = [*rounds[:place], replace(old, candidate=swapped, rivals=()), *rounds[place + 1 : -1]]
-    end = replace(found, effect=last.candidate.effect)
-    return [*middle, replace(last, candidate=end, gap=gap, rivals=())]
 
 
 def remove_needless_effects(
@@ -95,8 +84,3 @@ def refit_without_effect(
     values = {name: point.values[name] for name in structure.names}
     start = problem.change(point, structure=structure, values=values)
     return score_estimate(problem, minimize(problem, start))
-
-
-def find_separating_test(effect: str, other: str) -> str:
-    """The test that separates two effects; empty if none is known."""
-    return list_look_alikes(effect).get(other, "")

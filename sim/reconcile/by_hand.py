@@ -77,9 +77,8 @@ class HandSearch:
 
     def _add_effect(self, before: Estimate, effect: str) -> Estimate:
         find_effect(effect)
-        residual = SelectionData(
-            self.recordings.fitted_runs, self._problem, self._folds
-        ).voltage_residual(before)
+        data = SelectionData(self.recordings.fitted_runs, self._problem, self._folds)
+        residual = data.voltage_residual(before)
         found = rank_candidates(self._problem, before, residual, only=[effect])
         if not found:
             raise BadRequest(
@@ -111,9 +110,7 @@ class HandSearch:
 
     def evaluate_model(self, model: Model) -> Estimate:
         """An estimate with the parameters of a model, of which nothing is fitted."""
-        parts = {f"{one.effect}.{n}": v for one in model.parts for n, v in one.parameters.items()}
-        names = tuple(one.effect for one in model.parts)
-        return self._evaluate_model(ModelStructure(model.type, names), {**model.gains, **parts})
+        return self._evaluate_model(*ModelStructure.split_model(model))
 
     def fit_near(self, model: Model) -> Estimate:
         """The fit after a few search steps from a model's parameters: quicker than ``fit``."""

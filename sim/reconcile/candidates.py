@@ -19,9 +19,8 @@ from sim.physics.effect import Effect, are_compatible
 from sim.physics.effects import EFFECTS
 from sim.physics.voltage_residual import VoltageResidual
 from sim.reconcile.local_minimum import (
-    AGITATED,
-    CALM,
     RatedStart,
+    find_calmer_estimate,
     minimize,
     minimize_fully,
     minimize_repeatedly,
@@ -96,7 +95,7 @@ def rank_candidates(
     present = [EFFECTS[name] for name in point.structure.effects]
     names = [name for name in names if are_compatible([*present, EFFECTS[name]])]
     effects = [EFFECTS[name] for name in names]
-    calmer = _find_calmer_estimate(problem, point)
+    calmer = find_calmer_estimate(problem, point, steps=FEW_STEPS)
     usual = effects if calmer is None else [one for one in effects if not one.is_joint]
     rated = _choose_best_starts(problem, point, usual, residual, seeds)[:TRIED]
     descended = [
@@ -138,7 +137,8 @@ def _minimize_nested(problem: PredictionErrorProblem, point: Estimate, start: Es
     """
     found = refine_threshold(problem, minimize(problem, start))
     if _ends_with_joint(start):
-        return _refine_motor_friction(problem, found) if _is_much_likelier(found, point) else found
+        likelier = not point.structure.has_joint and point.cost - found.cost > LEAST_SCORE
+        return _refine_motor_friction(problem, found) if likelier else found
     if found.cost <= point.cost:
         return found
     noisy = problem.change(start, process_noise=point.process_noise)
@@ -159,11 +159,6 @@ def refine_threshold(problem: PredictionErrorProblem, point: Estimate) -> Estima
     tried = [problem.change(point, values={**point.values, **one}) for one in moved]
     best = min([point, *tried], key=lambda one: one.cost)
     return point if best is point else minimize(problem, best)
-
-
-def _is_much_likelier(found: Estimate, point: Estimate) -> bool:
-    """Whether the first joint makes a model much likelier."""
-    return not point.structure.has_joint and point.cost - found.cost > LEAST_SCORE
 
 
 def _refine_motor_friction(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
@@ -203,16 +198,6 @@ def descend_candidate(problem: PredictionErrorProblem, start: Estimate) -> Estim
 def _ends_with_joint(point: Estimate) -> bool:
     """Whether the last effect of an estimate is a joint, which makes two bodies of one."""
     return EFFECTS[point.structure.effects[-1]].is_joint
-
-
-def _find_calmer_estimate(problem: PredictionErrorProblem, point: Estimate) -> Estimate | None:
-    """The estimate refitted with little process noise; None if it has little, or diverges then."""
-    calm = CALM * problem.noise.velocity**2
-    if point.process_noise <= AGITATED * calm:
-        return None
-    calmer = problem.change(point, process_noise=calm)
-    calmer = levenberg_marquardt(problem, calmer, steps=FEW_STEPS)
-    return calmer if math.isfinite(calmer.cost) else None
 
 
 def simplify_effect(

@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -68,8 +67,7 @@ def make_folds(sessions: Sequence[int]) -> tuple[Fold, ...]:
 
 def select_usable_folds(problem: PredictionErrorProblem, folds: Sequence[Fold]) -> tuple[Fold, ...]:
     """The folds that have compared samples both to fit and to predict."""
-    edges = pairwise(problem.run_edges.tolist())
-    used = [bool(problem.informative[first:last].any()) for first, last in edges]
+    used = [bool(problem.informative[rows].any()) for rows in problem.run_slices]
     return tuple(
         fold
         for fold in folds
@@ -95,11 +93,8 @@ def compute_validation_gap(
         start = fitted.change(point, nuisance=nuisance)
         found = levenberg_marquardt(fitted, start, steps=STEPS // 2)
         predicted, nuisance = _select_runs(problem, point, fold.predicted)
-        errors.append(
-            compute_open_loop_errors(
-                predicted, found, nuisance.with_common_friction, own_friction=True
-            )
-        )
+        common = nuisance.with_common_friction
+        errors.append(compute_open_loop_errors(predicted, found, common, own_friction=True))
     return compute_rms_gap(np.concatenate(errors))
 
 
@@ -130,7 +125,7 @@ def compute_open_loop_errors(
         own_friction: whether to fit an additional friction to each run, as in
             ``random_friction.py``, so that friction that varies does not decide about an effect.
     """
-    track = problem.simulate(point.structure.model(point.values), nuisance)
+    track = problem.simulate(point.model, nuisance)
     compared = problem.moving | problem.informative
     if not own_friction:
         return _open_loop_errors(problem, track)[compared]
@@ -150,23 +145,21 @@ def _with_run_friction(
     Each friction is simulated, because friction shifts the phase of cogging nonlinearly. The best
     one between those that are tried is the minimum of a parabola.
     """
-    deviation = get_friction_sd(point.values)
-    model, runs = point.structure.model(point.values), len(problem.records)
+    deviation, runs = get_friction_sd(point.values), len(problem.records)
 
-    def compute_errors(frictions: Array) -> Array:
-        other = (
-            problem.simulate(model, nuisance.add(FRICTION, frictions)) if frictions.any() else track
-        )
+    def compute_errors(shares: Array) -> Array:
+        other = track
+        if shares.any():
+            other = problem.simulate(point.model, nuisance.add(FRICTION, shares * deviation))
         return _open_loop_errors(problem, other)
 
-    errors = np.stack(
-        [compute_errors(np.full(runs, share * deviation)) for share in FRICTION_DEVIATIONS]
-    )  # (shares, n, 2)
+    tried = np.array(FRICTION_DEVIATIONS)
+    errors = np.stack([compute_errors(np.full(runs, one)) for one in tried])  # (shares, n, 2)
     costs = _compute_costs_by_share(problem, errors, compared)
     best = np.clip(np.argmin(costs, axis=0), 1, len(FRICTION_DEVIATIONS) - 2)
     less, here, more = (costs[best + way, np.arange(runs)] for way in (-1, 0, 1))
     offset = find_parabola_minima(less, here, more)
-    between = compute_errors((np.array(FRICTION_DEVIATIONS)[best] + offset) * deviation)
+    between = compute_errors(tried[best] + offset)
     errors = np.concatenate([errors, between[None]])
     best = np.argmin(_compute_costs_by_share(problem, errors, compared), axis=0)
     return np.asarray(errors[np.repeat(best, np.diff(problem.run_edges)), np.arange(len(compared))])

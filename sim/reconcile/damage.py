@@ -68,31 +68,24 @@ def judge_damage(damages: Mapping[str, Sequence[DamagedInterval]]) -> DamageDeci
     of ``RECORD_FAULTS`` with a confidence of at least ``DAMAGED``. Any other fault of a run is
     suspected if its confidence is at least ``LEAST_PROBABILITY``.
     """
-    excluded: dict[str, list[ExcludedInterval]] = {}
+    excluded: dict[str, tuple[ExcludedInterval, ...]] = {}
     found: dict[str, DamagedInterval] = {}
     suspected: dict[str, DamagedInterval] = {}
     for name, every in damages.items():
         flipped = {one.run for one in every if one.fault in WHOLE_RUN_FAULTS}
         for one in every:
-            stopped = one.fault in STOP_FAULTS
-            damaged = one.fault in RECORD_FAULTS and one.confidence >= DAMAGED
-            left_out = one.fault == LEFT_OUT
+            stopped, left_out = one.fault in STOP_FAULTS, one.fault == LEFT_OUT
+            sure = stopped or (one.fault in RECORD_FAULTS and one.confidence >= DAMAGED)
             if one.fault in WHOLE_RUN_FAULTS and len(flipped) > 1:
                 continue
-            if (damaged or stopped or left_out) and one.run is not None:
+            if (sure or left_out) and one.run is not None:
                 interval = ExcludedInterval(one.run, one.start, one.end, stopped)
-                excluded.setdefault(name, []).append(interval)
+                excluded[name] = (*excluded.get(name, ()), interval)
             if name == "held_out" or left_out:
                 continue
-            told = found if damaged or stopped else suspected
-            sure = (
-                damaged or stopped or (one.run is not None and one.confidence >= LEAST_PROBABILITY)
-            )
-            best = told.get(one.fault)
-            if sure and (best is None or one.confidence > best.confidence):
-                told[one.fault] = one
-    return DamageDecision(
-        {name: tuple(some) for name, some in excluded.items()},
-        tuple(found.values()),
-        tuple(suspected.values()),
-    )
+            likely = one.run is not None and one.confidence >= LEAST_PROBABILITY
+            if sure or likely:
+                told = found if sure else suspected
+                best = told.get(one.fault, one)
+                told[one.fault] = max(best, one, key=lambda each: each.confidence)
+    return DamageDecision(excluded, tuple(found.values()), tuple(suspected.values()))

@@ -9,9 +9,8 @@ from sim.core.units import Unit
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.run_variation import compute_standard_errors
 from sim.physics.effect import LATER, UNTIL
-from sim.physics.effects import EFFECTS
+from sim.physics.effects import EFFECTS, list_look_alikes
 from sim.reconcile.backlash_phase import reverses_within_run
-from sim.reconcile.backward_elimination import find_separating_test
 from sim.reconcile.cross_validation import count_noise_floors
 from sim.reconcile.damage import DamagedInterval
 from sim.reconcile.judgement import is_narrower_with, judge_effects
@@ -66,7 +65,10 @@ def make_findings(
         and rounds[-1].gap.velocity <= by_effect[one.effect].gap_without.velocity
     ]
     refuted = tuple(one.effect for one in effects if one.size == "major" and one not in confirmed)
-    effects = [_demote_if_not_narrower(one) for one in confirmed]
+    effects = [  # minor where the gap on the shown log is not narrower with it
+        one if one.gap_after <= NARROWER * one.gap_before else replace(one, size="minor")
+        for one in confirmed
+    ]
     if any(one.size == "major" for one in effects):
         effects = [
             one
@@ -142,11 +144,6 @@ def _classify_size(
     return found
 
 
-def _demote_if_not_narrower(one: Finding) -> Finding:
-    """The finding; a minor one if the gap on the shown log is not narrower with it."""
-    return one if one.gap_after <= NARROWER * one.gap_before else replace(one, size="minor")
-
-
 def _sort_key(one: Finding) -> int:
     """Sort key: sure faults, major effects, unsure faults (they may be physics), minor effects."""
     return 2 * (one.size != "major") + (one.kind == "effect")
@@ -198,7 +195,8 @@ def _make_effect_finding(
             last.values[key] * scale, None if error is None else error * scale,
             one.unit.format(u=unit.symbol),
         )  # fmt: skip
-    tests = [test for rival in now.rivals if (test := find_separating_test(name, rival))]
+    alike = list_look_alikes(name)
+    tests = [alike[rival] for rival in now.rivals if alike.get(rival)]
     return Finding(
         effect=name, kind="effect", size="major" if major else "minor", ambiguous_with=now.rivals,
         parameters=parameters, gap_before=gap_before, gap_after=gap_after,

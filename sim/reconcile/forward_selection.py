@@ -128,7 +128,8 @@ def _add_effects(data: SelectionData, rounds: list[SelectionRound]) -> list[Sele
         chosen = choose_next(admitted)
         best, near = _finish_search(data, chosen), list_rivals(chosen, weighed)
         if best is not chosen:
-            near = [one for one in near if _is_close(_finish_search(data, one), best)]
+            most = best.candidate.bic + EQUAL_SCORE
+            near = [one for one in near if _finish_search(data, one).candidate.bic <= most]
         rivals = tuple(one.candidate.effect for one in near)
         rounds.append(replace(_make_next_round(now, best), rivals=rivals))
     return rounds
@@ -191,10 +192,6 @@ def _finish_search(data: SelectionData, best: WeighedCandidate) -> WeighedCandid
     if is_wider(gap, best.gap):
         return best
     return replace(best, candidate=score_estimate(problem, point, candidate.effect), gap=gap)
-
-
-def _is_close(other: WeighedCandidate, best: WeighedCandidate) -> bool:
-    return other.candidate.bic - best.candidate.bic <= EQUAL_SCORE
 
 
 def _collect_seeds(weighed: Sequence[WeighedCandidate]) -> Seeds:

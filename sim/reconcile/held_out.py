@@ -6,13 +6,11 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
 from sim.core.errors import NotIdentifiable
 from sim.core.log import Array, Log
 from sim.core.units import find_unit
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
-from sim.estimation.model_structure import ModelStructure
 from sim.estimation.run_nuisance import LAG, RunNuisance
 from sim.gap import Place, Residuals, find_gap_places
 from sim.reconcile.backlash_phase import estimate_backlash_phase
@@ -77,26 +75,28 @@ class HeldOutLog:
             )
         # all results are in the unit of the first log
         log = replace(recordings.logs_by_name[name], units=recordings.log.units)
-        repeats = _describe_repeats(recordings)
-        others = [text for other, text in repeats.items() if other != name]
-        return cls(
-            log,
-            problem,
-            repeats.get(name, LOG_USES[name]),
-            (*others, *_collect_doubts(recordings)),
-            name == "held_out" and name not in repeats,
-        )
+        repeats = {
+            one: text
+            for one, text in REPEAT_WARNINGS.items()
+            if recordings.count_repeated_runs(one)
+        }
+        fresh = name == "held_out" and name not in repeats
+        usage = repeats.pop(name, LOG_USES[name])
+        logs = [recordings.logs_by_name[one] for one in LOG_USES if one in recordings.logs_by_name]
+        doubts = dict.fromkeys(doubt.text for one in logs for doubt in one.doubts)
+        return cls(log, problem, usage, (*repeats.values(), *doubts), fresh)
 
-    def notes(self, last: Chapter, fitted: float) -> tuple[str, ...]:
+    def notes(self, last: SelectionRound, gap: float) -> tuple[str, ...]:
         """Remarks about the logs.
 
         Args:
-            last: the last model, on this log.
-            fitted: [unit/s] its cross-validated gap on the fitted runs.
+            last: the last model.
+            gap: [log's unit/s] its gap on this log.
         """
-        gap = last.gap * find_unit(self.log.units).si
-        remarks = (*self.doubts, *((PHASE_NOTE,) if _has_backlash(last) else ()))
-        least = max(fitted, self.problem.velocity_floor)
+        structure = last.candidate.estimate.structure
+        remarks = (*self.doubts, *((PHASE_NOTE,) if structure.has_backlash else ()))
+        gap *= find_unit(self.log.units).si
+        least = max(last.gap.velocity, self.problem.velocity_floor)
         if not self.held_out or gap <= VISIBLE_FLOORS * least:
             return remarks
         wide_gap = (
@@ -110,11 +110,6 @@ class HeldOutLog:
     def noise_floor(self) -> float:
         """[log's unit/s] noise of its velocity."""
         return self.problem.velocity_floor / find_unit(self.log.units).si
-
-    @property
-    def compared_samples(self) -> tuple[NDArray[np.bool_], ...]:
-        """Per run, (n,) which samples are compared: in motion, and not excluded."""
-        return tuple(one.measurements.informative for one in self.problem.records)
 
     def find_gap_places(self, base: Chapter) -> tuple[Place, ...]:
         """Where the base model's velocity is wrong, the most significant place first."""
@@ -131,7 +126,11 @@ class HeldOutLog:
 
     def make_chapters(self, rounds: Sequence[SelectionRound]) -> tuple[Chapter, ...]:
         """Each model's gap and simulated runs."""
-        return tuple(map(self._write_chapter, rounds))
+        points = [one.candidate.estimate for one in rounds]
+        return tuple(
+            Chapter(one.candidate.effect, point.model, one.tried, *self.simulate(point))
+            for one, point in zip(rounds, points, strict=True)
+        )
 
     def measure_gaps_without(self, rounds: Sequence[SelectionRound]) -> dict[str, float]:
         """[log's unit/s] effect -> the gap of the last model without this effect.
@@ -151,15 +150,8 @@ class HeldOutLog:
     def simulate(self, point: Estimate) -> tuple[float, tuple[Array, ...]]:
         """[log's unit/s] gap of a model, and per run (n, 2) its position and velocity [SI]."""
         nuisance = estimate_initial_nuisance(self.problem, point)
-        model = point.structure.model(point.values)
-        track = self.problem.simulate(model, nuisance).sensor_readings
-        runs = tuple(track[first:last] for first, last in pairwise(self.problem.run_edges.tolist()))
-        return self._measure_gap(point), runs
-
-    def _write_chapter(self, one: SelectionRound) -> Chapter:
-        point = one.candidate.estimate
-        model = point.structure.model(point.values)
-        return Chapter(one.candidate.effect, model, one.tried, *self.simulate(point))
+        track = self.problem.simulate(point.model, nuisance).sensor_readings
+        return self._measure_gap(point), tuple(track[rows] for rows in self.problem.run_slices)
 
 
 def measure_open_loop_gap(problem: PredictionErrorProblem, point: Estimate) -> float:
@@ -186,24 +178,3 @@ def _estimate_lags(problem: PredictionErrorProblem, point: Estimate) -> Estimate
     step = -gradient / (np.sum(np.square(slopes), axis=0) + known)
     found = problem.change(point, nuisance=point.nuisance.add(LAG, step))
     return min(point, found, key=lambda one: one.cost)
-
-
-def _has_backlash(chapter: Chapter) -> bool:
-    """Whether its model has free play between motor and load."""
-    names = tuple(part.effect for part in chapter.model.parts)
-    return ModelStructure(chapter.model.type, names).has_backlash
-
-
-def _describe_repeats(recordings: Recordings) -> dict[str, str]:
-    """Name of each log that contains a run twice or repeats an earlier log -> a warning."""
-    return {
-        name: REPEAT_WARNINGS[name]
-        for name in REPEAT_WARNINGS
-        if recordings.count_repeated_runs(name)
-    }
-
-
-def _collect_doubts(recordings: Recordings) -> tuple[str, ...]:
-    """Doubts from reading the logs, each once; those of the least used log first."""
-    logs = [recordings.logs_by_name[name] for name in LOG_USES if name in recordings.logs_by_name]
-    return tuple(dict.fromkeys(doubt.text for log in logs for doubt in log.doubts))

@@ -61,7 +61,9 @@ def judge_effects(
         velocity = compute_log_ratio(with_.velocity, bare.velocity)
         position = compute_log_ratio(with_.position, bare.position)
         score = before.candidate.bic - now.candidate.bic
-        rivals = list_rival_scores(before, last.structure.effects, name)
+        # other effects of the last model are no rivals: it needs them as well
+        others = {*last.structure.effects} - {name}
+        rivals = {one.effect: one.improvement for one in before.tried if one.effect not in others}
         evidence = Evidence(
             likelihood=math.log(max(now.without.bic - rounds[-1].candidate.bic, 1.0)),
             gap=0.5 * (velocity + position),
@@ -123,20 +125,6 @@ def is_contradicted(
     record = problem.records[window.record]
     onset = last.values[f"{effect}.{ONSET}"] - record.clock + float(record.measurements.time[0])
     return onset + SOONEST * problem.period < window.start < onset + LATEST
-
-
-def list_rival_scores(before: SelectionRound, kept: Sequence[str], name: str) -> dict[str, float]:
-    """Scores of an effect and its rivals, all candidates in the same round.
-
-    Other effects of the last model are no rivals: it needs them as well.
-
-    Args:
-        before: the round before the effect was added, with its candidates.
-        kept: the effects of the last model.
-        name: name of the effect.
-    """
-    others = {*kept} - {name}
-    return {one.effect: one.improvement for one in before.tried if one.effect not in others}
 
 
 def is_narrower_with(added: SelectionRound, end: SelectionRound) -> bool:

@@ -56,14 +56,22 @@ def minimize_fully(problem: PredictionErrorProblem, point: Estimate) -> Estimate
 
     Large process noise hides any residual, so a search tends to stop there with wrong gains.
     """
-    found = [minimize_repeatedly(problem, point)]
-    calm = CALM * problem.noise.velocity**2
-    if found[0].process_noise > AGITATED * calm:
-        calmer = problem.change(found[0], process_noise=calm)
-        calmer = levenberg_marquardt(problem, calmer, steps=STEPS)
-        found.append(minimize_repeatedly(problem, calmer))
-    best = min(found, key=lambda one: one.cost)
+    best = minimize_repeatedly(problem, point)
+    if (calmer := find_calmer_estimate(problem, best, steps=STEPS)) is not None:
+        best = min(best, minimize_repeatedly(problem, calmer), key=lambda one: one.cost)
     return _tighten_backlash(problem, best) if point.structure.has_backlash else best
+
+
+def find_calmer_estimate(
+    problem: PredictionErrorProblem, point: Estimate, *, steps: int
+) -> Estimate | None:
+    """The estimate refitted with little process noise; None if it has little, or diverges then."""
+    calm = CALM * problem.noise.velocity**2
+    if point.process_noise <= AGITATED * calm:
+        return None
+    calmer = problem.change(point, process_noise=calm)
+    calmer = levenberg_marquardt(problem, calmer, steps=steps)
+    return calmer if math.isfinite(calmer.cost) else None
 
 
 def _tighten_backlash(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
@@ -126,7 +134,7 @@ def rate_starts(
         if not math.isfinite(improvement):
             continue
         change = problem.whiten(point, other.innovations) - now
-        product, change_square = jacobian.compute_residual_products(change, now)
+        product, change_square = map(float, jacobian.compute_residual_products(change, now))
         share = -product / change_square if change_square > 0.0 else 0.0
         found.append((improvement, other))
         if as_given or not _may_have_size(structure, share):

@@ -57,14 +57,11 @@ class ModelVariants:
             if effect not in effects:
                 chosen = refit_without_effect(self.problem, chosen, effect)
         point = chosen.estimate
-        fitted = replace(
-            self.shown,
-            log=self.recordings.log,
-            problem=self.recordings.make_shown_problem("log"),
-        )
+        problem = self.recordings.make_shown_problem("log")
+        fitted = replace(self.shown, log=self.recordings.log, problem=problem)
         return ModelVariant(
             estimate_gains(self.problem, point, self.recordings.unit),
-            point.structure.model(point.values).parts,
+            point.model.parts,
             self.shown.simulate(point)[0],
             fitted.simulate(point)[1],
         )

@@ -10,7 +10,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
-from itertools import pairwise, product
+from itertools import product
 from typing import NamedTuple
 
 import numpy as np
@@ -218,7 +218,7 @@ class _Scan:
         The innovations are correlated with the response to a loss of speed (a matched filter).
         """
         residual = self.residual[self._rows(run)].reshape(-1, 2)
-        speed = self.problem.measured[slice(*self.problem.run_edges[run : run + 2]), 1]
+        speed = self.problem.measured[self.problem.run_slices[run], 1]
         response = self._velocity_response[: len(residual)]
         size = np.cumsum(np.sum(np.square(response), axis=1))
         last = len(response) - 1
@@ -257,13 +257,12 @@ class _Scan:
         clocks = onset - share * np.array([self.durations[run] for run in runs])
         size = PROBE * self.ka
         given = {**self._make_size_parameters(size), **kind, ONSET: onset, UNTIL: LATER}
-        model = self.point.structure.model(self.point.values)
         found = []
         with np.errstate(over="ignore", invalid="ignore"):  # a diverged simulation explains nothing
-            model += Part(self.effect.name, given)
+            model = self.point.model + Part(self.effect.name, given)
             errors = isolated.predict_errors(model, nuisance, self.point.kalman_filter, clocks)
-            for run, part in zip(runs, pairwise(isolated.run_edges.tolist()), strict=True):
-                change = (errors[slice(*part)] - self._run_innovations[run]) / size
+            for run, part in zip(runs, isolated.run_slices, strict=True):
+                change = (errors[part] - self._run_innovations[run]) / size
                 white, rows = self.problem.whiten(self.point, change), self._rows(run)
                 products = white @ self.residual[rows], white @ white
                 found.append(np.concatenate((products, self.basis[rows].T @ white)))
@@ -279,13 +278,12 @@ class _Scan:
 
     def _rows(self, run: int) -> slice:
         """The rows of a run among whitened innovations."""
-        first, last = self.problem.run_edges[run : run + 2].tolist()
-        return slice(2 * first, 2 * last)
+        samples = self.problem.run_slices[run]
+        return slice(2 * samples.start, 2 * samples.stop)
 
     @cached_property
     def _run_innovations(self) -> list[Array]:
         """Per run, (n, 2) innovations without the effect."""
         alone, nuisance = self._isolate_runs(tuple(range(len(self.problem.records))))
-        model = self.point.structure.model(self.point.values)
-        found = alone.predict_errors(model, nuisance, self.point.kalman_filter)
-        return [found[slice(*rows)] for rows in pairwise(self.problem.run_edges.tolist())]
+        found = alone.predict_errors(self.point.model, nuisance, self.point.kalman_filter)
+        return [found[rows] for rows in self.problem.run_slices]

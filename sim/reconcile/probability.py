@@ -45,11 +45,6 @@ class Evidence:
     once: float
     damaged: float
 
-    @property
-    def features(self) -> tuple[float, ...]:
-        """The values of all fields, in their order."""
-        return tuple(getattr(self, name) for name in FEATURES)
-
 
 FEATURES = tuple(one.name for one in fields(Evidence))
 
@@ -74,9 +69,7 @@ class JudgedEffect:
 def compute_probability(evidence: Evidence) -> float:
     """[1] probability that an effect is real, given its evidence."""
     weights = _read_coefficients()
-    odds = weights["intercept"] + sum(
-        weights[name] * value for name, value in zip(FEATURES, evidence.features, strict=True)
-    )
+    odds = weights["intercept"] + sum(weights[name] * getattr(evidence, name) for name in FEATURES)
     return 0.5 * (1.0 + math.tanh(0.5 * odds))  # the logistic function, which cannot overflow
 
 

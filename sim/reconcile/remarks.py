@@ -51,7 +51,9 @@ def list_remarks(
         what = " and ".join(inside)
         why = "no more than on other robots, or too little to narrow the gap"
         remarks.append(f"In the last model there is also a little {what}: {why}.")
-    unlikely = _list_unlikely(judged)
+    unlikely = {
+        one.effect: one.probability for one in judged if one.probability < LEAST_PROBABILITY
+    }
     doubted = [name for name in rest if name not in kept and name in unlikely]
     remarks += [UNLIKELY.format(name, _describe_small_share(unlikely[name])) for name in doubted]
     if outside := [name for name in rest if name not in {*kept, *doubted}]:
@@ -89,8 +91,3 @@ def _describe_small_share(share: float) -> str:
     """A small probability as text: ``only 12%``, or ``less than 1%`` instead of zero."""
     shown = f"{share:.0%}"
     return "less than 1%" if shown == "0%" else f"only {shown}"
-
-
-def _list_unlikely(judged: Sequence[JudgedEffect]) -> dict[str, float]:
-    """Effect -> probability, of the effects that are less likely than not."""
-    return {one.effect: one.probability for one in judged if one.probability < LEAST_PROBABILITY}

@@ -36,5 +36,5 @@ class SelectionData:
 
     def voltage_residual(self, point: Estimate) -> VoltageResidual:
         """The voltage residual of the log under an estimate's base model."""
-        gains = point.structure.model(point.values).gains
-        return compute_voltage_residual(self.log, dict(gains), type=point.structure.type)
+        gains = dict(point.model.gains)
+        return compute_voltage_residual(self.log, gains, type=point.structure.type)

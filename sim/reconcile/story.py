@@ -44,28 +44,28 @@ class Finding:
         effect: name of the effect or fault.
         kind: ``effect`` or ``fault``.
         size: ``major`` or ``minor``.
+        probability: [1] that the effect, or one that it is ambiguous with, is missing in the base
+            model; for a fault, the confidence of the inspection that found it.
         ambiguous_with: other effects that would explain as much.
         parameters: name -> estimate.
         gap_before: [log's unit/s] RMS velocity error of the simulation without it.
         gap_after: the same with it.
+        separating_test: the tests that separate it from ``ambiguous_with``; empty if none is known.
         sentence: what it is and does, in plain words.
         inspect: what to inspect on the robot.
-        separating_test: the tests that separate it from ``ambiguous_with``; empty if none is known.
-        probability: [1] that the effect, or one that it is ambiguous with, is missing in the base
-            model; for a fault, the confidence of the inspection that found it.
     """
 
     effect: str
     kind: str
     size: str
+    probability: float
     ambiguous_with: tuple[str, ...]
     parameters: Mapping[str, ParameterEstimate]
     gap_before: float
     gap_after: float
+    separating_test: str
     sentence: str
     inspect: str
-    separating_test: str
-    probability: float
 
 
 @dataclass(frozen=True)
@@ -174,7 +174,7 @@ class Story:
                 {
                     "what": one.what,
                     "where": one.where,
-                    "signal": one.signal,
+                    "signal": "velocity",
                     "error": finite_or_none(one.error),
                     "sure": one.sure,
                 }
@@ -194,19 +194,14 @@ def _convert_gains_to_json(gains: Mapping[str, ParameterEstimate]) -> dict[str, 
 
 
 def _convert_finding_to_json(one: Finding) -> dict[str, Any]:
+    """A finding with its fields as keys, in their order."""
     return {
-        "effect": one.effect,
-        "kind": one.kind,
-        "size": one.size,
-        "probability": one.probability,
+        **vars(one),
         "ambiguous_with": list(one.ambiguous_with),
         "parameters": {
-            name: {"value": p.value, "error": finite_or_none(p.error), "unit": p.unit}
+            name: {**vars(p), "error": finite_or_none(p.error)}
             for name, p in one.parameters.items()
         },
         "gap_before": finite_or_none(one.gap_before),
         "gap_after": finite_or_none(one.gap_after),
-        "separating_test": one.separating_test,
-        "sentence": one.sentence,
-        "inspect": one.inspect,
     }

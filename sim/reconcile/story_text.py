@@ -202,8 +202,7 @@ def list_inspections(one: Finding) -> tuple[tuple[str, str], ...]:
 
 def list_next_tests(story: Story) -> tuple[str, ...]:
     """The tests to record next, each once; empty if none would help."""
-    tests = dict.fromkeys(one.separating_test for one in story.findings if one.separating_test)
-    return tuple(tests)
+    return tuple(dict.fromkeys(filter(None, (one.separating_test for one in story.findings))))
 
 
 def list_remarks(story: Story) -> tuple[str, ...]:

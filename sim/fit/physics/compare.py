@@ -1,7 +1,7 @@
 """Compare two fits that should agree: left and right, forward and reverse."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from sim.core.doubt import Doubt
@@ -41,8 +41,7 @@ def compare_parts(fits: Mapping[str, Fit], what: str) -> tuple[Doubt, ...]:
         if len(having) > 1:
             low, *_, high = sorted(having, key=lambda name: alike[name].gains[gain])
             low, high = sorted((low, high), key=having.index)  # in the order of the parts
-            names = (low, high)
-            doubts += _doubt_differing_gains(alike[low], alike[high], names, what, only=gain)
+            doubts += _doubt_differing_gain(gain, alike[low], alike[high], (low, high), what)
     return tuple(doubts)
 
 
@@ -67,38 +66,34 @@ def compare_directions(log: Log, type: str) -> tuple[Doubt, ...]:  # noqa: A002 
             fits.append(fit_output_error(replace(log, runs=runs), type=type))
         except NotIdentifiable:
             return ()
-    return _doubt_differing_gains(fits[0], fits[1], DIRECTIONS, "direction")
+    return tuple(
+        doubt
+        for gain in SUSPECTS
+        if gain in fits[0].gains
+        for doubt in _doubt_differing_gain(gain, fits[0], fits[1], DIRECTIONS, "direction")
+    )
 
 
-def _doubt_differing_gains(
-    one: Fit, other: Fit, names: tuple[str, ...], what: str, *, only: str = ""
-) -> tuple[Doubt, ...]:
-    """Doubts about gains that differ significantly, and by more than ``APART`` and ``NOTICED``."""
-    per = find_unit(one.log_units)
-    springs = one.type != "simple" and what == "direction"  # a spring pulls one way
+def _doubt_differing_gain(
+    gain: str, one: Fit, other: Fit, names: tuple[str, ...], what: str
+) -> Iterator[Doubt]:
+    """A doubt if a gain differs significantly, and by more than ``APART`` and ``NOTICED``."""
+    per, why = find_unit(one.log_units), SUSPECTS[gain]
     mirror = -1.0 if one.gains["kV"] * other.gains["kV"] < 0.0 else 1.0
-    doubts = []
-    for gain, why in SUSPECTS.items():
-        if gain not in one.gains or gain not in other.gains or only not in {"", gain}:
-            continue
-        a, b = one.gains[gain], mirror * other.gains[gain]
-        least = max(
-            SURELY * math.hypot(one.errors[gain], other.errors[gain]),
-            APART * 0.5 * abs(a + b),
-            0.0 if gain in {"kV", "kA"} else NOTICED,
-        )
-        if abs(a - b) <= least:
-            continue
-        size = per.si if gain in {"kV", "kA"} else 1.0
-        suspects = f"a spring, a counterweight or tubing, then {why}" if springs else why
-        share = abs(a - b) / max(0.5 * abs(a + b), 1e-300)
-        doubts.append(
-            Doubt(
-                f"{what}s-differ",
-                f"{gain} is {a * size:.3g} {names[0]} and {b * size:.3g} "
-                f"{format_gain_unit(gain, per)} {names[1]}, {share:.0%} apart; one gain for both "
-                f"is wrong for each: check {suspects}.",
-                gains=(gain,),
-            )
-        )
-    return tuple(doubts)
+    a, b = one.gains[gain], mirror * other.gains[gain]
+    least = max(
+        SURELY * math.hypot(one.errors[gain], other.errors[gain]),
+        APART * 0.5 * abs(a + b),
+        0.0 if gain in {"kV", "kA"} else NOTICED,
+    )
+    if abs(a - b) <= least:
+        return
+    size = per.si if gain in {"kV", "kA"} else 1.0
+    if one.type != "simple" and what == "direction":  # a spring pulls one way
+        why = f"a spring, a counterweight or tubing, then {why}"
+    share = abs(a - b) / max(0.5 * abs(a + b), 1e-300)
+    text = (
+        f"{gain} is {a * size:.3g} {names[0]} and {b * size:.3g} {format_gain_unit(gain, per)} "
+        f"{names[1]}, {share:.0%} apart; one gain for both is wrong for each: check {why}."
+    )
+    yield Doubt(f"{what}s-differ", text, gains=(gain,))

@@ -17,6 +17,7 @@ the robot without them is J - s·(m·R² - J).
 """
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from sim.core.doubt import Doubt
@@ -62,13 +63,7 @@ class MomentOfInertia:
 
     def to_json(self) -> dict[str, object]:
         """Data for JSON; the keys are fixed, because other programs read them."""
-        return {
-            "value": self.value,
-            "error": self.error,
-            "without_rotors": list(self.without_rotors),
-            "lever": self.lever,
-            "lever_seen": self.lever_seen,
-        }
+        return {name: value for name, value in vars(self).items() if name != "doubts"}
 
 
 def compute_moment_of_inertia(
@@ -107,14 +102,8 @@ def compute_moment_of_inertia(
         parts += [one.errors["kV"] / one.gains["kV"] for one in (turn, go)]
     own = sorted(value - share * (mass * arm**2 - value) for share in ROTORS)
     doubts = () if lever is None else tuple(_doubt_lever(turn, go, from_speeds, lever))
-    return MomentOfInertia(
-        value,
-        value * math.hypot(*parts),
-        (own[0], own[1]),
-        arm,
-        None if in_turns else from_speeds,
-        doubts,
-    )
+    error, seen = value * math.hypot(*parts), None if in_turns else from_speeds
+    return MomentOfInertia(value, error, (own[0], own[1]), arm, seen, doubts)
 
 
 def _convert_to_radians(turning: Fit, lever: float | None) -> Fit:
@@ -168,23 +157,21 @@ def _refuse_unusable(turning: Fit, straight: Fit, *, mass: float, lever: float |
             )
 
 
-def _doubt_lever(turn: Fit, go: Fit, from_speeds: float, lever: float) -> list[Doubt]:
+def _doubt_lever(turn: Fit, go: Fit, from_speeds: float, lever: float) -> Iterator[Doubt]:
     """A doubt if the lever arm from the speeds differs from the given one."""
     unsure = SURELY * math.hypot(*(one.errors["kV"] / one.gains["kV"] for one in (turn, go)))
     share = from_speeds / lever
     if abs(share - 1.0) <= NEAR + unsure:
-        return []
+        return
     near = [
         (abs(math.log(share / factor)), why)
         for factor, why in MISTAKEN
         if abs(share / factor - 1.0) <= NEAR + unsure
     ]
     cause = min(near)[1] if near else "the lever, the wheel's radius or a unit is wrong"
-    return [
-        Doubt(
-            "lever",
-            f"kV turning / kV straight is the lever: your logs give {from_speeds:.3g} m, but you "
-            f"gave {lever:.3g} m. Probably {cause}.",
-            grave=True,
-        )
-    ]
+    yield Doubt(
+        "lever",
+        f"kV turning / kV straight is the lever: your logs give {from_speeds:.3g} m, but you "
+        f"gave {lever:.3g} m. Probably {cause}.",
+        grave=True,
+    )

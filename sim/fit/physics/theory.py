@@ -5,6 +5,7 @@ inverse factors.
 """
 
 import math
+from collections.abc import Iterator
 
 from sim.core.doubt import Doubt
 from sim.core.units import find_unit
@@ -78,45 +79,38 @@ def describe_theory(found: Fit, parts: Parts) -> str:
     )
 
 
-def _check_kv(found: Fit, parts: Parts) -> list[Doubt]:
+def _check_kv(found: Fit, parts: Parts) -> Iterator[Doubt]:
     """Doubts about kV."""
     kv, error = found.gains["kV"], found.errors["kV"]
     if kv <= 0.0:
-        return []
+        return
     share, unsure = kv / parts.kv, SURELY * error / parts.kv
     said = _describe_difference(found, "kV", parts.kv)
     said += f" from theory (12 V divided by the free speed of {parts.count} × {parts.motor.name})"
     named = [*_explain_ratio(share, parts)]
     if share + unsure < BELOW:
         why = " or ".join(named) or f"a wrong unit, {_suggest_other_parts(kv, parts)}"
-        return [
-            Doubt(
-                "kv-below-theory",
-                f"{said}. That is impossible: no motor turns faster than its free speed. Check "
-                f"for {why}. The number of motors does not matter.",
-                grave=True,
-            )
-        ]
-    if named and share - unsure > TIGHT:
-        return [Doubt("kv-above-theory", f"{said}. Check for {' or '.join(named)}.", grave=True)]
-    if share - unsure > TIGHT:
-        return [
-            Doubt(
-                "kv-above-theory",
-                f"{said}. Drag alone does not explain so much. Check the units first, then "
-                "whether the log has the applied voltage, then for "
-                f"{_suggest_other_parts(kv, parts)}, and at last for a part that rubs.",
-            )
-        ]
-    if share - unsure > DRAG:
-        return [
-            Doubt(
-                "kv-drag",
-                f"{said}. Some friction grows with speed. Check belt tension, gears, grease, and "
-                "whether the log has the applied voltage.",
-            )
-        ]
-    return []
+        yield Doubt(
+            "kv-below-theory",
+            f"{said}. That is impossible: no motor turns faster than its free speed. Check "
+            f"for {why}. The number of motors does not matter.",
+            grave=True,
+        )
+    elif named and share - unsure > TIGHT:
+        yield Doubt("kv-above-theory", f"{said}. Check for {' or '.join(named)}.", grave=True)
+    elif share - unsure > TIGHT:
+        yield Doubt(
+            "kv-above-theory",
+            f"{said}. Drag alone does not explain so much. Check the units first, then "
+            "whether the log has the applied voltage, then for "
+            f"{_suggest_other_parts(kv, parts)}, and at last for a part that rubs.",
+        )
+    elif share - unsure > DRAG:
+        yield Doubt(
+            "kv-drag",
+            f"{said}. Some friction grows with speed. Check belt tension, gears, grease, and "
+            "whether the log has the applied voltage.",
+        )
 
 
 def _describe_difference(found: Fit, gain: str, theory: float) -> str:
@@ -167,11 +161,11 @@ def _suggest_other_parts(kv: float, parts: Parts) -> str:
     return " or ".join(would)
 
 
-def _check_ka(found: Fit, parts: Parts) -> list[Doubt]:
+def _check_ka(found: Fit, parts: Parts) -> Iterator[Doubt]:
     """Doubts about kA."""
     ka, theory = found.gains["kA"], parts.ka
     if theory is None or ka <= 0.0:
-        return []
+        return
     share, unsure = ka / theory, SURELY * found.errors["kA"] / theory
     size = f"{parts.load:g} {'kg·m²' if find_unit(found.units).angular else 'kg'}"
     motors = f"{parts.count} × {parts.motor.name}"
@@ -181,22 +175,17 @@ def _check_ka(found: Fit, parts: Parts) -> list[Doubt]:
     if _is_kv_plausible(found.gains["kV"] / parts.kv):
         where = f"{where} ({_load_instead(share, parts, size.rpartition(' ')[2])} would fit)"
     if share + unsure < LIGHT:
-        return [
-            Doubt(
-                "ka-below-theory",
-                f"{said}. Rotors can only make kA larger: {where}.",
-                grave=True,
-            )
-        ]
-    if share - unsure > HEAVY:
-        return [
-            Doubt(
-                "ka-above-theory",
-                f"{said}. Rotors and wheels add only 3 to 10 %: {where}, or at a late or averaged "
-                "velocity.",
-            )
-        ]
-    return []
+        yield Doubt(
+            "ka-below-theory",
+            f"{said}. Rotors can only make kA larger: {where}.",
+            grave=True,
+        )
+    elif share - unsure > HEAVY:
+        yield Doubt(
+            "ka-above-theory",
+            f"{said}. Rotors and wheels add only 3 to 10 %: {where}, or at a late or averaged "
+            "velocity.",
+        )
 
 
 def _is_kv_plausible(share: float) -> bool:

@@ -1,5 +1,6 @@
 """Compare forward and reverse: whether one kS and one kV describe both."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -26,39 +27,33 @@ class _Line:
     kv_error: float
 
 
-def check_directions(features: LogFeatures) -> list[Doubt]:
+def check_directions(features: LogFeatures) -> Iterator[Doubt]:
     """Doubts about forward and reverse ramps that need different voltages for one speed."""
     forward, reverse = (_fit_direction(features, way) for way in DIRECTIONS)
     if forward is None or reverse is None:
-        return []
+        return
     ks, kv = 0.5 * (forward.ks + reverse.ks), 0.5 * (forward.kv + reverse.kv)
-    doubts = []
     apart = abs(forward.ks - reverse.ks)
     noise = SIGMAS * float(np.hypot(forward.ks_error, reverse.ks_error))
     simple = features.log.type not in ("elevator", "arm")
     if simple and apart > max(APART_KS[0], APART_KS[1] * abs(ks), noise):
-        doubts.append(
-            Doubt(
-                "friction-differs",
-                f"It needs {forward.ks:.2f} V to start moving forward but {reverse.ks:.2f} V in "
-                "reverse. Friction differs between the directions, or the type of mechanism "
-                "leaves out a weight. One kS cannot describe both, and the error ends up in kA.",
-                action=Action("rubs-or-type"),
-            )
+        yield Doubt(
+            "friction-differs",
+            f"It needs {forward.ks:.2f} V to start moving forward but {reverse.ks:.2f} V in "
+            "reverse. Friction differs between the directions, or the type of mechanism "
+            "leaves out a weight. One kS cannot describe both, and the error ends up in kA.",
+            action=Action("rubs-or-type"),
         )
     apart, per = abs(forward.kv - reverse.kv), find_unit(features.log.units)
     noise = SIGMAS * float(np.hypot(forward.kv_error, reverse.kv_error))
     if apart > max(APART_KV * kv, noise):
-        doubts.append(
-            Doubt(
-                "back-emf-differs",
-                f"Forward takes {forward.kv * per.si:.3g} V per {per.symbol}/s, reverse "
-                f"{reverse.kv * per.si:.3g}: they differ by {apart / kv:.0%}. The load "
-                "differs between the directions, or the sensor reads one direction differently. "
-                "Plot voltage against velocity, and trust kV only to this difference.",
-            )
+        yield Doubt(
+            "back-emf-differs",
+            f"Forward takes {forward.kv * per.si:.3g} V per {per.symbol}/s, reverse "
+            f"{reverse.kv * per.si:.3g}: they differ by {apart / kv:.0%}. The load "
+            "differs between the directions, or the sensor reads one direction differently. "
+            "Plot voltage against velocity, and trust kV only to this difference.",
         )
-    return doubts
 
 
 def _fit_direction(features: LogFeatures, way: str) -> _Line | None:

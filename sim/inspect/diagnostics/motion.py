@@ -1,5 +1,7 @@
 """Check the motion: whether the log has enough of it, and whether the gains reproduce it."""
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from sim.core.doubt import Doubt
@@ -17,15 +19,15 @@ RISE = 2  # [samples] between 10 % and 90 % of the top speed, at least
 INTERCEPT = 0.35  # [V] by which a fast ramp may shift a line that is drawn by hand
 
 
-def check_r2_hides_misfit(features: LogFeatures) -> list[Doubt]:
+def check_r2_hides_misfit(features: LogFeatures) -> Iterator[Doubt]:
     """Doubts about a simulated velocity R² above 0.9 that hides a misfit."""
     try:
         found = fit(features.log, method="sysid")
     except Refusal:
-        return []
+        return
     model = _model(found)
     if model is None or found.simulated_velocity_r2 < GOOD_R2:
-        return []
+        return
     worst, said = MISFIT, ""
     for run in features.log.runs:
         strays = _replay_errors(run, model, features.period)
@@ -33,15 +35,13 @@ def check_r2_hides_misfit(features: LogFeatures) -> list[Doubt]:
             worst = float(strays.max())
             said = f"{run.test} at {run.time[int(np.argmax(strays))]:.2f} s"
     if not said:
-        return []
-    return [
-        Doubt(
-            "fine-r2",
-            f"SysId would still show a simulated velocity R² of {found.simulated_velocity_r2:.2f}, "
-            f"which counts as good. But in {said} a simulation with SysId's gains is wrong by "
-            f"{worst:.0%} of the top speed. Plot these seconds before you trust kA.",
-        )
-    ]
+        return
+    yield Doubt(
+        "fine-r2",
+        f"SysId would still show a simulated velocity R² of {found.simulated_velocity_r2:.2f}, "
+        f"which counts as good. But in {said} a simulation with SysId's gains is wrong by "
+        f"{worst:.0%} of the top speed. Plot these seconds before you trust kA.",
+    )
 
 
 def _model(found: Fit) -> BaselineModel | None:
@@ -70,64 +70,53 @@ def _replay_errors(run: Run, model: BaselineModel, period: float) -> Array:
     return np.asarray(np.lib.stride_tricks.sliding_window_view(off, wide).min(axis=1))
 
 
-def check_repeated_tests(features: LogFeatures) -> list[Doubt]:
+def check_repeated_tests(features: LogFeatures) -> Iterator[Doubt]:
     """Doubts about repeated tests that differ."""
-    doubts = []
+    if features.baseline is None:
+        return
     for test in dict.fromkeys(run.test for run in features.log.runs):
         runs = [i for i, run in enumerate(features.log.runs) if run.test == test]
-        if len(runs) < 2 or not features.predicted_velocities:  # noqa: PLR2004 - two runs to compare
-            continue
         ahead = [_measure_speed_excess(features, i) for i in runs]
         apart = max(ahead) - min(ahead)
         if apart > REPEATABLE:
-            doubts.append(
-                Doubt(
-                    "repeats-differ",
-                    f"The {len(runs)} runs of {test} differ by {apart:.0%} of their speed at the"
-                    " same voltage, and SysId uses only the first. Find out what changed "
-                    "between them: the battery, the load, the temperature, or a slip.",
-                )
+            yield Doubt(
+                "repeats-differ",
+                f"The {len(runs)} runs of {test} differ by {apart:.0%} of their speed at the"
+                " same voltage, and SysId uses only the first. Find out what changed "
+                "between them: the battery, the load, the temperature, or a slip.",
             )
-    return doubts
 
 
 def _measure_speed_excess(features: LogFeatures, index: int) -> float:
     """[share of its top speed] median of a run's velocity minus the predicted one."""
-    run = features.log.runs[index]
+    run, predicted = features.log.runs[index], features.predicted_velocities[index]
     if not run.moving.any():
         return 0.0
-    ahead = (run.velocity - features.predicted_velocities[index]) * np.sign(
-        features.predicted_velocities[index]
-    )
+    ahead = (run.velocity - predicted) * np.sign(predicted)
     return float(np.median(ahead[run.moving])) / run.top_speed
 
 
-def check_too_little_motion(features: LogFeatures) -> list[Doubt]:
+def check_too_little_motion(features: LogFeatures) -> Iterator[Doubt]:
     """Doubts about tests that hardly move, and steps that end too early."""
-    doubts = []
     runs = [run for run in features.log.runs if len(run)]
     if runs and all(not np.ptp(run.position) and not run.velocity.any() for run in runs):
-        return [_doubt_motion(runs)]
+        yield _doubt_motion(runs)
+        return
     for run in features.log.runs:
         moving = int((run.moving & (np.abs(run.velocity) > features.still_speed)).sum())
         if moving < MIN_SAMPLES and run.kind in ("quasistatic", "dynamic"):
-            doubts.append(
-                Doubt(
-                    "little-motion",
-                    f"Only {moving} of the {len(run)} samples of {run.test} are in motion, so "
-                    f"this run contains almost no information. {_advise_more_motion(run)}",
-                )
+            yield Doubt(
+                "little-motion",
+                f"Only {moving} of the {len(run)} samples of {run.test} are in motion, so "
+                f"this run contains almost no information. {_advise_more_motion(run)}",
             )
         elif run.kind == "dynamic" and (samples := _count_rise_samples(run)) < RISE:
-            doubts.append(
-                Doubt(
-                    "short-rise",
-                    f"{run.test} reaches 90 % of its top speed within {samples} samples, so "
-                    "hardly any sample contains information about kA. Log every 5 ms, if the "
-                    "controller sends that fast.",
-                )
+            yield Doubt(
+                "short-rise",
+                f"{run.test} reaches 90 % of its top speed within {samples} samples, so "
+                "hardly any sample contains information about kA. Log every 5 ms, if the "
+                "controller sends that fast.",
             )
-    return doubts
 
 
 def _advise_more_motion(run: Run) -> str:
@@ -161,26 +150,24 @@ def _count_rise_samples(run: Run) -> int:
     return len(run) if run.moving[0] else done - int(np.argmax(run.moving))
 
 
-def check_ramp_rate(features: LogFeatures) -> list[Doubt]:
+def check_ramp_rate(features: LogFeatures) -> Iterator[Doubt]:
     """Doubts about ramps so fast that a line through their voltages misses kS."""
     long = [run for run in features.log.runs if len(run) > MIN_SAMPLES]
     ramps = [run for run in long if run.kind == "quasistatic"]
     if features.baseline is None or not ramps:
-        return []
+        return
     rate = float(np.median([_measure_ramp_rate(run) for run in ramps]))
     shift = features.baseline.timescale * rate
     if shift < INTERCEPT:
-        return []
-    return [
-        Doubt(
-            "fast-ramp",
-            f"The voltage ramp rises by {rate:.2g} V/s, which is fast for a mechanism with a time "
-            f"constant of {features.baseline.timescale:.2g} s. SysId allows for that, but a "
-            f"straight line through the plot of voltage against velocity gives a kS that is "
-            f"{shift:.2f} V too large. If you want to draw such a line, use half the ramp rate: "
-            f"{0.5 * rate:.2g} V/s.",
-        )
-    ]
+        return
+    yield Doubt(
+        "fast-ramp",
+        f"The voltage ramp rises by {rate:.2g} V/s, which is fast for a mechanism with a time "
+        f"constant of {features.baseline.timescale:.2g} s. SysId allows for that, but a "
+        f"straight line through the plot of voltage against velocity gives a kS that is "
+        f"{shift:.2f} V too large. If you want to draw such a line, use half the ramp rate: "
+        f"{0.5 * rate:.2g} V/s.",
+    )
 
 
 def _measure_ramp_rate(run: Run) -> float:

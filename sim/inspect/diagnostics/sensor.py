@@ -1,5 +1,7 @@
 """Check the sensor: lag, noise and scale of its readings."""
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from sim.core.advice import Action
@@ -20,64 +22,58 @@ PASSES = 0.1  # [share of a ramp's rows] that may be at rest and count as motion
 FASTEST = 60.0  # [m/s] nothing on a robot is faster
 
 
-def check_velocity_lag(features: LogFeatures) -> list[Doubt]:
+def check_velocity_lag(features: LogFeatures) -> Iterator[Doubt]:
     """Doubts about a velocity that is later than its position."""
     found = features.velocity_lag
     if not 1.0 / FAR < features.usual_distance_ratio < FAR:  # that is a wrong unit
-        return []
+        return
     least = max(LAG[0], LAG[1] * features.period)
     if found is None or not found.matched or found.lag <= least:
-        return []
+        return
     lag = found.lag
     rounded = round(lag / ROUNDED) * ROUNDED
     similar = [name for name, age in FILTERS.items() if abs(lag / age - 1.0) < ALIKE]
     likely = f", as {similar[0]} does" if similar else ""
-    return [
-        Doubt(
-            "velocity-lags",
-            f"The velocity is about {rounded * 1000.0:.0f} ms later than the "
-            f"position: most likely the motor controller averages it{likely}. The fit "
-            "takes this delay into account. WPILib's SysId does not: its kA is wrong, and the "
-            "measurement delay that you enter there changes only the feedback gains. Shorten the "
-            "filter of the motor controller.",
-        )
-    ]
+    yield Doubt(
+        "velocity-lags",
+        f"The velocity is about {rounded * 1000.0:.0f} ms later than the "
+        f"position: most likely the motor controller averages it{likely}. The fit "
+        "takes this delay into account. WPILib's SysId does not: its kA is wrong, and the "
+        "measurement delay that you enter there changes only the feedback gains. Shorten the "
+        "filter of the motor controller.",
+    )
 
 
-def check_plausible_speed(features: LogFeatures) -> list[Doubt]:
+def check_plausible_speed(features: LogFeatures) -> Iterator[Doubt]:
     """Warnings about speeds that no robot reaches."""
     per = find_unit(features.log.units)
     if features.baseline is None or per.angular or BATTERY / features.baseline.kv <= FASTEST:
-        return []
-    return [
-        Doubt(
-            "too-fast",
-            f"At {BATTERY:g} V the mechanism would move at "
-            f"{BATTERY / features.baseline.kv:.3g} m/s, so its "
-            f"position is probably not in {per.name}.",
-            action=Action("angle-units"),
-        )
-    ]
+        return
+    yield Doubt(
+        "too-fast",
+        f"At {BATTERY:g} V the mechanism would move at "
+        f"{BATTERY / features.baseline.kv:.3g} m/s, so its "
+        f"position is probably not in {per.name}.",
+        action=Action("angle-units"),
+    )
 
 
-def check_rest_noise(features: LogFeatures) -> list[Doubt]:
+def check_rest_noise(features: LogFeatures) -> Iterator[Doubt]:
     """Doubts about small noise at rest that still exceeds SysId's threshold."""
     both = zip(features.log.runs, features.rest_lengths, strict=True)
     ramps = {run: n for run, n in both if run.kind == "quasistatic" and len(run) > MIN_SAMPLES}
     if not ramps:
-        return []
+        return
     threshold = min(estimate_noise_floor(run.velocity) for run in ramps)
     rests = [run.velocity[:still] for run, still in ramps.items()]
     noisy = [rest for rest in rests if rest.size and np.any(np.diff(rest))]
     passed = sum(int(np.sum(np.abs(rest) >= threshold)) for rest in noisy)
     counted = sum(int(np.sum(np.abs(run.velocity) >= threshold)) for run in ramps)
     if passed <= PASSES * counted:
-        return []
-    return [
-        Doubt(
-            "standstill-counted",
-            f"SysId thinks that the mechanism moves in {counted} quasistatic samples. In {passed} "
-            "of them it stands still, but the noise of the velocity is above SysId's threshold of "
-            f"{threshold:.2g}. Set the threshold by hand, above the noise.",
-        )
-    ]
+        return
+    yield Doubt(
+        "standstill-counted",
+        f"SysId thinks that the mechanism moves in {counted} quasistatic samples. In {passed} "
+        "of them it stands still, but the noise of the velocity is above SysId's threshold of "
+        f"{threshold:.2g}. Set the threshold by hand, above the noise.",
+    )

@@ -16,6 +16,7 @@ climbs back along the same one; the bus voltage, where it is logged, dips.
 
 from collections.abc import Iterable
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -91,13 +92,8 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
     yield from cuts
     for anomaly in features.anomalies:
         found = _detect_unpowered_motion(features, anomaly)
-        if found and not any(_overlap(found.where, other.where) for other in cuts):
+        if found and not any(found.where.overlap(other.where) for other in cuts):
             yield found
-
-
-def _overlap(one: LogInterval, other: LogInterval) -> bool:
-    """Whether two intervals of one run have a common part."""
-    return one.run == other.run and min(one.end, other.end) > max(one.start, other.start)
 
 
 def _detect_cuts(features: LogFeatures, index: int) -> list[Damage]:
@@ -148,7 +144,6 @@ def _describe_cut(features: LogFeatures, index: int, first: int, last: int) -> D
         happened = f"The battery's voltage falls to {bus:.1f} V, and below 6.75 V the robot "
         happened += f"controller turns the motors off{': ' * bool(off)}{without}"
     return Damage(
-        fault="brownout",
         where=LogInterval(index, run.test, start, end),
         confidence=BUS_CONFIDENCE if bus is not None else CUT_CONFIDENCE,
         evidence=f"{happened}.",
@@ -183,7 +178,6 @@ def _detect_unpowered_motion(features: LogFeatures, anomaly: Anomaly) -> Damage 
     back = bool(np.any(np.abs(run.velocity[last:]) > 2.0 * features.still_speed))
     said = f"; the battery is down to {bus:.1f} V" if bus is not None else ""
     return Damage(
-        fault="brownout",
         where=LogInterval(anomaly.run, run.test, start, end),
         confidence=_rate_confidence(share, back=back, has_bus=bus is not None),
         evidence=f"For {end - start:.2f} s the mechanism slows down as if its motors were off, "
@@ -206,45 +200,29 @@ def _fit_cut(features: LogFeatures, anomaly: Anomaly) -> tuple[float, int, int]:
         return best
     margin = max(3, round(SLACK / features.period))
     ends = np.unique(np.linspace(anomaly.first + 1, anomaly.last + 1, ENDS).astype(int))
-    for first in range(anomaly.first - margin, anomaly.first + 1, margin // 3):
+    firsts = range(anomaly.first - margin, anomaly.first + 1, margin // 3)
+    for first, end in product(firsts, ends.tolist()):
         if first >= anomaly.begin:
-            best = max(
-                best,
-                *(
-                    (_measure_explained_share(features, anomaly, first, e), first, e)
-                    for e in ends.tolist()
-                ),
-            )
+            best = max(best, _try_cut(features, anomaly, first, end))
     _, first, last = best
-    near = range(max(last - margin, first + 1), min(last + margin, anomaly.end))
-    return max(
-        [
-            best,
-            *(
-                (_measure_explained_share(features, anomaly, first, end), first, end)
-                for end in near
-            ),
-        ]
-    )
+    for end in range(max(last - margin, first + 1), min(last + margin, anomaly.end)):
+        best = max(best, _try_cut(features, anomaly, first, end))
+    return best
 
 
-def _measure_explained_share(
+def _try_cut(
     features: LogFeatures, anomaly: Anomaly, first: int, last: int
-) -> float:
-    """Share of an anomaly that a cut from sample ``first`` to before ``last`` explains."""
+) -> tuple[float, int, int]:
+    """Share of an anomaly that a cut from sample ``first`` to before ``last`` explains; the cut."""
     run, baseline = features.log.runs[anomaly.run], features.baseline
     if baseline is None:
-        return 0.0
-    volts = run.voltage.copy()
+        return 0.0, first, last
+    volts, velocity = run.voltage.copy(), float(anomaly.expected[0])
     volts[first:last] = 0.0
     without = baseline.replay(
-        run,
-        voltage=volts,
-        first=anomaly.begin,
-        last=anomaly.end,
-        velocity=float(anomaly.expected[0]),
+        run, voltage=volts, first=anomaly.begin, last=anomaly.end, velocity=velocity
     )
-    return anomaly.compute_explained_share(without - anomaly.expected)
+    return anomaly.compute_explained_share(without - anomaly.expected), first, last
 
 
 FAULT = Fault(
@@ -253,6 +231,5 @@ FAULT = Fault(
     ordinary="the motors get no voltage for 0.3 s",
     spoil=spoil,
     detect=detect,
-    when=(0.3, 0.6),
     least_voltage=2.5,
 )

@@ -28,7 +28,7 @@ from sim.inspect.fault import (
     Fault,
     FaultStrike,
     LogInterval,
-    replace_run,
+    damage_runs,
     rescale_motion,
 )
 from sim.inspect.log_features import LogFeatures, find_driven_samples
@@ -51,14 +51,13 @@ BETTER = 0.3  # [share] of its squared error that a limit leaves, at most
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:  # noqa: ARG001 - the contract
     """Limit the current at the start of each dynamic test, but log the commanded voltage."""
-    features, where = LogFeatures(log), []
+    features, damaged = LogFeatures(log), {}
     for index, run in enumerate(features.log.runs):
         if run.kind == log.runs[strike.run].kind:
             spoilt = _clip_voltage(features, index, keeps=float(KEEPS ** np.cbrt(strike.severity)))
             if spoilt is not None:
-                log = replace_run(log, index, spoilt)
-                where.append(LogInterval.of_samples(index, run))
-    return DamagedLog(log, tuple(where))
+                damaged[index] = spoilt
+    return damage_runs(log, damaged)
 
 
 def detect(features: LogFeatures) -> Iterable[Damage]:
@@ -94,7 +93,6 @@ def _detect_limit(index: int, run: Run, rise: StepRise) -> Damage | None:
         return None
     volts = float(np.median(run.voltage))
     return Damage(
-        fault="command-logged",
         where=LogInterval.of_samples(index, run),
         confidence=1.0 - left,
         evidence=f"The log shows exactly {volts:.3g} V, but at first the mechanism has only "

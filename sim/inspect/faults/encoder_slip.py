@@ -73,7 +73,6 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
             abs(loss), low=loss > 0, samples=last - first, lasts=end - start
         )
         yield Damage(
-            fault="encoder-slip",
             where=LogInterval(anomaly.run, run.test, start, end),
             confidence=share,
             evidence=evidence,

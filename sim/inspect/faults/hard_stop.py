@@ -24,7 +24,6 @@ from sim.inspect.fault import (
     Fault,
     FaultStrike,
     LogInterval,
-    replace_run,
     rescale_motion,
 )
 from sim.inspect.log_features import LogFeatures
@@ -57,60 +56,48 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
     since = cut.time - cut.time[impact]
     pace = np.where(since < 0.0, 1.0, -BOUNCE * np.exp(-since / FADES) * (since < 4.0 * FADES))
     spoilt = rescale_motion(cut, pace)
-    late = float(spoilt.time[-1] - run.time[-1])
-    damaged = replace_run(log, strike.run, spoilt)
-    if late > 0.0:  # the runs after it start later
-        for index in range(strike.run + 1, len(log.runs)):
-            other = log.runs[index]
-            damaged = replace_run(damaged, index, replace(other, time=other.time + late))
-    where = LogInterval.of_samples(strike.run, spoilt, impact)
-    return DamagedLog(damaged, (where,))
+    late = max(float(spoilt.time[-1] - run.time[-1]), 0.0)  # by which the runs after it start later
+    later = (replace(other, time=other.time + late) for other in log.runs[strike.run + 1 :])
+    damaged = replace(log, runs=(*log.runs[: strike.run], spoilt, *later))
+    return DamagedLog(damaged, (LogInterval.of_samples(strike.run, spoilt, impact),))
 
 
 def detect(features: LogFeatures) -> Iterable[Damage]:
     """Find runs that end at a stop with the voltage on, or start pressed against one."""
     yield from _find_pressed_starts(features)
     for index, run in enumerate(features.log.runs):
-        found = _find_stop(index, run, still=features.still_speed, period=features.period)
-        if found:
-            yield found
+        yield from _find_stop(index, run, still=features.still_speed, period=features.period)
 
 
-def _find_stop(index: int, run: Run, *, still: float, period: float) -> Damage | None:
-    """The stop at which a run ends; None if there is none."""
+def _find_stop(index: int, run: Run, *, still: float, period: float) -> Iterable[Damage]:
+    """The stop at which a run ends, if there is one."""
     impact = _find_impact(run, speed=FAST * still, still=still)
     if impact is None:
-        return None
+        return
     before = (run.time >= run.time[impact] - BEFORE) & (run.time < run.time[impact])
     speed = float(np.median(np.abs(run.velocity[before]))) if before.any() else 0.0
     lasts = float(run.time[-1] - run.time[impact])
-    volts = np.abs(run.voltage)
+    volts, top = np.abs(run.voltage), float(np.abs(run.velocity).max())
     if (
         speed < FAST * still
         or lasts < max(SHORTEST, 2.5 * period)
         or volts[impact:].min() < PUSHED * volts.max()
     ):
-        return None
+        return
     moved = abs(float(run.position[-1] - run.position[impact]))
     share = 1.0 - moved / (speed * lasts)
     if share < 1.0 - LARGEST_REBOUND:
-        return None
-    return Damage(
-        fault="hard-stop",
+        return
+    yield Damage(
         where=LogInterval.of_samples(index, run, impact),
         confidence=share,
-        evidence=f"The mechanism stops from {_format_percent(speed, run)} of its top speed within "
+        evidence=f"The mechanism stops from {min(1.0, speed / top):.0%} of its top speed within "
         f"{SETTLES:g} s and stays there for {lasts:.2f} s, although the voltage stays "
         f"at up to {volts[impact:].max():.1f} V: it hit its end, "
-        f"{_measure_distance(run, impact):.3g} from where the run started.",
+        f"{abs(float(run.position[impact] - run.position[0])):.3g} from where the run started.",
         advice="Keep only the part of the run before the impact. Or set soft limits, run the test "
         "again, and let go of the button earlier.",
     )
-
-
-def _measure_distance(run: Run, impact: int) -> float:
-    """[m or rad] distance from the start of the run to the impact."""
-    return abs(float(run.position[impact] - run.position[0]))
 
 
 def _find_pressed_starts(features: LogFeatures) -> Iterable[Damage]:
@@ -138,7 +125,6 @@ def _find_pressed_starts(features: LogFeatures) -> Iterable[Damage]:
             and volts - pressed - baseline.ks > PRESSES * baseline.ks
         ):
             yield Damage(
-                fault="hard-stop",
                 where=LogInterval.of_samples(index, run, last=off),
                 confidence=LEANS,
                 evidence=f"For the first {run.time[off] - run.time[0]:.1f} s gravity presses the"
@@ -186,11 +172,6 @@ def _extend(run: Run, *, until: float) -> Run:
         current=repeat_last(run.current),
         bus_voltage=repeat_last(run.bus_voltage),
     )
-
-
-def _format_percent(speed: float, run: Run) -> str:
-    """A speed in percent of the run's largest one."""
-    return f"{min(1.0, speed / float(np.abs(run.velocity).max())):.0%}"
 
 
 FAULT = Fault(

@@ -74,21 +74,15 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
         for gaps in np.split(late, np.flatnonzero(np.diff(run.time[late]) > TOGETHER) + 1):
             lost = float(np.sum(step[gaps] / usual - 1.0))
             yield Damage(
-                fault="loop-overrun",
                 where=LogInterval.of_samples(index, run, gaps[0], gaps[-1] + 1),
                 confidence=1.0 - 0.5 ** (1.0 + lost / PROOF),
-                evidence=f"{_count_gaps(gaps.size)} in the samples, the longest "
+                evidence=f"{gaps.size} gap{'s' * (gaps.size > 1)} in the samples, the longest "
                 f"{step[gaps].max() * 1000.0:.0f} ms (normal: {usual * 1000.0:.3g} ms):"
                 f" about {lost:.0f} samples are lost.",
                 advice="Find the part of the program that takes too long (the Driver Station's "
                 "console prints loop overruns), and run this test again. Until then, do "
                 "not trust kA.",
             )
-
-
-def _count_gaps(count: int) -> str:
-    """A number of gaps, in words."""
-    return "1 gap" if count == 1 else f"{count} gaps"
 
 
 FAULT = Fault(

@@ -48,7 +48,6 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
     ):
         if seems != run.test:
             yield Damage(
-                fault="mislabelled-test",
                 where=LogInterval.of_samples(index, run),
                 confidence=CONFIDENCE,
                 evidence=f"The run has the name {run.test}, but it looks like {seems}: "

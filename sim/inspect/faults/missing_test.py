@@ -35,7 +35,7 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
     lost = {struck, *(others[index] for index in further)} if others else set()
     kept = tuple(run for run in log.runs if run.test not in lost)
     return DamagedLog(
-        replace(log, runs=kept), tuple(_make_missing_interval(test) for test in sorted(lost))
+        replace(log, runs=kept), tuple(LogInterval(test=test) for test in sorted(lost))
     )
 
 
@@ -48,8 +48,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
         if test not in there:
             kind = test.partition("-")[0]
             yield Damage(
-                fault="missing-test",
-                where=_make_missing_interval(test),
+                where=LogInterval(test=test),
                 confidence=CONFIDENCE,
                 evidence=f"Only {len(there & set(FOUR_TESTS))} of the four tests are in the log,"
                 f" and {test} is missing. You need it: {_PURPOSE[kind]}, and each direction has "
@@ -66,11 +65,6 @@ def _describe_other(log: Log, kind: str) -> str:
     if not volts or not max(volts):
         return ""
     return f" with up to {max(volts):.1f} V, like the other direction"
-
-
-def _make_missing_interval(test: str) -> LogInterval:
-    """The interval of a test that is not in the log: it has a name and no time."""
-    return LogInterval(None, test, 0.0, 0.0)
 
 
 FAULT = Fault(

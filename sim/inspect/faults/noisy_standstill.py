@@ -16,7 +16,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from sim.core.log import Array, Log, Run
+from sim.core.log import Array, Log
 from sim.fit.sysid_rows import estimate_noise_floor
 from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterval
 from sim.inspect.log_features import LogFeatures
@@ -57,30 +57,25 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
         return
     confidence = 1.0 - 0.5 * 10.0 ** (-noise / (SURE * LOUD * top))
     for index, rest in rests.items():
-        yield _damage(index, features.log.runs[index], rest, noise, confidence)
+        run = features.log.runs[index]
+        threshold = estimate_noise_floor(run.velocity)
+        passed = int(np.sum(np.abs(rest) >= threshold))
+        yield Damage(
+            where=LogInterval.of_samples(index, run, last=rest.size - 1),
+            confidence=confidence,
+            evidence=f"The position does not change for {rest.size} samples, but the velocity "
+            f"reads about ±{noise:.3g} per second. In {passed} of these samples the velocity is "
+            f"above {threshold:.3g}, SysId's own threshold for this test, so SysId thinks that the "
+            "mechanism moves.",
+            advice=f"Set the velocity threshold by hand, to about {3.0 * noise:.2g}, or cut what "
+            "comes before the motion.",
+        )
 
 
 def _measure_noise(rests: list[Array]) -> float:
     """[m/s or rad/s] standard deviation of the noise at rest, without drift; 0 if nothing rests."""
     steps = np.concatenate([np.diff(rest) for rest in rests] or [np.zeros(1)])
     return float(np.sqrt(np.mean(steps**2) / 2.0))
-
-
-def _damage(index: int, run: Run, rest: Array, noise: float, confidence: float) -> Damage:
-    """The damage of a run with the velocities ``rest`` (n,) at rest."""
-    threshold = estimate_noise_floor(run.velocity)
-    passed = int(np.sum(np.abs(rest) >= threshold))
-    return Damage(
-        fault="noisy-standstill",
-        where=LogInterval.of_samples(index, run, last=rest.size - 1),
-        confidence=confidence,
-        evidence=f"The position does not change for {rest.size} samples, but the velocity reads "
-        f"about ±{noise:.3g} per second. In {passed} of these samples the velocity is above "
-        f"{threshold:.3g}, SysId's own threshold for this test, so SysId thinks that the "
-        "mechanism moves.",
-        advice=f"Set the velocity threshold by hand, to about {3.0 * noise:.2g}, or cut what "
-        "comes before the motion.",
-    )
 
 
 FAULT = Fault(

@@ -17,7 +17,7 @@ from dataclasses import replace
 import numpy as np
 
 from sim.core.log import Array, Log, Run, find_majority_sign
-from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterval
+from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterval, damage_runs
 from sim.inspect.log_features import Flags, LogFeatures
 
 ONE_WAY, BOTH_WAYS = 0.7, 2.0  # [severity] from which on all tests of a direction, or all, flip
@@ -30,14 +30,13 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
     """Reverse the sign of a signal: in one run, in the runs of one direction, or in all."""
     signals = (("voltage",), ("position", "velocity"), ("velocity",))[int(rng.integers(3))]
     struck = log.runs[strike.run]
-    runs, where = list(log.runs), []
+    damaged = {}
     for index, run in enumerate(log.runs):
         alike = run.direction == struck.direction and strike.severity >= ONE_WAY
         if index == strike.run or alike or strike.severity >= BOTH_WAYS:
             flipped = {name: -getattr(run, name) for name in signals}
-            runs[index] = replace(run, **flipped)
-            where.append(LogInterval.of_samples(index, run))
-    return DamagedLog(replace(log, runs=tuple(runs)), tuple(where))
+            damaged[index] = replace(run, **flipped)
+    return damage_runs(log, damaged)
 
 
 def detect(features: LogFeatures) -> Iterable[Damage]:
@@ -45,7 +44,8 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
     for index, run in enumerate(features.log.runs):
         if features.position_copy_factors[index]:  # such a velocity has no sign
             continue
-        slope, moving = features.position_slopes[index], run.moving
+        moving = run.moving
+        slope = np.gradient(run.position, run.time) if len(run) > 1 else np.zeros(len(run))
         against_slope = _have_opposite_signs(run.velocity, slope, moving & _find_large(slope))
         against_voltage = _moves_against_voltage(run, run.velocity, moving)
         if against_voltage and not against_slope and _falls_by_gravity(run, features.log):
@@ -102,7 +102,6 @@ def _damage(index: int, run: Run, said: list[str], *, velocity_only: bool) -> Da
         )
     )
     return Damage(
-        fault="sign-flip",
         where=LogInterval.of_samples(index, run),
         confidence=0.95,
         evidence=f"{' and '.join(said).capitalize()}: at {volts:.3g} V the velocity is "

@@ -20,7 +20,7 @@ from dataclasses import replace
 import numpy as np
 
 from sim.core.log import Array, Log, Run
-from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterval
+from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterval, damage_runs
 from sim.inspect.log_features import Counts, Flags, LogFeatures, find_held_samples
 
 ORDINARY = 3.0  # [samples] that repeat each reading at severity 1: 20 ms frames logged at 5 ms
@@ -36,10 +36,7 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
     held = max(STALE, 1 + round(ORDINARY * strike.severity))
     phases = rng.integers(held, size=len(log.runs))
     runs = [_hold(run, held, int(phase)) for run, phase in zip(log.runs, phases, strict=True)]
-    return DamagedLog(
-        replace(log, runs=tuple(runs)),
-        tuple(LogInterval.of_samples(index, run) for index, run in enumerate(runs) if len(run)),
-    )
+    return damage_runs(log, dict(enumerate(runs)))
 
 
 def detect(features: LogFeatures) -> Iterable[Damage]:
@@ -94,7 +91,6 @@ def _damage(index: int, run: Run, stale: dict[str, Counts]) -> Damage:
         "again. Until then, do not trust kA."
     )
     return Damage(
-        fault="stale-samples",
         where=LogInterval.of_samples(index, run),
         confidence=1.0 - 0.5 ** (1.0 + readings / FEWEST),
         evidence=f"The log repeats {repeated}. It has a sample every {period * 1000.0:.3g} ms, but "

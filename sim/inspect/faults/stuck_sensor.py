@@ -17,8 +17,15 @@ from dataclasses import replace
 import numpy as np
 
 from sim.core.log import MOVING, Log, Run
-from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterval
-from sim.inspect.log_features import Counts, LogFeatures, find_held_samples
+from sim.inspect.fault import (
+    Damage,
+    DamagedLog,
+    Fault,
+    FaultStrike,
+    LogInterval,
+    replace_run,
+)
+from sim.inspect.log_features import LogFeatures, find_held_samples
 
 ORDINARY = 0.15  # [share of the run] that is frozen at severity 1
 ROOM = 0.9  # [share of the rest of the run] longest freeze, so that the readings return
@@ -43,10 +50,8 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
     if last - first < FEWEST or hidden <= FAR * LogFeatures(log).position_step:
         return DamagedLog(log, ())
     stuck = replace(run, position=run.position[frozen], velocity=run.velocity[frozen])
-    runs = tuple(stuck if other is run else other for other in log.runs)
-    return DamagedLog(
-        replace(log, runs=runs), (LogInterval.of_samples(strike.run, run, first, last),)
-    )
+    where = LogInterval.of_samples(strike.run, run, first, last)
+    return DamagedLog(replace_run(log, strike.run, stuck), (where,))
 
 
 def detect(features: LogFeatures) -> Iterable[Damage]:
@@ -55,41 +60,32 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
         together = np.stack((run.position, run.velocity))
         changed = np.any(np.diff(together, axis=1) != 0.0, axis=0)
         starts, lengths = find_held_samples(np.concatenate(([0], np.cumsum(changed))).astype(float))
-        shortest = max(FEWEST, UNUSUAL * _measure_usual_hold(features, index))
+        shortest = max(FEWEST, UNUSUAL * _measure_usual_hold(run))
         for first, length in zip(starts[lengths >= shortest], lengths[lengths >= shortest]):  # noqa: B905 - both have the same mask
             last = int(first + length - 1)
-            if run.time[min(last + 1, len(run) - 1)] - run.time[first] < SHORTEST:
+            if last + 1 >= len(run) or run.time[last + 1] - run.time[first] < SHORTEST:
                 continue
             hidden = _compute_hidden_distance(run, int(first), last, step=features.position_step)
             if hidden > 0.0:
                 yield _damage(index, run, int(first), last, hidden)
 
 
-def _measure_usual_hold(features: LogFeatures, index: int) -> float:
-    """[samples] usual length of a repeated reading in motion, of the slower signal."""
-    run = features.log.runs[index]
-    return max(
-        _measure_median_hold(*find_held_samples(v), run.moving.nonzero()[0])
-        for v in (run.position, run.velocity)
-    )
-
-
-def _measure_median_hold(starts: Counts, lengths: Counts, moving: Counts) -> float:
-    """[samples] median length of the readings that start in motion; 1 if there is none."""
-    judged = lengths[np.isin(starts, moving)]
-    return float(np.median(judged)) if judged.size else 1.0
+def _measure_usual_hold(run: Run) -> float:
+    """[samples] usual length of a repeated reading in motion, of the slower signal; 1 if none."""
+    usual = [1.0]
+    for values in (run.position, run.velocity):
+        starts, lengths = find_held_samples(values)
+        if run.moving[starts].any():
+            usual.append(float(np.median(lengths[run.moving[starts]])))
+    return max(usual)
 
 
 def _compute_hidden_distance(run: Run, first: int, last: int, *, step: float) -> float:
     """[m or rad] distance during a freeze; 0 if the mechanism may have been at rest."""
-    lasted = float(run.time[last] - run.time[first])
     frozen = abs(float(run.velocity[first]))
-    slow = MOVING * run.top_speed
-    predicted = frozen * lasted
-    if last + 1 >= len(run):
-        return 0.0
+    predicted = frozen * float(run.time[last] - run.time[first])
     jump = abs(float(run.position[last + 1] - run.position[last]))
-    moved = frozen > slow and predicted > FAR * step and jump > WENT * predicted
+    moved = frozen > MOVING * run.top_speed and predicted > FAR * step and jump > WENT * predicted
     return predicted if moved else 0.0
 
 
@@ -97,7 +93,6 @@ def _damage(index: int, run: Run, first: int, last: int, hidden: float) -> Damag
     """The damage of a freeze from sample ``first`` to ``last``, with its distance [m or rad]."""
     where = LogInterval.of_samples(index, run, first, last)
     return Damage(
-        fault="stuck-sensor",
         where=where,
         confidence=0.95,
         evidence=f"For {where.end - where.start:.2f} s the sensor repeats one reading (position "

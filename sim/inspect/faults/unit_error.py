@@ -22,7 +22,7 @@ import numpy as np
 
 from sim.core.log import Log
 from sim.core.units import TURN
-from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterval
+from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterval, damage_runs
 from sim.inspect.log_features import LogFeatures
 from sim.inspect.log_units import find_unit_errors
 
@@ -33,26 +33,22 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
     """Scale the velocity to another unit in every run; a higher severity takes a larger factor."""
     factors = MILD if strike.severity < 0.7 else ORDINARY if strike.severity < 2.0 else GROSS  # noqa: PLR2004 - thirds of the scale
     factor = float(rng.choice(factors)) ** int(rng.choice((-1, 1)))
-    runs = tuple(replace(run, velocity=run.velocity * factor) for run in log.runs)
-    return DamagedLog(
-        replace(log, runs=runs),
-        tuple(LogInterval.of_samples(i, run) for i, run in enumerate(runs) if len(run)),
-    )
+    runs = (replace(run, velocity=run.velocity * factor) for run in log.runs)
+    return damage_runs(log, dict(enumerate(runs)))
 
 
 def detect(features: LogFeatures) -> Iterable[Damage]:
     """Find voltages, positions and velocities in a wrong unit, run by run."""
     for error in find_unit_errors(features):
-        for index in error.runs or (None,):
-            yield Damage(
-                fault="unit-error",
-                where=LogInterval(None, "", 0.0, 0.0)
-                if index is None
-                else LogInterval.of_samples(index, features.log.runs[index]),
-                confidence=error.confidence,
-                evidence=error.evidence,
-                advice=str(error.advice),
-            )
+        where = LogInterval()
+        if error.run is not None:
+            where = LogInterval.of_samples(error.run, features.log.runs[error.run])
+        yield Damage(
+            where=where,
+            confidence=error.confidence,
+            evidence=error.evidence,
+            advice=str(error.advice),
+        )
 
 
 FAULT = Fault(

@@ -18,7 +18,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from sim.core.log import Log, Run
-from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterval
+from sim.inspect.anomalies import find_intervals
+from sim.inspect.fault import (
+    Damage,
+    DamagedLog,
+    Fault,
+    FaultStrike,
+    LogInterval,
+    replace_run,
+)
 from sim.inspect.launch import find_step_start
 from sim.inspect.log_features import LogFeatures
 
@@ -61,10 +69,8 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
             drops.append(Dropout(first, first + width - 1, float(run.voltage[first])))
             voltage[first : first + width] *= HALF if strike.severity < MILD else 0.0
         moment += max(EVERY * rng.uniform(0.9, 1.1), 3.0 * width * period)
-    runs = tuple(replace(r, voltage=voltage) if r is run else r for r in log.runs)
-    return DamagedLog(
-        replace(log, runs=runs), tuple(s for s, _ in _group_drops(strike.run, run, drops))
-    )
+    spoilt = replace_run(log, strike.run, replace(run, voltage=voltage))
+    return DamagedLog(spoilt, tuple(where for where, _ in _group_drops(strike.run, run, drops)))
 
 
 def detect(features: LogFeatures) -> Iterable[Damage]:
@@ -92,17 +98,12 @@ def find_dropouts(run: Run, period: float) -> list[Dropout]:
     padded = np.pad(run.voltage, window // 2, mode="reflect" if len(run) > window else "edge")
     expected = np.median(np.lib.stride_tricks.sliding_window_view(padded, window), axis=1)
     short = (expected - run.voltage) * np.sign(expected)
-    least = FLOOR
-    low = np.flatnonzero((short > FALL * np.abs(expected)) & (short > least))
-    groups = np.split(low, np.flatnonzero(np.diff(low) > 1) + 1) if low.size else []
-    drops = []
-    for group in groups:
-        first, last = int(group[0]), int(group[-1])
-        lasted = float(run.time[min(last + 1, len(run) - 1)] - run.time[first])
-        inside = first > 0 and last < len(run) - 1
-        if inside and lasted <= LONGEST:
-            drops.append(Dropout(first, last, float(expected[first])))
-    return drops
+    low = (short > FALL * np.abs(expected)) & (short > FLOOR)
+    return [
+        Dropout(first, last, float(expected[first]))
+        for first, last in find_intervals(low, join=1)
+        if 0 < first <= last < len(run) - 1 and run.time[last + 1] - run.time[first] <= LONGEST
+    ]
 
 
 def _launches(run: Run, drop: Dropout) -> bool:
@@ -124,14 +125,10 @@ def _group_drops(
 ) -> list[tuple[LogInterval, list[Dropout]]]:
     """The drop-outs grouped for the report: a series as one group, a few single ones each alone."""
     reports = [drops] if len(drops) >= SERIES else [[drop] for drop in drops]
+    last = len(run) - 1
     return [
-        (
-            LogInterval.of_samples(
-                index, run, group[0].first, min(group[-1].last + 1, len(run) - 1)
-            ),
-            group,
-        )
-        for group in reports
+        (LogInterval.of_samples(index, run, one[0].first, min(one[-1].last + 1, last)), one)
+        for one in reports
     ]
 
 
@@ -155,7 +152,6 @@ def _damage(run: Run, where: LogInterval, group: list[Dropout], *, answer: float
         else "The velocity does not change, so only the log lost the voltage"
     )
     return Damage(
-        fault="voltage-dropout",
         where=where,
         confidence=1.0 - 0.3 / len(group),
         evidence=f"{said}. {echo}.",

@@ -25,7 +25,6 @@ import numpy as np
 
 from sim.core.log import Array, Log, Run
 from sim.core.units import find_unit
-from sim.inspect.baseline_model import BaselineModel
 from sim.inspect.fault import (
     Damage,
     DamagedLog,
@@ -72,7 +71,8 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
     late = max(float(since[int(np.argmax(moves))]) - STARTS * baseline.timescale, 0.0)
     lasts = min(float(since[-1]), SETTLED * baseline.timescale)
     grid = np.arange(0.0, lasts, features.period / FINE)
-    push = _push(run, baseline)
+    way = np.sign(run.voltage[first])
+    push = way * baseline.compute_steady_speed(run.voltage, run.position)
     limit = float(np.max(push - speed, initial=0.0))  # of the current, or the step itself
     limited = limit < LIMITED * push.max()
     command = np.full(grid.size, push.max()) if limited else np.interp(grid, since, push)
@@ -94,7 +94,7 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
     spoilt = rescale_motion(run, pace)
     if limited:  # faster wheels leave the current limit earlier
         more = np.interp(since, grid, spun.push[0]) - push
-        more *= np.sign(run.voltage[first]) * ((since >= 0.0) & (since < lasts))
+        more *= way * ((since >= 0.0) & (since < lasts))
         spoilt = replace(spoilt, voltage=run.voltage + baseline.kv * more)
     start = float(run.time[first])
     where = LogInterval(strike.run, run.test, start, min(start + grips, float(run.time[-1])))
@@ -107,21 +107,16 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
         return
     for index, run in enumerate(features.log.runs):
         if run.kind == "dynamic" and len(run) >= FEWEST:
-            found = _fit_slip(features, index, run) or (
-                _find_event(index, run) if _may_have_wheels(features) else None
-            )
+            found = _fit_slip(features, index, run) or _find_event(features, index, run)
             if found:
                 yield found
 
 
-def _may_have_wheels(features: LogFeatures) -> bool:
-    """Whether it may drive on wheels: positions are lengths, or it is named a drive."""
-    return not find_unit(features.log.units).angular or "drive" in features.log.mechanism.lower()
-
-
-def _find_event(index: int, run: Run) -> Damage | None:
+def _find_event(features: LogFeatures, index: int, run: Run) -> Damage | None:
     """Wheel slip by a fall or a wait of the speed, without a model; None if there is none."""
-    event = find_launch_event(run)
+    log = features.log  # only lengths, and what is named a drive, may be of wheels
+    wheels = not find_unit(log.units).angular or "drive" in log.mechanism.lower()
+    event = find_launch_event(run) if wheels else None
     if event is None:
         return None
     first = find_step_start(run)
@@ -134,7 +129,6 @@ def _find_event(index: int, run: Run) -> Damage | None:
         f"{event.size:.0%} of its top"
     )
     return Damage(
-        fault="wheel-slip",
         where=LogInterval(index, run.test, start, end),
         confidence=1.0 - 0.5 * LEAST / event.size,
         evidence=f"The speed rises to {event.speed:.3g} m/s, {happened}, at a constant "
@@ -164,7 +158,6 @@ def _fit_slip(features: LogFeatures, index: int, run: Run) -> Damage | None:
     start, lasts = float(run.time[find_step_start(run)]), rise.find_slip_end(loose)
     most = CAUTION * loose.share * float(np.abs(run.voltage).max())
     return Damage(
-        fault="wheel-slip",
         where=LogInterval(index, run.test, start, min(start + lasts, float(run.time[-1]))),
         confidence=share,
         evidence=f"The speed jumps to {1.0 - loose.share:.0%} of its top and stops rising for "
@@ -172,14 +165,6 @@ def _fit_slip(features: LogFeatures, index: int, run: Run) -> Damage | None:
         "spin first, and grip later.",
         advice=f"Run the dynamic tests again with a smaller step, at most {most:.1f} V, on the "
         "carpet it will drive on.",
-    )
-
-
-def _push(run: Run, baseline: BaselineModel) -> Array:
-    """(n,) [m/s or rad/s] steady-state speed of each voltage, in the step's direction."""
-    return np.asarray(
-        baseline.compute_steady_speed(run.voltage, run.position)
-        * np.sign(run.voltage[find_step_start(run)])
     )
 
 

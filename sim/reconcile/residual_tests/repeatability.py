@@ -67,9 +67,7 @@ def find_repeated_residual(problem: PredictionErrorProblem, point: Estimate) -> 
         point: the estimate whose residuals are tested.
     """
     disturbance = estimate_disturbance(problem, point)
-    track = problem.simulate(
-        point.structure.model(point.values), point.nuisance, point.kalman_filter
-    )
+    track = problem.simulate(point.model, point.nuisance, point.kalman_filter)
     speed, position = track.seen, problem.measured[:, 0]
     position = np.where(np.isnan(position), track.position, position)
     used = ~problem.ignored_readings.all(axis=1)

@@ -9,7 +9,6 @@ gamma deviate. A weak periodic force is small in each innovation, but a clear li
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 
@@ -58,10 +57,8 @@ def find_spectral_peak(problem: PredictionErrorProblem, point: Estimate) -> Spec
             wave = np.exp(-2j * np.pi * rates[place] * time)
             power[place] += abs(wave @ values) ** 2 / (values.size * mean)
         count[slowest:] += 1.0
-    sizes = (
-        _compute_surprisal(p, int(n)) for p, n in zip(power.tolist(), count.tolist(), strict=True)
-    )
-    found = (SpectralPeak(size, rate) for size, rate in zip(sizes, rates.tolist(), strict=True))
+    each = zip(power.tolist(), count.tolist(), rates.tolist(), strict=True)
+    found = (SpectralPeak(_compute_surprisal(p, int(n)), rate) for p, n, rate in each)
     return max(found, key=lambda one: one.size, default=SpectralPeak())
 
 
@@ -71,12 +68,10 @@ def _list_disturbances(
     """Per run that is long enough: [s] times, and disturbances minus their mean."""
     disturbance = estimate_disturbance(problem, point)
     used = np.asarray(~problem.ignored_readings.all(axis=1))
-    edges = pairwise(problem.run_edges.tolist())
-    for record, (first, last) in zip(problem.records, edges, strict=True):
-        rows = used[first:last]
-        values = disturbance[first:last][rows]
+    for record, rows in zip(problem.records, problem.run_slices, strict=True):
+        values = disturbance[rows][used[rows]]
         if values.size >= FEWEST_SAMPLES:
-            yield record.measurements.time[rows], values - np.mean(values)
+            yield record.measurements.time[used[rows]], values - np.mean(values)
 
 
 def _compute_surprisal(power: float, count: int) -> float:

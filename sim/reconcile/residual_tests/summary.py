@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.reconcile.residual_tests.repeatability import RepeatedResidual, find_repeated_residual
 from sim.reconcile.residual_tests.spectrum import SpectralPeak, find_spectral_peak
-from sim.reconcile.residual_tests.whiteness import NO_WINDOW, WorstWindow, find_worst_window
+from sim.reconcile.residual_tests.whiteness import WorstWindow, find_worst_window
 from sim.reconcile.thresholds import PERIODIC, REPEATED, UNLIKELY_WINDOW
 
 
@@ -19,7 +19,7 @@ class ResidualSummary:
         peak: the largest peak in the spectrum of the residual.
     """
 
-    worst_window: WorstWindow = NO_WINDOW
+    worst_window: WorstWindow = field(default_factory=WorstWindow)
     repeated: RepeatedResidual = field(default_factory=RepeatedResidual)
     peak: SpectralPeak = field(default_factory=SpectralPeak)
 
@@ -50,7 +50,7 @@ class ResidualSummary:
     @property
     def has_structure(self) -> bool:
         """Whether any of the residual tests found structure."""
-        return self.has_unlikely_window or self.is_periodic or self.is_repeated
+        return self.largest_ratio > 1.0
 
     @classmethod
     def summarize(cls, problem: PredictionErrorProblem, point: Estimate) -> "ResidualSummary":

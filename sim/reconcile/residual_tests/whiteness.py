@@ -6,7 +6,6 @@ large one shows a force at one position, a push, or a wrong voltage reading.
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 
@@ -31,14 +30,10 @@ class WorstWindow:
         end: [s] on the run's clock.
     """
 
-    size: float
-    record: int
-    start: float
-    end: float
-
-
-NO_WINDOW = WorstWindow(0.0, 0, 0.0, 0.0)
-"""No window: no run is long enough."""
+    size: float = 0.0
+    record: int = 0
+    start: float = 0.0
+    end: float = 0.0
 
 
 def find_worst_window(problem: PredictionErrorProblem, point: Estimate) -> WorstWindow:
@@ -63,7 +58,7 @@ def find_worst_window(problem: PredictionErrorProblem, point: Estimate) -> Worst
             moments.append(
                 WorstWindow(float(size[place]), record, float(time[place]), float(time[end]))
             )
-    return max(moments, key=lambda one: one.size, default=NO_WINDOW)
+    return max(moments, key=lambda one: one.size, default=WorstWindow())
 
 
 def _measure_windows(problem: PredictionErrorProblem, white: Array, count: int) -> dict[int, Array]:
@@ -88,15 +83,14 @@ def _remove_clock_errors(problem: PredictionErrorProblem, point: Estimate) -> Ar
     The voltage of a step is logged up to a sample early or late, which is not physics.
     """
     later = point.nuisance.add(LAG, 0.5 * problem.period)
-    model = point.structure.model(point.values)
-    shifted = problem.predict_errors(model, later, point.kalman_filter)
+    shifted = problem.predict_errors(point.model, later, point.kalman_filter)
     white = point.innovations @ point.whitening.T
     change = np.nan_to_num(shifted - point.innovations) @ point.whitening.T
-    for first, last in pairwise(problem.run_edges.tolist()):
-        column, residual = change[first:last].ravel(), white[first:last].ravel()
+    for rows in problem.run_slices:
+        column, residual = change[rows].ravel(), white[rows].ravel()
         square = float(column @ column)
         share = -float(column @ residual) / square if square > 0.0 else 0.0
-        white[first:last] += min(max(share, -1.0), 1.0) * change[first:last]
+        white[rows] += min(max(share, -1.0), 1.0) * change[rows]
     return np.asarray(white)
 
 
@@ -117,8 +111,8 @@ def _sum_windows(
     problem: PredictionErrorProblem, white: Array, count: int
 ) -> Iterator[tuple[int, Array]]:
     """Per run, its index and (windows,) sums of ``count`` innovations; nan if not all compared."""
-    for record, (first, last) in enumerate(pairwise(problem.run_edges.tolist())):
-        values, compared = white[first:last], problem.informative[first:last]
+    for record, rows in enumerate(problem.run_slices):
+        values, compared = white[rows], problem.informative[rows]
         if values.size <= count:
             continue
         total = np.concatenate(([0.0], np.cumsum(values)))
