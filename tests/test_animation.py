@@ -65,7 +65,7 @@ def test_html_in_a_name_is_escaped():
 @pytest.mark.parametrize(
     ("mistake", "says"),
     [
-        ({"kind": "boat"}, "no drawing of 'boat'"),
+        ({"kind": "boat"}, "unknown drawing 'boat'"),
         ({"scenes": Scene(TIME, (Motion("robot", velocity=SPEED[1:]),))}, "99 values for 100"),
         ({"scenes": Scene(TIME, (), target=SPEED[:3])}, "the target has 3 values"),
         ({"choices": (Choice("drive", ("fast",)),)}, "no scene for fast"),

@@ -184,7 +184,7 @@ def test_negative_suggestion_comes_with_gains_that_settle():
     assert doubt.message.startswith("Start the position loop with kP ")
     assert "in simulation with 112 ms of delay" in doubt.message
     assert "for REV brushless port" in doubt.message
-    kp, kd = map(float, re.findall(r"loop with kP (\S+), kD (\S+): ", doubt.message)[0])
+    kp, kd = map(float, re.findall(r"loop with kP (\S+) .*?, kD (\S+) .*?: ", doubt.message)[0])
     plant = Plant("simple", LIGHT)
     took = simulate_step_response(
         plant,

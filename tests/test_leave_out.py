@@ -37,6 +37,29 @@ def test_rest_of_a_run_that_stands_still_is_left_out_too():
     assert left.runs == log.runs[1:]
 
 
+@pytest.mark.parametrize(("until", "warns"), [(4.0, False), (8.0, True)])
+def test_a_test_of_which_little_is_left_has_a_warning(until, warns):
+    log = drive_log()
+    run = log.runs[0]
+    end = run.time[0] + until / 10.0 * (run.time[-1] - run.time[0])
+
+    left = leave_out({"": log}, [LeftOutPart(run.test, 0.0, float(end))])[""]
+
+    said = [doubt.message for doubt in left.doubts if doubt.code == "little-left"]
+    assert bool(said) == warns
+    assert all("of quasistatic-forward is left" in one for one in said)
+
+
+def test_parts_that_overlap_are_left_out_together():
+    log = drive_log()
+    parts = [
+        LeftOutPart("quasistatic-forward", 3.0, 4.0),
+        LeftOutPart("quasistatic-forward", 3.2, 3.4),
+    ]
+
+    assert len(leave_out({"": log}, parts)[""].runs) == 5
+
+
 @pytest.mark.parametrize(
     "text", ["", "forward", "dynamic-forward:5", "dynamic-forward:6-5", "dynamic-forward:1..2-3"]
 )

@@ -45,6 +45,24 @@ SET = """(slider, value) => {
     slider.value = value;
     slider.dispatchEvent(new Event('input', {bubbles: true}));
 }"""
+IN_VIEW = """(place => {
+    const box = document.querySelector(place).getBoundingClientRect();
+    return box.top >= 0 && box.bottom <= innerHeight;
+})"""
+WATCH_TEXTS = """() => {
+    window.texts = [];
+    const write = CanvasRenderingContext2D.prototype.fillText;
+    CanvasRenderingContext2D.prototype.fillText = function (words, ...place) {
+        window.texts.push(words);
+        write.call(this, words, ...place);
+    };
+    const {runs} = sysid.chart;
+    const faults = runs.map(({time}, run) => ({
+        run, number: `${run + 1}`, fault: 'wheel-slip', color: 'fault',
+        start: time[0], end: time[0] + 0.1,
+    }));
+    sysid.chart.mark({faults});
+}"""
 CURVE = "[...sysid.logs.values()][0].simulated.map(one => one && [...one.velocity])"
 
 TEXTS = (
@@ -191,6 +209,46 @@ def test_verdict_gap_faults_and_warnings_are_seen_without_scrolling(browser, ser
         said = page.locator("#doubts li").all_inner_texts()
         assert len(said) == len(set(said))
         assert "--" not in page.locator("body").inner_text()
+
+
+def test_verdict_and_curves_are_on_the_first_screen_of_a_phone(browser, server, tmp_path):
+    with opened(browser, server.address, PHONE) as page:
+        drop(page, write_log(slipped_log(), tmp_path / "a log with a rather long name indeed.csv"))
+        page.locator("#meter .gap", has_text="× sensor noise").wait_for()
+
+        assert page.locator("#word").inner_text() != "Fitting…"
+        for place in ("#word", "#meter .gap", "#plot"):
+            assert page.evaluate(f"{IN_VIEW}('{place}')"), place
+        assert page.evaluate("scrollY") == 0
+
+
+def test_every_fault_has_its_name_or_number_in_the_chart_of_a_phone(browser, server, tmp_path):
+    with opened(browser, server.address, PHONE) as page:
+        drop(page, write_log(drive_log(), tmp_path / "drive.csv"))
+        page.locator("#gain-kV").wait_for()
+        page.evaluate(WATCH_TEXTS)
+        wait_until(page, "window.texts.length > 0")
+        texts = page.evaluate("window.texts")
+
+    assert {one[:1] for one in texts if "wheel slip" in one or one in "1234"} == set("1234")
+    assert sum("wheel slip" in one for one in texts) >= 1
+
+
+def test_what_is_left_out_is_neither_drawn_nor_counted(page, tmp_path):
+    drop(page, write_log(slipped_log(), tmp_path / "slipped.csv"))
+    page.locator("#gain-kV").wait_for()
+    before = page.locator("#meter .gap").inner_text()
+    page.locator("#faults").get_by_role("button", name="Leave out").click()
+    page.get_by_text("Left out: quasistatic-forward").wait_for()
+    wait_until(page, "[...sysid.logs.values()][0].fit?.doubts.length === 0")
+    holes = "[...sysid.logs.values()][0].simulated.map(one => one.velocity.filter(isNaN).length)"
+
+    assert page.evaluate(holes)[0] > 5
+    assert page.evaluate(holes)[1:] == [0, 0, 0]
+    assert page.locator("#meter .gap").inner_text() != before
+    page.locator("#moving").focus()
+    page.keyboard.press("Home")
+    assert "NaN" not in page.locator("#readout").inner_text()
 
 
 def test_faults_are_listed_and_marked_and_shown_on_demand(page, tmp_path):
@@ -379,7 +437,7 @@ def test_an_effect_that_was_found_is_switched_on_and_off(page, tmp_path):
     wrong, far = kv_shown(page), error_shown(page)
     page.get_by_label("Show the gap on").select_option(label="other.wpilog")
     page.get_by_role("button", name="Look for what is missing").click()
-    box = page.locator("#story").get_by_label("drag")
+    box = page.locator("#models").get_by_label("drag")
     box.wait_for()
     wait_until(page, "document.querySelector('#sliders').inert")
 
@@ -390,11 +448,15 @@ def test_an_effect_that_was_found_is_switched_on_and_off(page, tmp_path):
     assert "held-out" in page.locator("#story").inner_text()
     page.locator("#paste").click()
     page.locator("#code-text", has_text=f"kV = {kv_shown(page):.2f}").wait_for()
+    assert "// Effect in the model: drag" in page.locator("#code-text").inner_text()
     page.get_by_label("Language").select_option("phoenix6")
     page.locator("#code-text", has_text="Slot0Configs").wait_for()
     page.get_by_role("button", name="Close", exact=True).click()
     saved = page.evaluate("fetch(document.querySelector('#report').href).then(one => one.text())")
     assert "The model is missing drag" in saved
+    page.set_viewport_size({"width": 1366, "height": 768})
+    page.get_by_role("button", name="Tick effects above the curves").click()
+    wait_until(page, f"{IN_VIEW}('#models') && {IN_VIEW}('#moving')")
     box.uncheck()
     wait_until(page, "!document.querySelector('#sliders').inert")
     assert kv_shown(page) == wrong

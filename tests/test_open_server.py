@@ -317,6 +317,64 @@ def test_code_names_a_sure_fault_until_it_is_left_out(tmp_path, drive):
 
     assert f"// - Encoder slip in {slip['test']}." in code
     assert "Encoder slip" not in rest
+    assert "Left out" not in code
+    assert f"// Left out: {slip['test']}, {slip['start_s'] - 0.01:.2f} to " in rest
+
+
+def test_page_writes_the_code_of_the_command(tmp_path, drive, capsys):
+    part = "quasistatic-forward:5-6.5"
+    arguments = ["fit", str(drive), "--leave-out", part, "--paste", "java"]
+    run_command(sysid, name="sysid", arguments=arguments)
+    printed = capsys.readouterr().out
+    with served(tmp_path, drive) as server:
+        code = ask_json(server, f"logs/1/code?{urlencode({'left_out': part})}")[1]["code"]
+        moved = ask_json(server, "logs/1/code?language=python&kV=2.75")[1]["code"]
+
+    assert code == printed
+    assert "// Left out: quasistatic-forward, 5.00 to 6.50 s" in code
+    assert "# Moved by hand, not measured: kV" in moved
+
+
+def test_each_piece_that_is_left_of_a_run_is_simulated_from_its_own_start(tmp_path, drive):
+    with served(tmp_path, drive) as server:
+        whole = ask_json(server, "logs/1/fit")[1]
+        cut = ask_json(server, "logs/1/fit?left_out=quasistatic-forward:5-6.5")[1]
+    run = read(drive).runs[0]
+
+    ((only,), *_), ((before, after), *_) = whole["starts"], cut["starts"]
+    assert before["first"] == only["first"]
+    assert run.time[before["first"] + before["count"] - 1] < 5.0
+    assert run.time[after["first"]] > 6.5
+    assert before["count"] + after["count"] == only["count"] - np.count_nonzero(
+        (run.time >= 5.0) & (run.time <= 6.5)
+    )
+
+
+def test_a_unit_that_contradicts_the_file_is_a_doubt_of_the_verdict(tmp_path):
+    path = write_log(drive_log(), tmp_path / "log.wpilog")
+    with served(tmp_path, path) as server:
+        own = ask_json(server, "logs/1/fit")[1]
+        other = ask_json(server, "logs/1/fit?units=feet")[1]
+
+    assert own["word"] == "Usable"
+    assert other["word"] == "Check first"
+    assert other["verdict"].startswith("kS usable")
+    assert "kV not usable" in other["verdict"]
+
+
+def test_a_unit_error_is_told_in_words_of_the_page(tmp_path):
+    log = drive_log()
+    runs = [replace(run, velocity=60.0 * run.velocity) for run in log.runs]
+    path = write_log(replace(log, runs=tuple(runs)), tmp_path / "log.csv")
+    with served(tmp_path, path) as server:
+        faults = ask_json(server, "logs/1/faults")[1]["faults"]
+        refused = ask_json(server, "logs/1/code")[1]["refusal"]
+
+    assert {one["fault"] for one in faults} == {"unit-error"}
+    assert "correct the log" in faults[0]["advice"]
+    for words in (faults[0]["advice"], refused["what"], refused["advice"]):
+        assert "--ignore" not in words
+        assert "sysid inspect" not in words
 
 
 def test_another_unit_converts_typed_gains_and_wrong_numbers_are_refused(server):
@@ -354,9 +412,11 @@ def test_typed_gains_get_the_feedback_gains_of_a_fit_in_the_controllers_units(se
     assert rows
     assert {one["loop"] for one in rows} <= set(expected)
     for one in rows:
-        kp = f"kP {expected[one['loop']].kp:.4g} "
-        assert one["gains"][0].startswith(kp)
-        assert one["gains"][0].endswith(per.get(one["loop"], "/m"))
+        own, symbol = f"kP {expected[one['loop']].kp:.4g} ", per.get(one["loop"], "/m")
+        first = one["gains"].split(", ")[0]
+        assert first == "no good start" or first.endswith(symbol)
+        assert own in (one["instead"] or one["gains"])
+        assert symbol in one["instead"] or first.startswith(own)
 
 
 def test_smaller_allowed_errors_give_larger_feedback_gains(server):
@@ -367,7 +427,7 @@ def test_smaller_allowed_errors_give_larger_feedback_gains(server):
     )
 
     for one, other in zip(wide, tight, strict=True):
-        assert float(one["gains"][0].split()[1]) < float(other["gains"][0].split()[1])
+        assert float(one["gains"].split()[1]) < float(other["gains"].split()[1])
 
 
 def test_theory_gives_gains_without_a_log_and_asks_for_the_radius(server):

@@ -149,11 +149,16 @@ def hiding(effect, *, noise=True):
     return simulate(robot, ROUTINE, rng=np.random.default_rng(1), electrical=True)
 
 
+def find_clearest(found):
+    """The variable that explains the largest share of the residual."""
+    return max(found.views, key=lambda name: found.views[name].explains)
+
+
 @pytest.mark.parametrize("effect", HIDES)
 def test_each_effect_is_clearest_over_its_own_variable(effect):
     log = hiding(effect)
     found = make_residual_views(log, TRUTH)
-    assert found.clearest == HIDES[effect]
+    assert find_clearest(found) == HIDES[effect]
     assert found.unexplained < 0.3
 
 
@@ -164,7 +169,7 @@ def test_battery_sag_is_clearest_over_the_voltage():
         log, runs=tuple(replace(r, voltage=12.0 * r.voltage / r.bus_voltage) for r in log.runs)
     )
     found = make_residual_views(asked, TRUTH)
-    assert found.clearest == "battery voltage"
+    assert find_clearest(found) == "battery voltage"
     lowest = found.views["battery voltage"].mean
     assert lowest[np.isfinite(lowest)][0] < -0.2  # [V] the robot got less than the log says
 

@@ -44,7 +44,7 @@ def test_saved_story_loads_nothing_and_is_legible_on_every_screen(browser, told,
     assert page.evaluate("document.documentElement.scrollWidth") <= SCREENS[screen]["width"]
     assert set(asked) == {"file:"}
     with_drag = kv_shown(page)
-    page.locator("#story").get_by_label("drag").uncheck()
+    page.locator("#models").get_by_label("drag").uncheck()
     page.locator("form.fixed").wait_for(state="detached")
     truth = MECHANISMS["arm"].gains["kV"]
     assert abs(with_drag - truth) < 0.02 * truth < abs(kv_shown(page) - truth)

@@ -17,11 +17,14 @@ import sim
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.cli import sysid
+from sim.core.advice import Action
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
+from sim.core.leave_out import LeftOutPart
 from sim.core.units import UNITS
 from sim.feedback import PRESETS
 from sim.fit import Fit
+from sim.physics.model import Part
 from sim.report.robot_code_snippet import (
     CLASSES,
     ORDER,
@@ -47,6 +50,30 @@ RIGHT_ORDER = {
     "elevator": ["kS", "kG", "kV", "kA"],
     "arm": ["kS", "kG", "kV", "kA"],
 }
+
+
+@pytest.mark.parametrize("target", TARGETS)
+def test_code_of_each_target_names_effects_left_out_parts_and_moved_gains(target):
+    fit = make_fit("simple", parts=(Part("drag", {"drag": 0.1}),))
+    parts = [LeftOutPart("dynamic-forward", 5.5, 6.0)]
+    code = write_robot_code(fit, target=target, radius=0.05, left_out=parts, moved=["kV"])
+
+    mark = "#" if target == "python" else "//"
+    for line in (
+        "Effect in the model: drag",
+        "Left out: dynamic-forward, 5.50 to 6.00 s",
+        "Moved by hand, not measured: kV",
+    ):
+        assert f"\n{mark} {line}\n" in code
+
+
+def test_refused_code_has_advice_that_each_surface_words():
+    doubt = Doubt("model-strays", "It strays.", grave=True, action=Action("inspect-and-reconcile"))
+    with pytest.raises(BadRequest) as refused:
+        write_robot_code(make_fit("simple", doubts=(doubt,)), target="java")
+
+    assert refused.value.what.endswith("It strays.")
+    assert refused.value.action == doubt.action
 
 
 def make_fit(type_, **changes):
@@ -369,12 +396,12 @@ def test_the_code_for_an_arm_of_phoenix_6_says_what_its_sensor_reads_when_level(
         ("simple", "phoenix6", {}, "only with a radius"),
         ("elevator", "yagsl", {}, "an elevator for YAGSL"),
         ("simple", "talonsrx", {}, "unknown target 'talonsrx'"),
-        ("simple", "revlib", {"gains": GAINS | {"kV": -2.5}}, "no code is printed for kV"),
+        ("simple", "revlib", {"gains": GAINS | {"kV": -2.5}}, "no code is written for kV"),
         (
             "simple",
             "revlib",
             {"doubts": (Doubt("x", "It is wrong.", grave=True),)},
-            "no code is printed",
+            "no code is written",
         ),
     ],
 )

@@ -31,6 +31,7 @@ from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.cli import sysid
 from sim.cli.open.reconcile_job import describe_story
+from sim.physics.effects import EFFECTS
 from sim.plot.story import (
     make_findings_table,
     plot_remaining_gap,
@@ -38,6 +39,7 @@ from sim.plot.story import (
 from sim.reconcile.story_text import (
     format_estimate,
     list_gain_doubts,
+    list_outcomes,
     write_headline,
 )
 from sim.report.story_terminal import show_story
@@ -312,3 +314,22 @@ def test_the_pictures_show_a_gap_before_and_only_noise_after():
 
     assert "of the gap beyond noise shows in no plot" in before.alt
     assert "with drag: At least 90 % of this is noise." in after.alt
+
+
+def test_outcome_of_each_effect_is_what_happened_to_it():
+    alike = replace(DRAG, ambiguous_with=("heating",))
+    outcomes = list_outcomes(story(alike))
+    first = story(alike).chapters[0]
+    without = list_outcomes(story(alike, chapters=1, complete=False))
+    gone = story(alike)
+    later = replace(gone.chapters[1], tried=())
+    dropped = list_outcomes(replace(gone, chapters=(first, later)))
+
+    assert outcomes["added"] == ["drag"]
+    assert outcomes["cannot be told apart from drag"] == ["heating"]
+    assert outcomes["widens the gap beside drag"] == ["stribeck"]
+    assert "spring" in outcomes["not tried: promised too little"]
+    assert "battery-sag" in without["fits better, but is too unlikely"]
+    assert "spring" in without["not tried before the search ended"]
+    assert dropped["makes no difference beside drag"] == ["battery-sag"]
+    assert sorted(name for some in outcomes.values() for name in some) == sorted(EFFECTS)

@@ -83,7 +83,8 @@ def test_missing_entry_is_named(tmp_path: Path, leave_out: tuple[str, ...], expe
     with pytest.raises(MissingSignal) as caught:
         sim.read(logger.save(tmp_path / "log.wpilog"))
 
-    assert f"'{expected}' (double)" in caught.value.what
+    assert caught.value.what.startswith(f"no {expected.partition('-')[0]} entry")
+    assert f"'{expected}' (double)" in caught.value.advice
     assert "'/Arm/AppliedVolts'" in caught.value.what
 
 

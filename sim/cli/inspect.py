@@ -122,7 +122,7 @@ def _write_paragraph(kind: Sequence[Damage]) -> list[str]:
     where = _list_runs(kind) if several else _describe_place(worst)
     confidence = max(damage.confidence for damage in kind)
     lines = [f"{worst.fault}: {where} ({name_confidence(confidence)}, {confidence:.2f})"]
-    texts = [worst.evidence, worst.advice]
+    texts = [worst.evidence, str(worst.advice)]
     if several:
         places = [_describe_place(damage) for damage in sorted(kind, key=_sort_key)[:PLACES]]
         if len(kind) > PLACES:

@@ -1,6 +1,6 @@
 """Advice as data: what to do, which each surface words in its own way."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 ANGLES = "radians, rotations or degrees"
 NAMES = "--state ENTRY --voltage ENTRY --position ENTRY --velocity ENTRY"
@@ -60,6 +60,18 @@ WORDS = {
         f"Name the columns {{}} in the first line, or say what they are called: {NAMES}.",
         "Choose which column holds which signal.",
     ),
+    "arm-position": (
+        "Log the position of the arm, or name its entry with --position.",
+        "Log the position of the arm, or choose its entry.",
+    ),
+    "name-part": (
+        "Write a test and two times in seconds, dynamic-forward:5.5-6, or a test alone.",
+        "Mark the part again.",
+    ),
+    "no-such-part": (
+        "Take test and times from the output of `sysid inspect`.",
+        "Take it in again.",
+    ),
     "drive-type": (
         "Fit the log of the drive motors with --type simple.",
         "Open the log of the drive motors, of the type simple.",
@@ -105,6 +117,10 @@ class Action:
     def on_page(self) -> str:
         """The advice on the page of ``sysid open``."""
         return self._write_words(1)
+
+    def add_before(self, text: str) -> "Action":
+        """The same action with another sentence before what it asks for."""
+        return replace(self, before=f"{self.before} {text}".strip())
 
     def _write_words(self, surface: int) -> str:
         named = (self.argument,) if isinstance(self.argument, str) else self.argument

@@ -6,6 +6,7 @@ from sim.core.advice import Action
 
 SHOWN_FIRST = frozenset({"contradicting-units", "unit-error"})  # all others depend on these
 GAINS = ("kS", "kV", "kA", "kG", "offset_rad")
+OF_POSITION = GAINS[1:]  # gains that depend on the unit of the position
 
 
 @dataclass(frozen=True)

@@ -2,17 +2,20 @@
 
 import math
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from sim.core.advice import Action
+from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
 from sim.core.log import MOVING, Log, Run
 from sim.core.vocabulary import TESTS
 
 MIN_SAMPLES = 5  # [samples] shorter pieces of a run are left out, too
+LITTLE = 0.5  # [share of a test's samples] of less, the rest hardly is that test
 SPELLING = re.compile(r"(?P<test>[\w-]+?)(:(?P<start>[\d.]+)-(?P<end>[\d.]+))?")
 
 
@@ -41,8 +44,7 @@ class LeftOutPart:
         if found is None or found["test"] not in TESTS:
             raise BadRequest(
                 f"{text!r} names no part of a log",
-                advice="Write a test and two times in seconds, as `sysid inspect` prints them: "
-                "dynamic-forward:5.5-6, or the name of a test alone.",
+                advice=Action("name-part"),
             )
         if found["start"] is None:
             return cls(found["test"])
@@ -82,22 +84,42 @@ def leave_out(logs: Mapping[str, Log], parts: Iterable[LeftOutPart]) -> dict[str
     Raises:
         BadRequest: no log has such a part, or nothing would remain of a log.
     """
-    left = dict(logs)
+    parts = tuple(parts)
     for part in parts:
         if not any(part.find(run).any() for log in logs.values() for run in log.runs):
             raise BadRequest(
                 f"the log has no samples of {part}, so they cannot be left out",
-                advice="Take test and times from the output of `sysid inspect`.",
+                advice=Action("no-such-part"),
             )
-        left = {
-            name: replace(
-                log, runs=tuple(piece for run in log.runs for piece in _cut_out(run, part))
-            )
-            for name, log in left.items()
-        }
+    left = {
+        name: replace(log, runs=tuple(piece for run in log.runs for piece in cut_run(run, parts)))
+        for name, log in logs.items()
+    }
     if not all(log.runs for log in left.values()):
         raise BadRequest("nothing of the log is left", advice="Leave out less of it.")
-    return left
+    return {name: log.add_doubts(*_doubt_rest(logs[name], log)) for name, log in left.items()}
+
+
+def cut_run(run: Run, parts: Iterable[LeftOutPart]) -> list[Run]:
+    """The pieces of a run that some parts leave of it."""
+    pieces = [run]
+    for part in parts:
+        pieces = [rest for piece in pieces for rest in _cut_out(piece, part)]
+    return pieces
+
+
+def _doubt_rest(log: Log, left: Log) -> Iterator[Doubt]:
+    """A warning about each test of which little is left."""
+    for test in dict.fromkeys(run.test for run in log.runs):
+        before, after = (
+            sum(len(run) for run in one.runs if run.test == test) for one in (log, left)
+        )
+        if after < LITTLE * before:
+            yield Doubt(
+                "little-left",
+                f"Only {after / before:.0%} of {test} is left. What this test shows is missing in "
+                "the gains. Leave out less of it, or record it again.",
+            )
 
 
 def _cut_out(run: Run, part: LeftOutPart) -> list[Run]:

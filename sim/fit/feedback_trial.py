@@ -8,6 +8,7 @@ response does not settle, come with a warning and, if possible, with better gain
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from itertools import chain
 
 from sim.core.doubt import Doubt
 from sim.core.units import find_unit
@@ -28,6 +29,10 @@ SUGGESTED, OWN = "suggested", "your own"
 GENTLER = tuple(2.0**k for k in range(1, 11))  # factors on SysId's allowed errors, for lower gains
 STIFFER = tuple(2.0**-k for k in range(1, 7))  # the same, for higher gains
 WEAK = ("slow", "stays-short")
+NO_START = (
+    "No setting of the allowed error gives gains that settle. Move the target along a profile, so "
+    "that the feedforward does the work, and use a signal with less delay."
+)
 LEAST_DELAY = 5e-4  # [s] a shorter one is not mentioned
 
 
@@ -131,20 +136,28 @@ def warn_of_bad_suggestions(found: Fit, tried: tuple[FeedbackTrial, ...]) -> tup
 def _doubt_suggestion(found: Fit, trial: FeedbackTrial) -> Doubt:
     """A warning about one suggestion, with the first better one."""
     late = f" with {1000 * trial.delay:.3g} ms of delay" if trial.delay > LEAST_DELAY else ""
-    other = next((one for one in _suggest_others(found, trial) if one.is_good), None)
+    symbol, other = find_unit(found.units).symbol, find_better_gains(found, trial)
     cure = (
-        f"Start the {trial.loop} loop with {format_gain_pair(other.gains)}: in "
+        f"Start the {trial.loop} loop with {format_gain_pair(other, symbol)}: in "
         f"simulation{late}, it {other.verdict.description}."
         if other
-        else f"There is no good start for the {trial.loop} loop: no setting of the allowed error "
-        "gives gains that settle. Move the target along a profile, so that the feedforward "
-        "does the work, and use a signal with less delay."
+        else f"There is no good start for the {trial.loop} loop. {NO_START}"
     )
     return Doubt(
         "unsettled-feedback",
-        f"{cure} (Do not use SysId's own suggestion, {format_gain_pair(trial.gains)} for "
+        f"{cure} (Do not use SysId's own suggestion, {format_gain_pair(trial, symbol)} for "
         f"{trial.preset.name}: in simulation, it {trial.verdict.description}.)",
     )
+
+
+def find_better_gains(found: Fit, trial: FeedbackTrial) -> FeedbackTrial | None:
+    """The trial itself if it is good, else that of the first better gains; None without any.
+
+    Args:
+        found: the fit, in the unit of position of the gains.
+        trial: the trial of a suggestion.
+    """
+    return next((one for one in chain([trial], _suggest_others(found, trial)) if one.is_good), None)
 
 
 def _suggest_others(found: Fit, trial: FeedbackTrial) -> Iterator[FeedbackTrial]:
@@ -160,6 +173,13 @@ def _suggest_others(found: Fit, trial: FeedbackTrial) -> Iterator[FeedbackTrial]
             yield other
 
 
-def format_gain_pair(gains: Feedback) -> str:
-    """KP and kD with four digits."""
-    return f"kP {gains.kp:.4g}, kD {gains.kd:.4g}"
+def format_gain_pair(trial: FeedbackTrial, symbol: str) -> str:
+    """KP and kD with four digits and their units; a kD of zero is left out.
+
+    Args:
+        trial: a trial of the gains.
+        symbol: symbol of the unit of position.
+    """
+    of_kp, of_kd = trial.preset.format_units(trial.loop, symbol)
+    kd = f", kD {trial.gains.kd:.4g} {of_kd}" if trial.gains.kd else ""
+    return f"kP {trial.gains.kp:.4g} {of_kp}{kd}"

@@ -5,7 +5,6 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from sim.core.advice import Action
 from sim.core.doubt import GAINS, Doubt
-from sim.core.units import Unit
 from sim.fit.open_loop_fallback import OpenLoopReplay
 from sim.physics.effects import EFFECTS
 from sim.physics.model import Part
@@ -41,28 +40,24 @@ def warn_of_lags(window: float, lag: float) -> Iterator[Doubt]:
 
 
 def warn_of_misfit(
-    replay: OpenLoopReplay, gains_only: OpenLoopReplay, *, per: Unit, hint: Action | None = None
+    replay: OpenLoopReplay, gains_only: OpenLoopReplay, *, hint: Action | None = None
 ) -> Iterator[Doubt]:
     """A warning if a simulation differs from the log by more than its noise.
+
+    It names no number: how large the error is, each surface shows at one place.
 
     Args:
         replay: replay of the fitted model, with its small effects.
         gains_only: replay without the small effects, which a feedforward does not have.
-        per: the log's unit of position.
         hint: a better type, or None.
     """
-    top_speed = gains_only.top_speed or math.inf
-    share = gains_only.excess / top_speed
-    size = (
-        f"{gains_only.rmse / per.si:.2g} {per.symbol}/s (RMS), "
-        f"{gains_only.rmse / top_speed:.0%} of its top speed"
-    )
+    share = gains_only.excess / (gains_only.top_speed or math.inf)
     if share > NOTICED:
         yield Doubt(
             "model-strays",
-            f"A simulation with these gains has a velocity error of {size}. A controller "
-            "would notice that. The errors above include it, but kS, kV and kA do not "
-            "describe this log well.",
+            f"A simulation with these gains {'' if share > FAR else 'clearly '}misses the "
+            f"velocity{' by far' if share > FAR else ''}. A controller would notice that. The "
+            "errors above include it, but kS, kV and kA do not describe this log well.",
             grave=share > FAR,
             action=hint or Action("inspect-and-reconcile"),
             gains=GAINS,
@@ -70,8 +65,8 @@ def warn_of_misfit(
     elif replay.has_misfit:
         yield Doubt(
             "small-misfit",
-            f"A simulation with these gains has a velocity error of {size}. That is small, but "
-            "larger than the sensor noise. The errors above include it.",
+            "A simulation with these gains misses the velocity by little, but by more than the "
+            "sensor noise. The errors above include it.",
             action=Action("look-for-cause"),
         )
 

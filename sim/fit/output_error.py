@@ -177,7 +177,7 @@ def _fit_problem(log: Log, *, type: str) -> Fit:  # noqa: A002 - as above
     gains_only = replay_open_loop(searched, remove_everyday_effects(point))
     said = (
         *unknown,
-        *warn_of_misfit(replay, gains_only, per=find_unit(log.units), hint=hint),
+        *warn_of_misfit(replay, gains_only, hint=hint),
         *warn_of_strong_effects(list_everyday_effects(point), searched.priors),
     )
     return _make_result(log, found, sign=sign, gains=gains, errors=errors, said=said)

@@ -74,7 +74,7 @@ class Inspection:
                     "end_s": damage.where.end,
                     "confidence": round(damage.confidence, 3),
                     "evidence": damage.evidence,
-                    "advice": damage.advice,
+                    "advice": str(damage.advice),
                 }
                 for damage in self.faults
             ],

@@ -11,6 +11,7 @@ from typing import Self
 
 import numpy as np
 
+from sim.core.advice import Action
 from sim.core.log import Array, Log, Run
 from sim.core.vocabulary import KINDS, TYPES
 from sim.inspect.log_features import LogFeatures
@@ -70,7 +71,7 @@ class Damage:
         where: the damaged interval.
         confidence: 0 to 1; near 1 no other cause is plausible.
         evidence: one sentence with a number, for the user.
-        advice: one sentence: run again, trim, filter, or fix the code.
+        advice: what to do: run again, trim, filter, or fix the code.
         ordinary: whether many robots record like this, so that there is no need to record again.
         fault: name of the fault, which the inspection writes.
     """
@@ -78,7 +79,7 @@ class Damage:
     where: LogInterval
     confidence: float
     evidence: str
-    advice: str
+    advice: str | Action
     ordinary: bool = False
     fault: str = ""
 

@@ -164,7 +164,7 @@ def _check_drive_speed(features: LogFeatures) -> Iterator[UnitError]:
         return
     bound = f"faster than {FASTEST:g}" if speed > FASTEST else f"slower than {SLOWEST:g}"
     yield UnitError(
-        f"With {BATTERY:g} V this drivetrain would move at about {speed:.3g} m/s, and no FRC robot "
+        f"With {BATTERY:g} V this drivetrain would move at about {speed:.2g} m/s, and no FRC robot "
         f"is {bound} m/s: position and velocity are not in meters, or their factor is wrong.",
         "Push the robot forward by exactly 1 m and see by how much the logged position changes. "
         "Then set gear ratio and wheel circumference so that it is 1.",

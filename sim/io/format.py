@@ -18,6 +18,7 @@ from typing import Protocol
 
 import numpy as np
 
+from sim.core.advice import Action
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, BadSample, MissingSignal, refuse_unknown
 from sim.core.log import LARGEST, Array, Log, Run, integrate_velocity
@@ -120,7 +121,7 @@ def warn_of_missing_signal(
         raise MissingSignal(
             "it holds no position, and the angle of an arm decides what gravity does",
             where=where,
-            advice="Log the position of the arm, or name its entry with --position.",
+            advice=Action("arm-position"),
         )
     return (
         Doubt(

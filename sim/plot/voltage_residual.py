@@ -99,11 +99,6 @@ class ResidualViews:
     noise: float
 
     @property
-    def clearest(self) -> str:
-        """The variable that explains the largest share of the residual."""
-        return max(self.views, key=lambda name: self.views[name].explains)
-
-    @property
     def is_noise(self) -> bool:
         """Whether hardly more than noise is left."""
         return self.noise > 1.0 - LEAST
@@ -287,9 +282,9 @@ def plot_voltage_residual(
         DIRECTION: "direction of the motion",
     }  # fmt: skip
     places = [axes for row in grid for axes in row]
-    high = 1.15 * max(
-        float(np.quantile(np.abs(missing), DRAWN_QUANTILE)), _find_largest(found), 1e-9
-    )
+    means = np.concatenate([view.mean for view in found.values()])
+    sizes = np.abs([np.quantile(np.abs(missing), DRAWN_QUANTILE), *means])
+    high = 1.15 * max(float(np.nan_to_num(sizes).max()), 1e-9)
     for axes, (name, view) in zip(places, found.items(), strict=False):
         _draw(axes, view, high=high)
         axes.set_title(f"{name}: {_format_percent(view.explains)}", fontsize=10, color=INK)
@@ -379,13 +374,6 @@ def _draw(axes: "Axes", view: ResidualView, *, high: float) -> None:
         label="mean of nearby samples",
     )  # fmt: skip
     axes.set_ylim(-high, high)
-
-
-def _find_largest(found: Mapping[str, ResidualView]) -> float:
-    return max(
-        (float(np.nanmax(np.abs(v.mean))) for v in found.values() if np.isfinite(v.mean).any()),
-        default=0.0,
-    )
 
 
 def _format_percent(share: float) -> str:

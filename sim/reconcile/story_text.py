@@ -183,6 +183,30 @@ def explain_unapplied_effects(story: Story) -> str:
     return "The effects narrow the gap only a little, so they are not applied unasked."
 
 
+def list_outcomes(story: Story) -> dict[str, list[str]]:
+    """What became of the effects of the catalogue, in a few words: outcome -> names of effects."""
+    added = [one.added for one in story.chapters[1:]]
+    beside = f" beside {' and '.join(added)}" if added else ""
+    last = {one.effect: (one, chapter) for chapter in story.chapters for one in chapter.tried}
+    known = dict.fromkeys(added, "added")
+    known |= {
+        rival: f"cannot be told apart from {one.effect}"
+        for one in story.findings
+        for rival in one.ambiguous_with
+    }
+    for effect, (tried, chapter) in last.items():
+        is_last = chapter is story.chapters[-1]
+        fitted = "fits better, but is too unlikely" if is_last else "makes no difference"
+        known.setdefault(effect, (tried.why or fitted) + beside * (is_last or tried.admitted))
+    rest = (
+        "not tried: promised too little" if story.complete else "not tried before the search ended"
+    )
+    outcomes: dict[str, list[str]] = {}
+    for effect in dict.fromkeys([*known, *EFFECTS]):
+        outcomes.setdefault(known.get(effect, rest), []).append(effect)
+    return outcomes
+
+
 def _differ(one: ParameterEstimate, other: ParameterEstimate) -> bool:
     """Whether two estimates differ by more than their errors allow."""
     spread = math.hypot(one.error or math.inf, other.error or math.inf)

@@ -103,8 +103,8 @@ def _show_trials(tried: Sequence[FeedbackTrial], per: Unit, say: WrappedPrinter)
         own = "your own " if trial.owner == OWN else ""
         bad = "" if trial.is_good else " (no good start)"
         say(
-            f"{own}{trial.loop} {format_gain_pair(trial.gains)}{bad}: after a step of {step} the "
-            f"mechanism {trial.verdict.description}",
+            f"{own}{trial.loop} {format_gain_pair(trial, per.symbol)}{bad}: after a step of {step} "
+            f"the mechanism {trial.verdict.description}",
             indent=2,
             hang=2,
         )

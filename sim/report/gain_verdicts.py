@@ -38,7 +38,7 @@ def write_gain_verdict(found: Fit, log: Log | None = None) -> str:
     for name in found.gains:
         error = _format_error(name, found.gains[name], found.errors.get(name, math.nan))
         label = "angle" if name == "offset_rad" else name
-        if not _is_usable(name, found.gains[name], found.errors.get(name, math.nan)):
+        if not _is_usable(found, name):
             advice = _advise_test(name, log) if log is not None else ""
             others.setdefault(advice, []).append(f"{label} not usable ({error})")
         elif any(name in doubt.gains for doubt in found.doubts):
@@ -53,11 +53,7 @@ def write_gain_verdict(found: Fit, log: Log | None = None) -> str:
 
 def judge_gains(found: Fit) -> str:
     """The verdict in a word or two, for a heading."""
-    sure = [
-        name
-        for name, value in found.gains.items()
-        if _is_usable(name, value, found.errors.get(name, math.nan))
-    ]
+    sure = [name for name in found.gains if _is_usable(found, name)]
     doubted = {name for doubt in found.doubts for name in doubt.gains}
     if any(doubt.grave for doubt in found.doubts):
         return "Do not use"
@@ -75,15 +71,12 @@ def list_gain_advice(found: Fit, log: Log) -> tuple[str, ...]:
         found: the fit.
         log: what it was fitted to.
     """
-    unusable = [
-        name
-        for name, value in found.gains.items()
-        if not _is_usable(name, value, found.errors.get(name, math.nan))
-    ]
+    unusable = [name for name in found.gains if not _is_usable(found, name)]
     return tuple(dict.fromkeys(_advise_test(name, log) for name in unusable))
 
 
-def _is_usable(name: str, value: float, error: float) -> bool:
+def _is_usable(found: Fit, name: str) -> bool:
+    value, error = found.gains[name], found.errors.get(name, math.nan)
     if not math.isfinite(error):
         return False
     if name in SHARES:

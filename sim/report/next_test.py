@@ -42,7 +42,7 @@ def advise_next(log: Log, *, found: Fit | None, inspection: Inspection, last: Se
         problem = _judge_run(index, log, found=found, inspection=inspection)
         if problem:
             return problem
-    missing = list_missing_tests(log)
+    missing = [test for test in FOUR_TESTS if not log.list_runs_of_test(test)]
     if missing:
         return f"{join_names(missing)} {'is' if len(missing) == 1 else 'are'} missing."
     if found is None:
@@ -52,11 +52,6 @@ def advise_next(log: Log, *, found: Fit | None, inspection: Inspection, last: Se
         return grave[0].text
     advice = list_gain_advice(found, log)
     return f"{_capitalize_first('; '.join(advice))}." if advice else ENOUGH
-
-
-def list_missing_tests(log: Log) -> tuple[str, ...]:
-    """Those of SysId's four tests of which the log has no run."""
-    return tuple(test for test in FOUR_TESTS if not log.list_runs_of_test(test))
 
 
 def _judge_run(index: int, log: Log, *, found: Fit | None, inspection: Inspection) -> str:

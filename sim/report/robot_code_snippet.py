@@ -20,12 +20,13 @@ wpimath.controller. Neither was tested, because 2027 is not released.
 import math
 import re
 import textwrap
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from sim.core.advice import Action
 from sim.core.errors import BadRequest, refuse_unknown
+from sim.core.leave_out import LeftOutPart
 from sim.core.units import TURN, find_unit
 from sim.feedback import PRESETS, Preset
 from sim.fit import Fit
@@ -158,8 +159,9 @@ class Constant(NamedTuple):
 
 
 def write_robot_code(
-    found: Fit, *, target: str, season: int = 2026, radius: float | None = None, name: str = ""
-) -> str:
+    found: Fit, *, target: str, season: int = 2026, radius: float | None = None, name: str = "",
+    left_out: Sequence[LeftOutPart] = (), moved: Sequence[str] = (),
+) -> str:  # fmt: skip
     """Robot code with the gains of a fit, rounded to the precision that their errors allow.
 
     Args:
@@ -168,6 +170,8 @@ def write_robot_code(
         season: 2026 or 2027, where the code names a class of WPILib.
         radius: radius of wheel or drum [m], to convert between a length and a rotation.
         name: name of the mechanism; empty takes its type.
+        left_out: parts of the log that were not used.
+        moved: gains that the user set.
 
     Returns:
         The text, with a line break at its end.
@@ -194,6 +198,7 @@ def write_robot_code(
     text = template.render(
         heading=f"Measured gains of {'an' if found.type[0] in 'ae' else 'a'} {found.type} "
         f"mechanism, for {chosen.name.format(season=season)}; ± is one standard error.",
+        facts=_list_facts(found, left_out, moved),
         warnings=list(_list_warnings(found)),
         class_name=make_class_name(name or found.type),
         type=found.type,
@@ -213,6 +218,17 @@ def write_robot_code(
         period=f"{1e3 * PRESETS['default'].period:.0f}",  # between the two velocities
     )
     return f"{text}\n"
+
+
+def _list_facts(
+    found: Fit, left_out: Sequence[LeftOutPart], moved: Sequence[str]
+) -> tuple[str, ...]:
+    """A line for each effect in the model, each part left out, and each gain set by hand."""
+    return (
+        *(f"Effect in the model: {part.effect.replace('-', ' ')}" for part in found.parts),
+        *(f"Left out: {part}" for part in left_out),
+        *(f"Moved by hand, not measured: {gain}" for gain in moved),
+    )
 
 
 def _list_warnings(found: Fit) -> Iterator[str]:
@@ -304,13 +320,13 @@ def _refuse_impossible_gains(found: Fit) -> None:
     for doubt in found.doubts:
         if doubt.grave:
             raise BadRequest(
-                f"no code is printed, because the gains are wrong: {doubt.text}",
-                advice="Fix this first, then fit again.",
+                f"no code is written, because the gains are wrong: {doubt.message}",
+                advice=doubt.action or "Fix this first, then fit again.",
             )
     for gain, value in found.gains.items():
         if not math.isfinite(value) or (gain in {"kV", "kA"} and value < 0.0):
             raise BadRequest(
-                f"no code is printed for {gain} = {value:.4g}",
+                f"no code is written for {gain} = {value:.4g}",
                 advice="Record the four tests again: WPILib refuses such a gain on the robot.",
             )
 

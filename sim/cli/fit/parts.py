@@ -90,10 +90,10 @@ def _add_unit_advice(refusal: Refusal, log: Log) -> Refusal:
     """The refusal; if the log has a doubt about its units or velocity, with that advice."""
     for doubt in log.doubts:
         if doubt.code in {"unit-error", "contradicting-units"}:
-            advice = doubt.text.removeprefix(f"{log.source}: ")
-            return refusal.__class__(
-                refusal.what, where=refusal.where, advice=f"{advice[:1].upper()}{advice[1:]}"
-            )
+            said = doubt.message.removeprefix(f"{log.source}: ")
+            said = f"{said[:1].upper()}{said[1:]}"
+            advice = said if doubt.action is None else doubt.action.add_before(said)
+            return refusal.__class__(refusal.what, where=refusal.where, advice=advice)
     return refusal
 
 

@@ -2,6 +2,7 @@
 
 import click
 
+from sim.core.leave_out import LeftOutPart
 from sim.fit import Fit
 from sim.report.robot_code_snippet import write_robot_code
 
@@ -9,7 +10,8 @@ from sim.report.robot_code_snippet import write_robot_code
 def make_paste_text(found: Fit, target: str, *, season: int) -> str:
     """The text to print for ``--paste``.
 
-    The radius is read from the current command's ``--radius``; its default value is not used.
+    The parts left out and the radius are read from the current command's options; the radius's
+    default value is not used.
 
     Args:
         found: the fit, in the unit of its log.
@@ -22,4 +24,5 @@ def make_paste_text(found: Fit, target: str, *, season: int) -> str:
     ctx = click.get_current_context()
     given = ctx.get_parameter_source("radius") is not click.core.ParameterSource.DEFAULT
     radius = ctx.params["radius"] if given else None
-    return write_robot_code(found, target=target, season=season, radius=radius)
+    left_out = tuple(map(LeftOutPart.parse, ctx.params.get("left_out", ())))
+    return write_robot_code(found, target=target, season=season, radius=radius, left_out=left_out)

@@ -22,6 +22,7 @@ from sim.cli.log_reader import LogReader, Parts, join_parts
 from sim.cli.options import refuse_overwriting
 from sim.core.leave_out import LeftOutPart, leave_out
 from sim.core.log import Log
+from sim.core.units import find_unit
 from sim.feedback import PRESETS, Feedback
 from sim.fit import Fit
 from sim.fit import fit as find_gains
@@ -166,9 +167,10 @@ def _write_page(output: _FitOutput, html: Path, parts: Parts) -> None:
 
     title = ", ".join(file.name for file in output.files)  # a page travels; folders are private
     one = OpenLog(1, title, output.files[0], finished=parts)
+    symbol = find_unit(output.found.units).symbol
     trials = [
         f"With {'your own' if trial.owner == OWN else 'the suggested'} gains "
-        f"({format_gain_pair(trial.gains)}), the {trial.loop} loop {trial.verdict.description}."
+        f"({format_gain_pair(trial, symbol)}), the {trial.loop} loop {trial.verdict.description}."
         for trial in output.tried
     ]
     one.keep_fit(replace(output.pooled, found=output.found, notes=(*output.notes, *trials)))

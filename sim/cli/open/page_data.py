@@ -14,15 +14,21 @@ import numpy as np
 from sim.cli.entries import describe_entry
 from sim.cli.inspect import SURE, name_confidence
 from sim.cli.open.session import OpenLog, Reading, Session
+from sim.core.advice import Action
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, Refusal, refuse_unknown
-from sim.core.leave_out import LeftOutPart
+from sim.core.leave_out import cut_run
 from sim.core.log import Array, Log
 from sim.core.units import find_unit
 from sim.estimation.measurements import MIN_SAMPLES
 from sim.feedback import PRESETS
 from sim.fit import Fit
-from sim.fit.feedback_trial import try_feedback_gains, warn_of_bad_suggestions
+from sim.fit.feedback_trial import (
+    NO_START,
+    find_better_gains,
+    format_gain_pair,
+    try_feedback_gains,
+)
 from sim.fit.fit_doubts import MISFIT
 from sim.fit.physics import Parts
 from sim.fit.physics.parts import check_radius_unit
@@ -105,7 +111,6 @@ def describe_log(one: OpenLog, reading: Reading) -> dict[str, Any]:
         "mechanism": log.mechanism,
         "runs": runs,
         "samples": sum(map(len, log.runs)),
-        "top": log.top_speed / unit.si,
         "compiles": not engine_is_cached(),
         "compiled": engine_can_compile(),
     }
@@ -168,7 +173,9 @@ def pack_entry(one: OpenLog, log: Log, name: str) -> bytes:
 def describe_faults(found: Inspection, one: OpenLog) -> dict[str, Any]:
     """The faults of a log with their times, and its other warnings."""
     data = found.to_json()
-    for fault in data["faults"]:
+    for fault, damage in zip(data["faults"], found.faults, strict=True):
+        if isinstance(damage.advice, Action):
+            fault["advice"] = damage.advice.on_page
         fault["evidence"] = _without_path(fault["evidence"], one)
         fault["sureness"] = name_confidence(fault["confidence"])
     return {
@@ -220,7 +227,7 @@ def describe_fit(
             "position_delay": found.position_delay,
             "velocity_delay": found.velocity_delay,
         },
-        **({} if chosen else _describe_starts(found, log)),
+        **({} if chosen else _describe_starts(found, log, reading)),
     }
 
 
@@ -256,31 +263,34 @@ def describe_directions(one: OpenLog, reading: Reading) -> dict[str, Any]:
     return verdict | {"doubts": _describe_doubts(more, one), "notes": list(notes)}
 
 
-def _describe_starts(found: Fit, log: Log) -> dict[str, Any]:
-    """Simulated position and velocity at the start of each run, and velocity noise, in SI.
+def _describe_starts(found: Fit, log: Log, reading: Reading) -> dict[str, Any]:
+    """Simulated position and velocity at the start of each piece of a run that is fitted, in SI.
 
-    A run that is not simulated has None; the velocity noise is None if no run is simulated. It has
-    the least value that a search for effects gives it, so that both count the same noise.
+    With them, the top speed in the log's unit, and the velocity noise in SI, which is None if
+    nothing is simulated. It has the least value that a search for effects gives it, so that both
+    count the same noise.
     """
+    pieces = [(k, one) for k, run in enumerate(log.runs) for one in cut_run(run, reading.left_out)]
+    rest = replace(log, runs=tuple(piece for _, piece in pieces))
+    top = rest.top_speed / find_unit(log.units).si
     try:
-        replays = iter(replay_fit(found, log))
+        replays = iter(replay_fit(found, rest))
     except BadRequest:  # the doubts say which gain is below zero
-        return {"starts": [], "noise": None}
-    starts: list[dict[str, float] | None] = []
+        return {"starts": [], "noise": None, "top": top}
+    starts: list[list[dict[str, float]]] = [[] for _ in log.runs]
     noise = None
-    for run in log.runs:
-        replay = next(replays, None) if len(run) >= MIN_SAMPLES else None
-        noise = max(replay.velocity_noise, LEAST_FLOOR * log.top_speed) if replay else noise
-        starts.append(
-            None
-            if replay is None
-            else {
-                "first": len(run) - len(replay.run),
+    for k, piece in pieces:
+        replay = next(replays, None) if len(piece) >= MIN_SAMPLES else None
+        if replay is not None:
+            noise = max(replay.velocity_noise, LEAST_FLOOR * rest.top_speed)
+            start = {
+                "first": int(np.searchsorted(log.runs[k].time, replay.run.time[0])),
+                "count": len(replay.run),
                 "position": float(replay.position[0]),
                 "velocity": float(replay.velocity[0]),
             }
-        )
-    return {"starts": starts, "noise": noise}
+            starts[k].append(start)
+    return {"starts": starts, "noise": noise, "top": top}
 
 
 def write_code(
@@ -312,21 +322,20 @@ def write_code(
     doubts = tuple(replace(some, message=_without_path(some.message, one)) for some in known)
     found = replace(found, gains={**found.gains, **moved}, errors=errors, doubts=doubts)
     radius = float(query["radius"]) if _is_number(query.get("radius", "")) else None
-    code = write_robot_code(found, target=language, season=int(season), radius=radius)
-    if moved:
-        comment = "#" if language == "python" else "//"
-        code = f"{comment} Moved by hand, not measured: {', '.join(moved)}\n{code}"
+    code = write_robot_code(
+        found, target=language, season=int(season), radius=radius, left_out=reading.left_out,
+        moved=[*moved],
+    )  # fmt: skip
     return {"code": code}
 
 
 def _doubt_faults(one: OpenLog, reading: Reading, *, known: Sequence[Doubt]) -> Iterator[Doubt]:
     """A doubt for each kind of fault that is sure, not left out, and not doubted already."""
-    gone = [LeftOutPart.parse(part) for part in reading.left_out]
     for kind in one.inspect(reading).group_by_kind():
         left = [
             where.test or "the whole log"
             for where in (fault.where for fault in kind if fault.confidence >= SURE)
-            if not any(part.covers(where.test, where.start, where.end) for part in gone)
+            if not any(part.covers(where.test, where.start, where.end) for part in reading.left_out)
         ]
         if left and kind[0].fault not in {doubt.code for doubt in known}:
             tests = join_names(list(dict.fromkeys(left)))
@@ -356,11 +365,10 @@ def describe_feedback(query: Mapping[str, str]) -> dict[str, Any]:
     type_, chosen = query.get("type", "simple"), query.get("preset", "default")
     refuse_unknown("preset", chosen, PRESETS)
     texts = {name: text for name, text in query.items() if text and name not in WORDS}
-    wrong = [name for name, text in texts.items() if not _is_number(text)]
-    wrong += [
+    wrong = [
         name
-        for name in ALLOWED
-        if name in texts and name not in wrong and float(texts[name]) <= 0.0
+        for name, text in texts.items()
+        if not _is_number(text) or (name in ALLOWED and float(text) <= 0.0)
     ]
     if wrong:
         label = wrong[0].replace("_", " ")
@@ -384,14 +392,14 @@ def describe_feedback(query: Mapping[str, str]) -> dict[str, Any]:
         allowed[name] *= find_unit(before).si / per.si
     tried = try_feedback_gains(found, PRESETS[chosen], allowed=allowed)
     rows = []
-    for trial in filter(lambda trial: trial.is_good, tried):
-        symbols = PRESETS[chosen].format_units(trial.loop, per.symbol)
-        pairs = zip(("kP", "kD"), (trial.gains.kp, trial.gains.kd), symbols, strict=True)
-        shown = [f"{name} {value:.4g} {unit}" for name, value, unit in pairs if value]
-        rows.append({"loop": trial.loop, "gains": shown, "step": trial.verdict.description})
-    doubts = [one.message for one in warn_of_bad_suggestions(found, tried)]
-    gains = {**found.gains, **allowed}
-    return {"gains": gains, "rows": rows, "doubts": doubts, "symbol": per.symbol}
+    for trial in tried:
+        best = find_better_gains(found, trial)
+        shown = format_gain_pair(best, per.symbol) if best else "no good start"
+        step = f"In simulation, it {best.verdict.description}." if best else NO_START
+        own = f"{format_gain_pair(trial, per.symbol)}: with them, it {trial.verdict.description}"
+        instead = "" if trial.is_good else f"Do not use SysId’s own suggestion, {own}."
+        rows.append({"loop": trial.loop, "gains": shown, "step": step, "instead": instead})
+    return {"gains": {**found.gains, **allowed}, "rows": rows, "symbol": per.symbol}
 
 
 def describe_entries(entries: Sequence[Entry]) -> list[dict[str, Any]]:

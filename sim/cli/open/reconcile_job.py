@@ -21,6 +21,7 @@ from sim.reconcile.story_text import (
     list_gain_doubts,
     list_inspections,
     list_next_tests,
+    list_outcomes,
     list_remarks,
     write_headline,
 )
@@ -154,11 +155,7 @@ def describe_story(story: Story, said: Collection[str] = ()) -> dict[str, Any]:
         "verdict": story.verdict,
         "complete": story.complete,
         "effects": added if story.variants else [],
-        "tried": [
-            f"{one.effect}: {one.improvement:.0f}, "
-            + ("added" if one.effect in added else one.why or "could be added")
-            for one in story.chapters[0].tried
-        ],
+        "tried": [f"{', '.join(some)}: {what}" for what, some in list_outcomes(story).items()],
         "findings": findings,
         "gaps": gaps,
         "places": [place.sentence for place in story.where[:PLACES]],
@@ -239,7 +236,7 @@ def inspect_damage(
             )
         found += [
             DamagedInterval(
-                where.run, *interval, one.fault, one.confidence, one.evidence, one.advice
+                where.run, *interval, one.fault, one.confidence, one.evidence, str(one.advice)
             )
             for interval in intervals
         ]

@@ -44,19 +44,20 @@ class Reading:
         units: unit of its positions; None takes the one in the file.
         type: type of the mechanism; None takes the one in the file.
         entries: (signal, entry) for each entry that the user chose; the others are found by name.
-        left_out: parts that the fit does not use, as ``--leave-out`` names them.
+        left_out: parts that the fit does not use.
     """
 
     units: str | None = None
     type: str | None = None
     entries: tuple[tuple[str, str], ...] = ()
-    left_out: tuple[str, ...] = ()
+    left_out: tuple[LeftOutPart, ...] = ()
 
     @classmethod
     def from_query(cls, query: Mapping[str, str]) -> "Reading":
         """The options that a request of the page names."""
         chosen = tuple((one, query[one]) for one in (*NEEDED, "state", "time") if query.get(one))
-        left_out = tuple(filter(None, query.get("left_out", "").split(",")))
+        named = filter(None, query.get("left_out", "").split(","))
+        left_out = tuple(map(LeftOutPart.parse, named))
         return cls(query.get("units") or None, query.get("type") or None, chosen, left_out)
 
 
@@ -181,7 +182,7 @@ class OpenLog:
 
     def _read_rest(self, reading: Reading) -> dict[str, Log]:
         """The log of each mechanism, side or motor, without the parts that the user left out."""
-        return leave_out(self.read_parts(reading), map(LeftOutPart.parse, reading.left_out))
+        return leave_out(self.read_parts(reading), reading.left_out)
 
     def keep_fit(self, pooled: PooledParts) -> None:
         """Store a fit of the complete log that was already computed."""
@@ -203,13 +204,10 @@ class OpenLog:
             more = {role: one.read_mechanism(alike) for role, one in others.items()}
             return {"log": self.read_mechanism(reading), **more}
 
-        left_out = tuple(map(LeftOutPart.parse, reading.left_out))
         numbers = tuple((role, one.number, one.revision) for role, one in others.items())
+        begin = partial(ReconcileJob, read_logs, name=self.name, type=reading.type, effort=effort)
         return self._compute_once(
-            ("reconcile", reading, numbers, effort),
-            lambda: ReconcileJob(
-                read_logs, name=self.name, type=reading.type, effort=effort, left_out=left_out
-            ),
+            ("reconcile", reading, numbers, effort), partial(begin, left_out=reading.left_out)
         )
 
     def renew(self, finished: Mapping[str, Log], path: Path) -> None:

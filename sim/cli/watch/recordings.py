@@ -94,7 +94,7 @@ class FileSource:
         for path, key, size in self._list_logs():
             if key in self._known:
                 self._known[key].growing.path = path
-            elif self._sizes.get(key, -1) != size and self._is_followed(path):
+            elif self._sizes.get(key, -1) != size and self.place in {path, path.parent}:
                 self._begin_recording(path, key)
         if self._recordings and self._recordings[-1].path.exists():
             last = self._recordings[-1]
@@ -105,10 +105,6 @@ class FileSource:
     def close(self) -> None:
         """Do nothing: no file stays open."""
 
-    def _is_followed(self, path: Path) -> bool:
-        """Whether a new file is to be followed."""
-        return self.place.is_dir() or path == self.place
-
     def _begin_recording(self, path: Path, key: tuple[int, int]) -> None:
         recording = Recording(path, state=self._state)
         self._recordings.append(recording)
@@ -118,17 +114,13 @@ class FileSource:
         """Path, identity and size [bytes] of each log in the folder, the oldest first."""
         folder = self.place if self.place.is_dir() else self.place.parent
         found = []
-        for path in filter(_is_log, folder.iterdir()):
+        for path in filter(lambda one: one.suffix.lower() in SUFFIXES, folder.iterdir()):
             try:
                 stat = path.stat()
             except OSError:  # it was renamed or removed since
                 continue
             found.append((stat.st_mtime_ns, path, (stat.st_dev, stat.st_ino), stat.st_size))
         return [(path, key, size) for _, path, key, size in sorted(found)]
-
-
-def _is_log(path: Path) -> bool:
-    return path.suffix.lower() in SUFFIXES
 
 
 def _identify_file(path: Path) -> tuple[int, int]:

@@ -47,7 +47,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
             where=where,
             confidence=error.confidence,
             evidence=error.evidence,
-            advice=str(error.advice),
+            advice=error.advice,
         )
 
 

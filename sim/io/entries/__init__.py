@@ -154,9 +154,8 @@ def _find_state(entries: Sequence[Entry], *, options: ReadOptions, where: str) -
         if any(device.is_complete for device in find_devices(entries)):
             raise
         lacking = make_no_motor_error(entries, where=where)
-        raise MissingSignal(
-            f"{missing.what}; {lacking.what}", where=where, advice=f"{missing.advice} {EXPORT}"
-        ) from None
+        advice = (missing.action or Action("name-entries")).add_before(EXPORT)
+        raise MissingSignal(f"{missing.what}; {lacking.what}", where=where, advice=advice) from None
     if len(found) > 1 and options.motor is not None:
         having = tuple(state for state in found if _has_motor(state, entries, options))
         found = having if len(having) == 1 else found

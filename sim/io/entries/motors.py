@@ -295,7 +295,7 @@ def _make_missing_error(found: Sequence[MotorEntries], search: _Search) -> Missi
     signal = lacking[0]
     mechanism = search.state.mechanism or "<mechanism>"
     name = f"{signal}-{motor.name or '<motor>'}-{mechanism}"
-    details = [f"no {signal} entry: expected {name!r} (double)"]
+    details = [f"no {signal} entry"]
     if len(lacking) > 1:
         details.append(f"{' and '.join(lacking[1:])} missing too")
     details += [
@@ -309,7 +309,10 @@ def _make_missing_error(found: Sequence[MotorEntries], search: _Search) -> Missi
     return MissingSignal(
         "; ".join(details),
         where=search.where,
-        advice=f"{_advise_logging(signal)}. Or name another logger's entries: {FLAGS}. {EXPORT}",
+        advice=Action(
+            "name-entries",
+            before=f"{_advise_logging(signal)}. It writes {name!r} (double). {EXPORT}",
+        ),
     )
 
 
@@ -344,7 +347,7 @@ def make_no_motor_error(
         f"{what} during the tests. Each motor needs three entries: voltage, position and "
         f"velocity{details}",
         where=where,
-        advice=f"Log all three of each motor, or name the entries: {FLAGS}. {EXPORT}",
+        advice=Action("name-entries", before=f"Log all three of each motor. {EXPORT}"),
     )
 
 

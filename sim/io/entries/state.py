@@ -173,12 +173,12 @@ def _guess_mechanism(name: str) -> str:
 
 def _make_no_state_error(*, where: str) -> MissingSignal:
     return MissingSignal(
-        f"no entry says which test runs: expected '{WORD}-<mechanism>' (string)",
+        "no entry says which test runs",
         where=where,
         advice=Action(
             "name-entries",
-            before="SysIdRoutine writes this entry while a test runs. Run the tests with the robot "
-            "enabled, and use the log of these tests. If the file contains only one test, put the "
-            "name of the test into the file name: dynamic-forward.wpilog.",
+            before=f"SysIdRoutine writes '{WORD}-<mechanism>' (string) while a test runs. Run the "
+            "tests with the robot enabled, and use the log of these tests. If the file contains "
+            "only one test, put the name of the test into the file name: dynamic-forward.wpilog.",
         ),
     )

@@ -14,7 +14,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from sim.core.advice import Action
-from sim.core.doubt import Doubt
+from sim.core.doubt import OF_POSITION, Doubt
 from sim.core.errors import BadRequest
 from sim.core.units import UNITS
 from sim.io.entries.entry import NEEDED, Entry
@@ -178,7 +178,8 @@ def choose_scale(signals: Mapping[str, Entry], *, options: ReadOptions, where: s
         factors[signal], code, what = _scale_signal(
             signals[signal].name, parsed[signal], text, unit, ordered=ordered
         )
-        doubt = Doubt(code, f"{where}: {what}", action=ACTIONS.get(code))
+        gains = OF_POSITION if code == "contradicting-units" else ()
+        doubt = Doubt(code, f"{where}: {what}", action=ACTIONS.get(code), gains=gains)
         if code:
             doubts.setdefault(code if code == "contradicting-units" else signal, doubt)
     if _RATE.search(signals["voltage"].name):

@@ -24,7 +24,7 @@ from typing import Any
 
 import numpy as np
 
-from sim.core.errors import BadRequest
+from sim.core.errors import BadRequest, refuse_unknown
 from sim.core.log import Array
 from sim.physics import engine
 from sim.plot.animation.scene import (
@@ -169,7 +169,7 @@ def animate_mechanism(
         BadRequest: no such mechanism, a combination of options without a scene, or a signal that
             does not have one value for each time of its scene.
     """
-    _check_kind(kind)
+    refuse_unknown("drawing", kind, KINDS)
     every = _key_by_options(scenes, choices)
     low, high = span or (None, None)
     stage = {
@@ -178,7 +178,9 @@ def animate_mechanism(
         "wall": _describe_value(wall),
         "marks": [{"label": n, "at": _describe_value(at)} for n, at in (marks or {}).items()],
         "slow": slow,
-        **_describe_kind(kind),
+        "kind": kind,
+        "unit": "rad" if kind in {"arm", "flywheel"} else "m",
+        "words": f"{kind}, drawn at the time of the cursor",
     }
     data = {
         "stage": stage,
@@ -201,16 +203,6 @@ def list_colors() -> list[str]:
 def describe_choices(choices: Sequence[Choice]) -> list[dict[str, object]]:
     """The menus as plain data for the script."""
     return [vars(one) | {"value": one.value or one.options[0]} for one in choices]
-
-
-def _check_kind(kind: str) -> None:
-    if kind not in KINDS:
-        raise BadRequest(f"no drawing of {kind!r}", advice=f"Choose one of: {', '.join(KINDS)}.")
-
-
-def _describe_kind(kind: str) -> dict[str, str]:
-    unit = "rad" if kind in {"arm", "flywheel"} else "m"
-    return {"kind": kind, "unit": unit, "words": f"{kind}, drawn at the time of the cursor"}
 
 
 def _key_by_options(
@@ -268,7 +260,7 @@ def _describe_scene(scene: Scene) -> dict[str, Any]:
                 "start": motion.start,
                 "gains": _describe_gains(motion.gains),
                 "program": _describe_gains(motion.program),
-                "plan": _describe_plan(motion.plan),
+                "plan": _describe_gains(vars(motion.plan) if motion.plan else None),
                 "voltage": _describe_value(motion.voltage)
                 if isinstance(motion.voltage, Gain)
                 else _list_numbers(motion.voltage),
@@ -298,12 +290,6 @@ def _describe_value(value: float | Gain | None) -> Any:  # noqa: ANN401 - as JSO
     if isinstance(value, Gain):
         return vars(value)
     return None if value is None or not math.isfinite(value) else float(value)
-
-
-def _describe_plan(plan: TestPlan | None) -> dict[str, Any] | None:
-    return (
-        None if plan is None else {name: _describe_value(one) for name, one in vars(plan).items()}
-    )
 
 
 def round_numbers(values: Sequence[float] | Array) -> list[float | None]:

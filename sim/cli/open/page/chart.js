@@ -273,11 +273,11 @@ export class Chart {
     const x = (k) => this.xOf(begins + time[k]);
     const apart = (x(end - 1) - x(from)) / Math.max(end - from - 1, 1);
     draw(to, style, () => {
-      let last = 0;
+      let last = NaN; // after what is not simulated, the line begins again
       for (let k = from; apart >= 0.5 && k < end; k++) {
         if (style.steps && k > from) to.lineTo(x(k), last);
+        to[Number.isNaN(last) ? "moveTo" : "lineTo"](x(k), y(values[k - first]));
         last = y(values[k - first]);
-        to.lineTo(x(k), last);
       }
       for (let k = from; apart < 0.5 && k < end; ) {
         const column = Math.round(x(k));
@@ -286,8 +286,9 @@ export class Chart {
           low = Math.min(low, values[k - first]);
           high = Math.max(high, values[k - first]);
         }
-        to.lineTo(column, y(low));
-        to.lineTo(column, y(high));
+        to[Number.isNaN(last) ? "moveTo" : "lineTo"](column, y(low));
+        last = y(high);
+        to.lineTo(column, last);
       }
     });
     for (let k = from; style.dots && apart >= DOTS && k < end; k++) {

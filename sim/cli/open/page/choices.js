@@ -4,12 +4,12 @@ import { drawing, figure, make } from "./elements.js";
 import { activate, load, shownLog } from "./logs.js";
 import { at, guarded } from "./page.js";
 
-const ROLES = [ // role, words, whether its entry holds texts, and what is taken if none is chosen
-  ["voltage", "Voltage at the motor", false, "Found by its name"],
-  ["position", "Position", false, "Found by its name"],
+const ROLES = [ // role, words, whether its entry holds texts, and what is taken if the log has no such entry
+  ["voltage", "Voltage at the motor", false],
+  ["position", "Position", false],
   ["velocity", "Velocity", false, "The slope of the position"],
-  ["state", "Name of the running test", true, "Found by its name"],
-  ["time", "Time, in seconds", false, "Found by its name"],
+  ["state", "Name of the running test", true],
+  ["time", "Time, in seconds", false],
 ];
 const MOST = 60; // candidates listed at a time
 
@@ -32,7 +32,7 @@ export function showChoice() {
 /** The candidates for a role that the filter lets pass, our own guesses first. */
 function showCandidates() {
   const { entries, chosen } = shownLog().choice;
-  const [, words, isText, unchosen] = ROLES.find(([one]) => one === role);
+  const [, words, isText] = ROLES.find(([one]) => one === role);
   showChosen();
   const parts = at("entry-filter").value.toLowerCase().split(/\s+/);
   const fitting = entries
@@ -40,7 +40,7 @@ function showCandidates() {
     .sort((a, b) => rank(a, chosen) - rank(b, chosen));
   const rows = fitting.slice(0, MOST).map((one) => candidate(one.name, one, chosen));
   at("candidates").setAttribute("aria-label", words);
-  at("candidates").replaceChildren(candidate(unchosen, { name: "" }, chosen), ...rows);
+  at("candidates").replaceChildren(candidate(unchosen(role), { name: "" }, chosen), ...rows);
   at("candidates-more").textContent = fitting.length > MOST ? `${fitting.length - MOST} more. Type a part of the name above.` : "";
 }
 
@@ -60,7 +60,13 @@ function candidate(words, { name, unit, signal, text: isText, values, picture },
 
 function showChosen() {
   const { chosen } = shownLog().choice;
-  for (const one of at("roles").children) one.lastChild.textContent = chosen[one.control.value] || ROLES.find(([name]) => name === one.control.value)[3];
+  for (const one of at("roles").children) one.lastChild.textContent = chosen[one.control.value] || unchosen(one.control.value);
+}
+
+/** What is taken for a role if none is chosen: the entry with its name, else what can replace it. */
+function unchosen(role) {
+  const named = shownLog().choice.entries.filter(({ signal }) => signal === role).length;
+  return named === 1 ? "Found by its name" : named ? `${named} likely: choose one` : ROLES.find(([name]) => name === role)[3] ?? "None found: choose one";
 }
 
 /** A small plot of an entry. */

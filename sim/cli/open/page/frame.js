@@ -33,10 +33,10 @@ export function drawRuns(chart, to) {
 }
 
 export function drawFaults(chart, to) {
-  let free = 0;
+  let free = chart.right; // where the label to the right begins
   to.textBaseline = "alphabetic";
   chart.clip(to, () => {
-    for (const one of chart.faults) {
+    for (const one of chart.faults.toReversed()) {
       const from = chart.xOf(chart.timeline.placeOf(one.run, one.start));
       const end = Math.max(chart.xOf(chart.timeline.placeOf(one.run, one.end)), from + 2);
       const run = chart.timeline.spanOf(one.run).map((place) => chart.xOf(place));
@@ -44,12 +44,12 @@ export function drawFaults(chart, to) {
       const color = chart.colors[one.color];
       if (one.color === "quiet" || within([from, end]) < WHOLE * within(run)) fillBox(to, color, 0.14, from, TOP - 22, end - from, chart.bottom - TOP + 26);
       fillBox(to, color, 1, from, TOP - 22, end - from, 3);
-      const width = to.measureText(one.name).width;
-      const at = Math.max(Math.min(from, chart.right - width - 6), chart.left);
-      if (from < chart.right && end > chart.left && at > free) {
-        to.fillText(one.name, at + 1, TOP - 7);
-        free = at + width + 8;
-      }
+      if (!one.number || from > chart.right || end < chart.left) continue;
+      const at = Math.max(from, chart.left);
+      const text = [`${one.number} ${one.fault.replaceAll("-", " ")}`, one.number].find((words) => at + to.measureText(words).width < free);
+      if (!text) continue;
+      to.fillText(text, at + 1, TOP - 7);
+      free = at - 6;
     }
   });
 }

@@ -9,6 +9,8 @@ import { Sliders } from "./sliders.js";
 import { chart, showCursor } from "./stage.js";
 import { showDoubts } from "./verdict.js";
 
+const MOST_FLOORS = 10; // [times the sensor noise] error that fills its bar
+
 export const sliders = new Sliders(at("sliders"), moveGains);
 
 export function showFit() {
@@ -67,11 +69,11 @@ function showMeter(log, error) {
   const { si, symbol } = log.summary.units;
   const floors = (error * si) / log.fit.noise;
   const gap = make("p", "gap", make("b", "", floors.toPrecision(floors < 10 ? 2 : 3)), " × sensor noise, ",
-    make("b", "", (100 * error / log.summary.top).toPrecision(2)), "\u00a0% of top speed");
+    make("b", "", (100 * error / log.fit.top).toPrecision(2)), "\u00a0% of top speed");
   const ratio = error / log.fitError;
   const moved = log.moved ? `, ${ratio >= 10 ? Math.round(ratio) : ratio.toFixed(2)} × that of the fit` : "";
   const bar = make("div", `bar-of-error${floors > 2 ? " far" : ""}`);
-  bar.style.setProperty("--share", Math.min(1, Math.max(0.04, 1 / floors)));
+  bar.style.setProperty("--share", Math.min(1, floors / MOST_FLOORS));
   at("meter").replaceChildren(gap, make("p", "quiet", `simulation error ${figure(error)} ${symbol}/s${moved}`), bar);
 }
 

@@ -1,7 +1,7 @@
 // The dialog of feedback gains: for the gains of the log, for those of theory, or for typed ones.
 
 import { ask } from "./api.js";
-import { make, prose, sentence } from "./elements.js";
+import { make, sentence } from "./elements.js";
 import { shownLog, state } from "./logs.js";
 import { at } from "./page.js";
 
@@ -33,14 +33,14 @@ async function showLoops(event) {
   unitsShown = query.units;
   at("loop-parts").hidden = !query.motor;
   try {
-    const { gains, rows, doubts, symbol } = await ask(`feedback?${new URLSearchParams({ ...query, before })}`);
+    const { gains, rows, symbol } = await ask(`feedback?${new URLSearchParams({ ...query, before })}`);
     if (showLoops.asked !== asked) return;
     if (query.motor || before) for (const name of ["kV", "kA", "velocity_error", "position_error"]) if (name in gains) form[name].value = Number(gains[name].toPrecision(DIGITS));
     for (const one of form.querySelectorAll("i")) one.textContent = symbol;
-    const shown = rows.map(({ loop, gains: words, step }) => [
-      make("dt", "", `${loop} loop`), make("dd", "", words.join("\n")), make("dd", "quiet", `In simulation, it ${step}.`)]);
-    const why = query.motor && !query.load ? "Type the mass or the inertia, for kA." : doubts.length ? "" : "There are none: kV and kA have to be above zero.";
-    at("loop-gains").replaceChildren(...rows.length ? shown.flat() : [make("dd", "quiet", why)], ...doubts.map((one) => make("dd", "advice", prose(one))));
+    const shown = rows.map(({ loop, gains: words, step, instead }) => [make("dt", "", `${loop} loop`),
+      make("dd", "", make("b", "", words), make("p", "", step), instead && make("p", "look", instead))]);
+    const why = query.motor && !query.load ? "Type the mass or the inertia, for kA." : "There are none: kV and kA have to be above zero.";
+    at("loop-gains").replaceChildren(...rows.length ? shown.flat() : [make("dd", "", why)]);
   } catch (problem) {
     if (showLoops.asked === asked) at("loop-gains").replaceChildren(make("dd", "advice", sentence(problem)));
   }

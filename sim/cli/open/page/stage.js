@@ -45,10 +45,10 @@ function showRuns(log) {
 
 /** The faults that have a place on the time axis, and the parts that were left out. */
 export function listMarks(log) {
-  const faults = (log.faults?.faults ?? []).filter((one) => one.run !== null && one.test)
-    .map((one) => ({ run: one.run, start: one.start_s, end: one.end_s, name: one.fault, color: "fault" }));
+  const faults = (log.faults?.faults ?? []).map((one, k) => ({ ...one, start: one.start_s, end: one.end_s, number: `${k + 1}`, color: "fault" }))
+    .filter(({ run, test }) => run !== null && test);
   const left = log.leftOut.flatMap(({ test, start, end }) => log.runs.flatMap(({ test: of, time }, run) =>
-    (of === test && time.at(-1) >= start && time[0] <= end ? [{ run, start: Math.max(start, time[0]), end: Math.min(end, time.at(-1)), name: "", color: "quiet" }] : [])));
+    (of === test && time.at(-1) >= start && time[0] <= end ? [{ run, start: Math.max(start, time[0]), end: Math.min(end, time.at(-1)), color: "quiet" }] : [])));
   return [...left, ...faults].sort((one, other) => one.run - other.run || one.start - other.start);
 }
 
@@ -97,7 +97,7 @@ export function showCursor(cursor) {
   const values = chart.shown.curves.filter(({ label }) => label).map(({ label, of, unit, color }) => {
     const one = run && of(chart, cursor.run);
     const value = one?.values[cursor.sample - one.first];
-    return [label, value === undefined ? "–" : `${figure(value)} ${unit(chart)}`, color];
+    return [label, Number.isFinite(value) ? `${figure(value)} ${unit(chart)}` : "–", color];
   });
   const rows = [["run", run ? run.test : "point at the curve", "run"], ...times, ...values];
   at("readout").replaceChildren(...rows.map(([name, value, kind = ""]) => make("div", kind, make("dt", "", name), make("dd", "", value))));

@@ -9,6 +9,7 @@ export function showStory() {
   const { search } = log;
   const place = at("story");
   at("look").hidden = Boolean(search);
+  showModels(log);
   if (search && !search.story && !search.refused) {
     const bar = place.querySelector("progress") ?? make("progress", { max: 1, "aria-label": "How far the search is" });
     const end = place.querySelector(".stop") ?? button("button stop", "Stop", () => stop(log));
@@ -22,12 +23,12 @@ export function showStory() {
     ? [make("p", "quiet", "Tries every effect of the catalogue, drag to backlash, and names those that explain the simulation error. ", log.summary.compiled
         ? "This takes seconds, and up to a minute on a slow laptop." : "This takes minutes: Numba is not installed. With the extra fast it takes seconds.")]
     : search.refused ? [make("li", "grave", search.refused)]
-      : storyParts(search.story, log, (effects) => guarded(log.name, () => chooseEffects(log, effects)));
+      : storyParts(search.story, log);
   place.replaceChildren(...parts, searchForm(search, others, (settings) => guarded(log.name, () => reconcile(log, settings))));
 }
 
 /** The headline, the models to choose from, the findings, and where the base model is wrong. */
-function storyParts(story, log, choose) {
+function storyParts(story, log) {
   const found = story.findings.map((one) => make("article", "finding",
     make("h3", "", plain(one.name), make("span", "badge", one.kind === "fault" ? "damage" : one.size)),
     make("p", "", one.sentence),
@@ -38,23 +39,32 @@ function storyParts(story, log, choose) {
   const places = story.places.length
     ? [make("p", "quiet places", "Where the base model is wrong most"), make("ul", "doubts", story.places.map((one) => make("li", "busy", one)))]
     : [];
-  const tried = foldedItem("busy", "Tried", `Score of each effect, and whether it was added. ${story.tried.join("; ")}.`);
-  const models = story.effects.length && log.plain ? [modelChoice(story, log, choose)] : [];
+  const tried = foldedItem("busy", "Tried", `What became of each effect. ${story.tried.map(plain).join("; ")}.`);
+  const models = story.effects.length && log.plain ? [gainsTable(story, log)] : [];
   return [make("p", "headline", prose(story.headline)), ...models, gapBars(story), ...found, make("ul", "doubts", rest, tried), ...places, make("p", "quiet how", story.how)];
 }
 
-/** A box to tick for each effect, and the gains without effects and with those ticked. */
-function modelChoice({ effects, why_unticked: reason }, { effects: chosen, plain: without, fit }, choose) {
+/** A box to tick for each effect that was found, above the curves that it changes. */
+function showModels(log) {
+  const effects = log.plain ? log.search?.story?.effects ?? [] : [];
   const boxes = effects.map((name) => {
-    const onchange = ({ target }) => choose(effects.filter((one) => (one === name ? target.checked : chosen.includes(one))));
-    return make("label", "", make("input", { type: "checkbox", checked: chosen.includes(name), onchange }), plain(name));
+    const chosen = (ticked) => effects.filter((one) => (one === name ? ticked : log.effects.includes(one)));
+    const onchange = ({ target }) => guarded(log.name, () => chooseEffects(log, chosen(target.checked)));
+    return make("label", "", make("input", { type: "checkbox", checked: log.effects.includes(name), onchange }), plain(name));
   });
+  at("models").hidden = !effects.length;
+  at("models").replaceChildren(make("legend", "", "Effects in the model"), ...boxes);
+}
+
+/** The gains without effects and with those ticked. */
+function gainsTable({ why_unticked: reason }, { effects: chosen, plain: without, fit }) {
   const say = ({ text, error_text: error }) => `${text} ±\u00a0${error}`;
   const row = (tag, words) => make("tr", "", words.map((one) => make(tag, "", one)));
   const withThem = chosen.length ? [`with ${chosen.map(plain).join(", ")}`] : [];
   const table = make("table", "gains-table", row("th", ["gain", "without", ...withThem, "unit"]),
     without.gains.map((gain, k) => row("td", [gain.label, say(gain), ...withThem.map(() => say(fit.gains[k])), gain.unit])));
-  return make("fieldset", "models", make("legend", "", "Effects in the model"), boxes, reason && make("p", "quiet", `${reason} Tick an effect to see what it changes.`), table);
+  return make("div", "models", reason && make("p", "quiet", `${reason} Tick an effect to see what it changes.`), table,
+    button("link", "Tick effects above the curves", () => at("models").scrollIntoView({ block: "center", behavior: "smooth" })));
 }
 
 /** Other open logs that take part, and the button that begins a search. */

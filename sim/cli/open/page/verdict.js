@@ -16,16 +16,14 @@ export function showFaults() {
     return;
   }
   chart.mark({ faults: listMarks(log) });
-  const growing = log.revision > 0; // then a missing test is not a fault
-  const faults = log.faults.faults.filter(({ fault }) => !(growing && fault === "missing-test"))
-    .sort((a, b) => b.confidence - a.confidence);
+  const { faults } = log.faults;
   const rows = faults.slice(0, MOST_SHOWN).map((one) => faultCard(log, one));
   if (faults.length > MOST_SHOWN) rows.push(make("li", "busy", `${faults.length - MOST_SHOWN} more are marked on the time axis.`));
   const none = `No fault in ${log.runs.length === 1 ? "this run" : `these ${log.runs.length} runs`}.`;
   place.replaceChildren(...rows.length ? rows : [make("li", "well", none)]);
   const left = faults.filter((one) => !isLeftOut(log, one));
   const lines = left.slice(0, MOST_LINES).map((one) => {
-    const words = `${one.fault.replaceAll("-", " ")} (${one.sureness})${one.test ? `: ${nameOfTest(log, one)}` : ""}`;
+    const words = `${titleOf(log, one)} (${one.sureness})${one.test ? `: ${nameOfTest(log, one)}` : ""}`;
     return make("li", "grave", button("link", words, () => showFault(one)), canLeaveOut(one) && make("span", "leave", " · ", leaveButton(log, one, "link")));
   });
   if (left.length > MOST_LINES) lines.push(make("li", "busy", button("link", `${left.length - MOST_LINES} more below`, () => at("faults").scrollIntoView({ behavior: "smooth" }))));
@@ -40,6 +38,8 @@ function showFault(one) {
   at(placed ? "plot" : "faults").scrollIntoView({ block: "center", behavior: "smooth" });
 }
 
+/** The name of a fault, after the number that marks it in the chart. */
+const titleOf = (log, one) => `${log.faults.faults.indexOf(one) + 1} ${one.fault.replaceAll("-", " ")}`;
 const nameOfTest = (log, { run, test }) => `${log.runs[run]?.part ?? ""} ${test}`.trim();
 const partOf = (one) => ({ test: one.test, start: one.start_s, end: one.end_s });
 
@@ -51,7 +51,7 @@ function isLeftOut(log, one) {
 function faultCard(log, one) {
   const where = one.run === null ? one.test : `${nameOfTest(log, one)}, ${one.start_s.toFixed(2)} to ${one.end_s.toFixed(2)} s`;
   return make("li", "fault",
-    make("h3", "", one.fault.replaceAll("-", " "), make("span", "badge", one.sureness)),
+    make("h3", "", titleOf(log, one), make("span", "badge", one.sureness)),
     one.test && make("p", "where", where),
     make("p", "", prose(one.evidence)), make("p", "advice", prose(one.advice)),
     canLeaveOut(one) && [button("button small", "Show", () => showFault(one)), " ", leaveButton(log, one, "button small")]);

@@ -12,7 +12,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from sim.core.advice import Action
-from sim.core.doubt import Doubt
+from sim.core.doubt import OF_POSITION, Doubt
 from sim.core.errors import BadRequest, UnreadableFile
 from sim.core.log import LARGEST, Log
 from sim.core.units import UNITS, find_unit
@@ -131,6 +131,7 @@ def _read_units(
             "contradicting-units",
             f"{where}: the file says {found}, but you chose {options.units}.",
             action=Action("own-units"),
+            gains=OF_POSITION,
         )
         return options.units, (doubt,) if found is not None and known != options.units else ()
     if found is None:
