@@ -24,7 +24,7 @@
 # - say what *system identification* is, and how it differs from guessing;
 # - say when a measured gain is better than a guessed gain, and when it is not;
 # - say which gain changes when the robot gets heavier, and which do not;
-# - use the three tools of this course, and find the exercise numbers that belong to your name.
+# - use the three tools of this course, and find your own numbers for its exercises.
 #
 # **How a lesson works.** Gray cells hold code. Click into one and press *Shift + Enter*: the cell
 # runs, and its answer appears below. Go through the page from top to bottom, and run every cell.
@@ -289,7 +289,7 @@ Table(
 # The program sets the voltage only every 20 ms, but the motion changes all the time.
 # </details>
 #
-# On a real robot, the four tests of line one would need this much driving:
+# On a real robot, the four tests of your opponent would need this much driving:
 
 # %%
 spent = sum(float(run.time[-1] - run.time[0]) for run in log.runs)
@@ -306,7 +306,7 @@ print(f"The longest test drives {farthest:.1f} m. (Lesson 3 shows how to test in
 race(KS, KV, KA)
 
 # %% [markdown]
-# ## 4 A third way: a pencil is enough for kV
+# ## 4 A third way: a pencil and a ruler
 #
 # A teammate says: "I do not move sliders. I give the robot 1 V, wait until the speed is steady, and
 # write the speed down. Then I do the same with 2 V, 3 V, 4 V and 5 V. Then I draw a straight line
@@ -367,9 +367,9 @@ Table(
 )
 
 # %% [markdown]
-# The kV from the pencil is nearly as good as the kV from the three lines. Often its kS is good,
-# too. If you draw with care, the line is *good*. A maintainer of WPILib (a person who develops it)
-# calls it "the better way" to find kS and kV by hand. ([frc-docs issue
+# The kV from the pencil is nearly as good as the kV from the three lines. The kS from the pencil is
+# often good, too. If you draw with care, the line is *good*. A maintainer of WPILib (a person who
+# develops it) calls it "the better way" to find kS and kV by hand. ([frc-docs issue
 # 2712](https://github.com/wpilibsuite/frc-docs/issues/2712))
 #
 # So the race was not "human against computer". Your teammate did *not* search for a number that
@@ -624,8 +624,8 @@ Table(
 # | `sysid` | simulates, reads, fits and inspects logs, also those of a real robot |
 #
 # You type the last two in a **terminal** (in JupyterLab: *File*, *New*, *Terminal*), in the
-# course's folder. If it says "not found", type `python -m` in front, as in `python -m grader`. If
-# that fails too, this line installs everything:
+# course's folder. If it says "not found", type `.venv\Scripts\activate` on Windows, or `source
+# .venv/bin/activate` elsewhere, and try again. If that fails too, this line installs everything:
 #
 # ```
 # python -m grader start
@@ -773,8 +773,8 @@ ExerciseQuestions("exercise11", "Q0_guess", "Q0_sysid", "Q0_brace")
 #
 # <details><summary>More, if you like</summary>
 #
-# - Drive your robot with your neighbor's gains: `drive(robot, {...})`. Which of the three gains
-#   causes the largest error?
+# - Drive your robot with your neighbor's gains, for example `typical_error(robot, {"kS": 0.2, "kV":
+#   2.4, "kA": 0.2})`. Which of the three gains causes the largest error?
 # - Write another name above, and run the page again (menu: *Run*, *Run All Cells*).
 # </details>
 #

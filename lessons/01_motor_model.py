@@ -121,7 +121,7 @@ ask_question("lesson1.seven")
 # %%
 left = 7.0 - sum(bill(2.0, 0.0).values())
 Table(
-    ("left of 7 V [V]", "if kA·a takes these volts, a is [m/s²]", "if a is zero, kV is [V·s/m]"),
+    ("rest of 7 V [V]", "if kA·a takes these volts, a is [m/s²]", "if a is zero, kV is [V·s/m]"),
     ((left, left / gains["kA"], (7.0 - gains["kS"]) / 2),),
 )
 
@@ -133,9 +133,10 @@ Table(
 # %% [markdown]
 # ## 3 Doing it: the voltage budget
 #
-# From the robot's *motion*, the next picture computes the three terms for every moment of a drive,
-# and draws them as three colored areas, one on top of the other. The thick line is the voltage that
-# the motors really got (the *applied* voltage). If the model is right, the areas reach this line.
+# The next picture shows a drive. For every moment it computes the three terms from the robot's
+# *motion*, and draws them as three colored areas, one on top of the other. The thick line is the
+# voltage that the motors really got (the *applied* voltage). If the model is right, the areas reach
+# this line.
 # Move the slider below the picture: it sets the time, and the robot moves.
 #
 # There are three drives:
@@ -331,9 +332,10 @@ print(f"theoretical kV: 12 V / {free_speed:.2f} m/s = {12 / free_speed:.3f} V·s
 print(f"With kV = 0.4 V·s/m, 12 V would give 12 / 0.4 = {12 / 0.4:.0f} m/s: no robot is so fast.")
 
 # %% [markdown]
-# The next table has the theoretical kV of eight motors without gears. `DCMotor`, WPILib's class for
-# motor data, also subtracts a small voltage that is lost inside the motor, so its kV is a little
-# lower: see the last column. (FOC is a mode of the Kraken that needs a paid license.)
+# The next table has the theoretical kV of eight motors without gears. WPILib's class for motor
+# data, `DCMotor`, first subtracts from the 12 V a small voltage that is lost inside the motor. So
+# this class gets a kV that is a little lower: see the last column. (FOC is a mode of the Kraken
+# that needs a paid license.)
 #
 # <details><summary>For mentors: 12 V ÷ free speed, with source</summary>
 #
@@ -365,7 +367,7 @@ Table(
 # %% [markdown]
 # ### Measured kV against theory
 #
-# A real kV is a little **above** the theoretical kV, because grease and seals brake more at higher
+# A real kV is a little **above** the theoretical kV, because a part of the friction grows with the
 # speed. If the measured kV is far above theory, something is wrong. If it is **below**, somebody
 # wrote down a wrong number, because a motor cannot turn faster than its free speed.
 #
@@ -379,7 +381,8 @@ Table(
 # (These limits are rough rules. Data sheets are rounded, so 1 or 2 % below proves nothing.)
 #
 # Here are seven robots with the same drivetrain. All except the first have one fault. Which robots
-# have a kV more than 20 % above theory? The picture shows three of them, the table all seven.
+# have a kV more than 20 % above theory? The picture shows three of the seven robots, and the table
+# shows all of them.
 #
 # **Predict:**
 
@@ -438,8 +441,9 @@ tabulate_gains(SETS, first="robot", more={"kV above theory": above})
 #
 # 1. **Numbers** (at a desk): check gear ratio, wheel size, units and the kind of motor.
 # 2. **Electrical** (in the log): did the logged voltage really reach the motors? Do all motors have
-#    power? If one motor has no power, the others do its work, and kS and kA grow. If its controller
-#    is in *brake mode* (it brakes a motor that gets no voltage), kV grows, too.
+#    power? If one motor has no power, the others do its work, and kS and kA grow. If the
+#    controller of that motor is in *brake mode* (it brakes a motor that gets no voltage), kV grows,
+#    too.
 # 3. **Mechanical** (with a wrench): check belt, chain, bearings and grease. Turn the mechanism by
 #    hand. Is any part hot after a test?
 #
@@ -552,8 +556,9 @@ print(f"kV × {TYPICAL:g} m/s = {flag:.1f} V. The rule says stop only if kS is a
 print(f"which is {100 * flag / 12:.0f} % of 12 V. Our drivetrain's kS is {gains['kS']:.2f} V.")
 
 # %% [markdown]
-# So this rule warns very late. Add a lower limit named **watch**: kS above 0.5 V, which is about
-# 4 % of 12 V. (This rule is our own. Some healthy mechanisms with a high gear ratio are above it.)
+# So this rule warns very late. Add a second rule that warns earlier, named **watch**: kS is above
+# 0.5 V, which is about 4 % of 12 V. (This rule is our own. Some healthy mechanisms with a high gear
+# ratio are above it.)
 #
 # Two warning signs need no limit:
 #

@@ -16,18 +16,19 @@
 # *About 40 minutes. You need lesson 1: what kS, kV and kA mean. Section 4 uses the cosine and
 # explains it.*
 #
-# ![The speed of an elevator over its voltage. Below 1.76 V it sinks, above 2.26 V it rises. Between
-# them it stays, and kG is in the middle.](attachment:picture.png)
+# ![The height of an elevator after somebody lets go of it. With 0 V it falls, with 2 V it stays,
+# and with 4 V it rises.](attachment:picture.png)
 #
 # **At the end you can**
 #
-# - say what kG is, and why a whole *window* of voltages holds an elevator still;
-# - find kG and kS from two voltages, and say which edge of this window a method finds;
+# - say what kG is, and which voltages hold an elevator still;
+# - find kG and kS from two voltages, and say whether a method finds a kG that is too small or too
+#   large;
 # - find kG and kS of an arm, and correct the zero of its encoder (the sensor that measures
 #   position);
 # - choose SysId's analysis type and WPILib's feedforward class, with the arguments in the right
 #   order;
-# - explain why driving only up cannot separate kG from kS.
+# - say which gains you get if you drive an elevator only up.
 
 # %% [markdown]
 # ## 1 Why: an elevator falls
@@ -149,8 +150,8 @@ print(f"elevator: kG/kA = {truth['kG'] / truth['kA']:.2f} m/s². Gravity is 9.81
 #
 # - In a **cascade**, a lower stage moves, too, at half the carriage's speed: kG/kA is between g and
 #   2·g. (g is the acceleration of gravity.)
-# - A **counterweight** on the other end of the rope adds mass that must be accelerated, and takes
-#   away weight: the motor accelerates more mass, but lifts less weight. So kG/kA is below g.
+# - With a **counterweight** on the other end of the rope, the motor lifts less weight, but
+#   accelerates more mass. So kG/kA is below g.
 #
 # <details><summary>Want to know why?</summary>
 #
@@ -186,9 +187,9 @@ less = truth["kG"] - 0.15
 print(f"{less:.2f} V: after 0.4 s the carriage moves at {let_go(less):.3f} m/s.")
 
 # %% [markdown]
-# The carriage stays. Friction acts against *any* motion, even falling, so friction helps
-# you to hold the carriage. The carriage sinks only if your voltage is less than kG − kS. The
-# carriage rises only if your voltage is more than kS above kG.
+# The carriage stays. Friction acts against *any* motion, even falling, so friction helps you to
+# hold the carriage. The carriage sinks only if your voltage is less than kG − kS. The carriage
+# rises only if your voltage is more than kG + kS.
 #
 # So there is a **window** of voltages, from kG − kS to kG + kS, in which nothing moves. Two common
 # methods for kG raise the voltage little by little. One method stops when the carriage no longer
@@ -537,7 +538,7 @@ Table(
 # voltage.
 
 # %% [markdown]
-# ## 6 Only up: two gains become one
+# ## 6 Only up: is that enough?
 #
 # Nobody likes the tests in which an elevator moves down (the reverse tests). The carriage drops as
 # soon as the test starts, and somebody has to lift it again. Can you skip the reverse tests and

@@ -217,9 +217,9 @@ animate_charts(
 #
 # <details><summary>Want to know why the error in the picture is a little larger?</summary>
 #
-# The small difference has two causes. Each row contains the current speed, but the voltage for the
-# next 20 ms, so on average voltage and speed are 10 ms apart. And noise in the velocity makes the
-# line a little flatter (lesson 7).
+# The small difference has two causes. Each row contains the speed at its time, but the voltage for
+# the next 20 ms, so on average voltage and speed are 10 ms apart. And noise in the velocity makes
+# the line a little flatter (lesson 7).
 # </details>
 #
 # SysId itself does not read an intercept: it fits all runs at once, and its model has a kA term for
@@ -257,7 +257,7 @@ animate_charts(
 # bar of a gain shows its *standard error* (the typical error from noise alone). A bar as long as
 # the gain itself means: this gain is **unknown**.
 #
-# **Predict** before you make tests shorter:
+# **Predict** what happens when a test is missing:
 
 # %%
 display(ask_question("lesson3.drop"), ask_question("lesson3.ramps"))
@@ -353,10 +353,10 @@ Table(("runs", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "simulated velocity R²
 
 # %% [markdown]
 # A fit of one direction alone gives good gains. A fit of both directions together gives a wrong kA,
-# because the model has only one kS for both directions. And its kS is nearly 0: the ramps show only
-# the sum of kS and kA·(ramp/kV), so a kA that is too large makes kS too small (lesson 7, section
-# 8). The simulated velocity R² (SysId's score; 1 is perfect, lesson 7) stays high. So compare the
-# gains of the forward runs with the gains of the reverse runs.
+# because the model has only one kS for both directions. The kS of this fit is wrong, too, and
+# nearly 0: the ramps show only the sum kS + kA·(ramp/kV). If kA is too large in this sum, kS
+# becomes too small (lesson 7, section 8). The simulated velocity R² (SysId's score; 1 is perfect,
+# lesson 7) stays high. So compare the gains of the forward runs with the gains of the reverse runs.
 #
 # Without the reverse runs you would know only the first row of the table. In reverse, your
 # feedforward would give only a third of the voltage that friction needs.
@@ -450,8 +450,8 @@ Table(
 # %% [markdown]
 # ## 7 Choose the step: hard enough, not too hard
 #
-# After a large voltage step, the acceleration is much larger than its noise. But three things limit
-# the step:
+# A large voltage step gives a large acceleration, which is easy to tell from noise. But three
+# things limit the step:
 #
 # 1. **Grip.** Wheels slip when the motors push harder than the carpet can hold. From standstill
 #    they slip if the voltage is above `V_slip = kS + kA·μ·g`. The grip μ is about 1.1 on carpet
@@ -676,8 +676,8 @@ display(ask_question("lesson3.quick"), enable_checkboxes())
 #
 # <details><summary>Answer</summary>
 #
-# The ramps are missing: with one constant voltage, the acceleration falls evenly as the speed
-# rises. So all rows give two equations for three gains.
+# The ramps are missing. With one constant voltage, the rows only show the final speed and how
+# quickly the robot reaches it. Two numbers are not enough for three gains.
 # </details>
 #
 # **4.** A fit of the forward runs gives kS = 0.14 V. A fit of the reverse runs gives 0.38 V. What

@@ -138,8 +138,8 @@ tabulate_fits({"correct": right, "without positions": no_positions}, truth)
 # %% [markdown]
 # ## 3 Doing it: the routine, part by part
 #
-# SysId needs no project of its own. You add the routine as a field to a subsystem that you already
-# have, because the subsystem contains the motors and the encoders.
+# You need no separate project for SysId. You add the routine as a field to a subsystem that you
+# already have, because the subsystem contains the motors and the encoders.
 #
 # ### Two arguments
 #
@@ -267,13 +267,13 @@ animate_mechanism(
 #
 # The routine gives your drive callback a voltage. You send it to **every** motor of the mechanism,
 # but not to a *follower*: a motor that your code has told to copy another motor, its leader. The
-# leader gets the voltage, and the follower copies it. A command of its own would end the copying.
-# Two motors that face each other would then push against each other.
+# leader gets the voltage, and the follower copies it. If you also send the follower a voltage, it
+# stops copying. If the two motors face each other, they then push against each other.
 # ([`Follower` of phoenix6 26.3.0](https://pypi.org/project/phoenix6/26.3.0/)) There are three
 # rules:
 #
 # 1. **Open loop.** Nothing may correct the motion. Use no PID, no `VelocityVoltage` and no Motion
-#    Magic. If a controller corrects the motion, SysId also measures this controller.
+#    Magic. If a controller corrects the motion, the gains describe this controller, too.
 # 2. **A voltage, not a fraction of the battery voltage.** `set(0.3)` means "30 % of the present
 #    battery voltage". The battery voltage drops when motors draw current, so the motor gets less
 #    voltage than you expect. You can test this in section 4.
@@ -722,9 +722,9 @@ tabulate_fits({name: log for name, (log, _) in programs.items()}, truth)
 # sysid fit FRC_20260214_153000.wpilog --method sysid
 # ```
 #
-# `sysid fit` takes the analysis type from the mechanism's name: if *elevator* or *arm* is a word of
-# it, this is the type, otherwise the type is `simple`. `--type` chooses another one. When WPILib's
-# SysId window opens, the type *Elevator* is selected, so check its menu.
+# `sysid fit` looks for the word *elevator* or *arm* in the mechanism's name, and uses it as the
+# analysis type. Without such a word the type is `simple`. `--type` chooses another one. When
+# WPILib's SysId window opens, the type *Elevator* is selected, so check its menu.
 #
 # <details><summary>For mentors: where the log is</summary>
 #
@@ -835,8 +835,8 @@ display(ask_question("lesson4.quick"), enable_checkboxes())
 # <details><summary>Answer</summary>
 #
 # During a test, the safety code in your commands does not run. But limits in the motor controller
-# work if you set them up, so set them. If a limit acts during a test, run this test again: while
-# the limit acts, you measure the limit and not the motor.
+# work if you set them up, so set them. If a limit acts during a test, run all four
+# tests again with a lower voltage: while the limit acts, you measure the limit and not the motor.
 # </details>
 #
 # **3.** You have two logs of one robot. Both have a simulated velocity R² near 0.99, but one log

@@ -17,7 +17,7 @@
 # 6, and take them to the robot.*
 #
 # ![The speed of a robot over its distance from the start, with a wall at 12 m. A robot that is
-# stopped at a tape stands at 8 m. Without a tape, it hits the wall at 3
+# stopped at a tape stands still before the wall. Without a tape, it hits the wall at 3
 # m/s.](attachment:picture.png)
 #
 # **At the end you can**
@@ -359,8 +359,8 @@ Table(("skipped", "found in the log", "kS ÷ true", "kV ÷ true", "kA ÷ true"),
 # - **3 encoder.** On the floor, *everything looks normal*. Nobody notices the mistake until every
 #   gain is negative.
 # - **4 log.** The tests were perfect, and you have no log.
-# - **5 guard.** In the step test the robot hits the wall, and may hurt somebody. A later log is
-#   good.
+# - **5 guard.** In the step test the robot hits the wall, and may hurt somebody. The log of later
+#   tests is good, and does not show this accident.
 
 # %% [markdown]
 # ## 4 Five checks, and the reasons for them
@@ -378,10 +378,10 @@ Table(("skipped", "found in the log", "kS ÷ true", "kV ÷ true", "kA ÷ true"),
 # ### Battery
 #
 # A charged battery shows 12.7 V or more at rest. At 12 V there is no brownout yet: a roboRIO 1
-# disables the motors below 6.3 V, and a roboRIO 2 below 6.75 V, unless you change this limit. Is kA
-# wrong then? The next cell runs the tests with two batteries and two step voltages. It computes kA
-# once from the voltage that was **applied** to the motors, and once from the voltage that the code
-# **commanded**.
+# disables the motors below 6.3 V, and a roboRIO 2 below 6.75 V, unless you change this limit. Does
+# an old or empty battery make kA wrong? The next cell runs the tests with two batteries and two
+# step voltages. It computes kA once from the voltage that was **applied** to the motors, and once
+# from the voltage that the code **commanded**.
 #
 # <details><summary>For mentors: batteries below 12 V, with source</summary>
 #
@@ -480,8 +480,9 @@ animate_charts(
 #
 # Disable the robot and push the mechanism **forward** by hand. On the dashboard or in
 # AdvantageScope, the position must **rise** smoothly, and the velocity must be positive. Then
-# enable the robot and apply a small positive voltage: the mechanism must move forward, too. The
-# most important check is that a positive voltage gives a positive velocity. SysId's score R² stays
+# enable the robot, and hold the button *quasistatic forward* for a second: its voltage is still
+# small, and the mechanism must move forward, too. The most important check is that a positive
+# voltage gives a positive velocity. SysId's score R² stays
 # high even if the velocity has the wrong sign (lesson 6).
 #
 # ### Log
@@ -491,11 +492,11 @@ animate_charts(
 # ### Guard
 #
 # A guard is the condition in your code that locks the tests (lesson 4 shows three kinds). Lock the
-# tests with the guard, and enable the robot. (If your guard is Test mode, called *Utility* in 2027,
-# enable in Teleop.) Press all four buttons. Nothing may move. During the tests, the only job of one
-# person is to press *Disable*. In the 2026 Driver Station the **Enter** key disables the robot. The
-# **space bar** is the emergency stop: it works even if another window is in front, and you have to
-# reboot the roboRIO afterwards. ([WPILib docs: Driver
+# tests with the guard, and enable the robot: if Test mode (*Utility* mode in 2027) is your guard,
+# enable it in Teleop. Press all four buttons. Nothing may move. During the tests, the only job of
+# one person is to press *Disable*. In the 2026 Driver Station the **Enter** key disables the robot.
+# The **space bar** is the emergency stop: it works even if another window is in front, and you have
+# to reboot the roboRIO afterwards. ([WPILib docs: Driver
 # Station](https://docs.wpilib.org/en/stable/docs/software/driverstation/driver-station.html))
 #
 # Safety code in your own *commands* does not run during a test. Limits *in the motor controller*
@@ -614,8 +615,8 @@ print(f"With the commanded voltage, it gives {asked:.2f} times the true kA.")
 # 5. Hold the button **quasistatic forward** until the robot reaches the tape. *Expect:* a slow
 #    start, then more and more speed, for at least 3 s.
 # 6. Hold the button **quasistatic reverse**. *Expect:* the same, but backward.
-# 7. Hold the button **dynamic forward**, and let go early. *Expect:* a sudden start, then a steady
-#    speed.
+# 7. Hold the button **dynamic forward** until the speed is steady, at most until the tape.
+#    *Expect:* a sudden start, then a steady speed.
 # 8. Hold the button **dynamic reverse**. *Expect:* the same, but backward.
 # 9. **Disable.** Fetch the log (section 5). *Expect:* one new `.wpilog`.
 # 10. Type `sysid inspect FILE.wpilog`. *Expect:* 4 runs, no fault found.
@@ -783,9 +784,10 @@ tabulate_gains({"the log": fit(mine, method="sysid").in_log_units().gains})
 #   SPARK).
 # - A NEO's own encoder filters the velocity so much that the logged velocity is about 0.1 s late
 #   (lesson 6). Shorten the filter *before* the tests, in `config.encoder`: `uvwMeasurementPeriod`
-#   (32 ms; from 8 ms) and `uvwAverageDepth` (8 samples; 1, 2, 4 or 8). ([`EncoderConfig` of
-#   robotpy-rev 2026.0.4](https://pypi.org/project/robotpy-rev/2026.0.4/)) **Do it** with 8 ms and a
-#   depth of 2, and run one step with each setting. Which kA does `sysid fit` find?
+#   (32 ms by default, at least 8 ms) and `uvwAverageDepth` (8 samples by default; 1, 2, 4 or 8).
+#   ([`EncoderConfig` of robotpy-rev 2026.0.4](https://pypi.org/project/robotpy-rev/2026.0.4/)) **Do
+#   it** with 8 ms and a depth of 2, and run one step with each setting. Which kA does `sysid fit`
+#   find?
 # </details>
 #
 # <details><summary>If your team uses AdvantageKit</summary>
@@ -942,7 +944,7 @@ display(ask_question("lesson5.quick"), enable_checkboxes())
 #
 # You must be careful. But limits that you set in the motor controller work during a test. The only
 # limits that do not work are those in your other commands. So set the limits in the motor
-# controller. If such a limit acts during a test, run this test again with a lower voltage.
+# controller. If such a limit acts during a test, run all four tests again with a lower voltage.
 # </details>
 #
 # **3.** The tests went well, but the Driver Station's folder contains no `.wpilog`. Where do you
@@ -1004,7 +1006,7 @@ display(ask_question("lesson5.quick"), enable_checkboxes())
 # ### On your own robot: instrument a subsystem
 #
 # 1. Choose a subsystem with a motor: drivetrain, shooter, arm or elevator. Give it a `SysIdRoutine`
-#    with 0.5 V/s, a small step and a timeout of 10 s (lesson 4).
+#    (lesson 4) with the ramp, the small step and the timeout of your own plan (lesson 3).
 # 2. Write the two callbacks. Bind the four tests, each with a comment that names the test and what
 #    it measures, and lock them.
 # 3. Make the five checks, and run the four tests (section 6).

@@ -57,7 +57,7 @@ def test_sum_of_both_shares_and_edge_in_place_of_ks_are_named(copy):
     results = grade_answer(copy, student="kim", arm_kG=shares, arm_kS=rows[0.0].upper)
 
     assert "that is A + B" in results["arm-kg"].hint
-    assert "an edge of the band" in results["arm-ks"].hint
+    assert "an edge of the window" in results["arm-ks"].hint
 
 
 @pytest.mark.parametrize(

@@ -56,14 +56,23 @@ def test_without_a_file_the_better_starter_is_graded_and_named(all_exercises, ca
     assert JAVA in capsys.readouterr().out.splitlines()[0]
 
 
-def test_a_ramp_beyond_the_battery_is_no_fault_of_the_drive_callback(tmp_path):
+@pytest.mark.parametrize(
+    ("old", "new", "wrong"),
+    [
+        ("rampRate=0.5, stepVoltage=3.5", "rampRate=3.5, stepVoltage=0.5", ["ramp", "step"]),
+        ("timeout=10.0", "timeout=0.01", ["timeout"]),
+        ("self.right.setVoltage(", "self.left.setVoltage(", ["drive"]),
+    ],
+    ids=["a ramp beyond the battery", "no time to log", "a motor at rest"],
+)
+def test_a_mistake_is_no_fault_of_the_callback_that_is_right(tmp_path, old, new, wrong):
     right = (ROOT / "solutions" / "exercise4" / PYTHON).read_text("utf-8")
-    swapped = right.replace("rampRate=0.5, stepVoltage=3.5", "rampRate=3.5, stepVoltage=0.5")
-    (tmp_path / PYTHON).write_text(swapped, encoding="utf-8")
+    assert old in right
+    (tmp_path / PYTHON).write_text(right.replace(old, new), encoding="utf-8")
 
     grade = EXERCISE.grade(tmp_path / PYTHON, student="ada")
 
-    assert [one.id for one in grade.checks if one.points < one.max_points] == ["ramp", "step"]
+    assert [one.id for one in grade.checks if one.status == "failed"] == wrong
 
 
 STYLES = (

@@ -22,7 +22,7 @@ class Hold:
 
     @property
     def friction(self) -> float:
-        """Half the width of the band [V]."""
+        """Half the width of the window [V]."""
         return (self.upper - self.lower) / 2.0
 
     @property

@@ -28,9 +28,10 @@ def make_key(variant: Variant, *, offset: float) -> AnswerKey:
     rarer["arm_kG"] += SLIPS.list_lookalikes(
         [("sum", both), *(("row", hold.middle) for hold in variant.arm)]
     )
-    rarer["arm_kS"] += SLIPS.list_lookalikes(
-        ("edge", edge) for hold in variant.arm for edge in (hold.lower, hold.upper)
-    )
+    for mine, rows in (("elevator", (variant.elevator,)), ("arm", variant.arm)):
+        edges = [("edge", edge) for hold in rows for edge in (hold.lower, hold.upper)]
+        middles = [("middle", hold.middle) for hold in rows]
+        rarer[f"{mine}_kS"] += SLIPS.list_lookalikes(edges + middles)
     return AnswerKey(
         variant.asked, Scene(lookalikes=dict(_list_lookalikes(variant, offset)), rarer=rarer)
     )
@@ -87,6 +88,7 @@ def find_offset_slip(value: float, variant: Variant) -> WrongNumber | None:
     right_if_undone = (
         ("sign", -value),
         ("radians", math.degrees(value)),
+        ("quotient", math.degrees(math.atan(value))),
         ("rotations", 360.0 * value),
         ("vertical", value + 90.0),
         ("vertical", value - 90.0),

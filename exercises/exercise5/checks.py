@@ -235,7 +235,8 @@ def _explain_missing(facts: ButtonFacts, lacking: list[str], earned: float) -> N
         f"no button runs {list_tests(lacking) if facts.presses else 'a test'}",
         hint="Four tests, four buttons: two kinds, each forward and reverse. Every button was "
         "pressed alone and together with a second one, in test mode and in teleop. Is the guard "
-        f"true there{f' (lines {join_names(bound)})' if bound else ''}?",
+        f"true there{f' (lines {join_names(bound)})' if bound else ''}? A button that is the guard "
+        "must start no test itself.",
         earned=earned,
     )
 

@@ -42,7 +42,7 @@ def write_causes(*words: str) -> Callable[[str], str]:
 MISTAKES = (
     Mistake("nothing", ANSWERS, make_wrong_answer("kV_theory", '""'), "kv-theory", "nothing yet"),
     Mistake("divided by rpm", ANSWERS, scale_numbers(1 / 60, "kV_theory"), "kv-theory",
-        "Did you divide by rpm?", "M-UNITS"),
+        "Did you divide by a speed per minute?", "M-UNITS"),
     Mistake("radians for rotations, or no way around the wheel", ANSWERS,
         scale_numbers(1 / (2 * math.pi), "kV_theory"), "kv-theory", "2π = 6.28", "M-UNITS"),
     Mistake("one volt for twelve", ANSWERS, scale_numbers(1 / 12, "kV_theory"), "kv-theory",

@@ -1,4 +1,4 @@
-"""Exercise 3, answered by hand: the middle of each band, half its width, two rows of the arm's."""
+"""Exercise 3, answered by hand: middle and half width of each window, two rows of the arm's."""
 
 import math
 import tomllib

@@ -84,9 +84,11 @@ def compare_signal(name: str, signal: str, rows: Sequence["Row"]) -> Signal:
     if not all(_is_number(v) for _, v in pairs):
         return Signal(**made)
     values = [float(v) for _, v in pairs]
-    made["idle"] = not any(abs(speed) > TRUE for row in rows for _, _, speed in row.truth.values())
+    turned = {motor for row in rows for motor, true in row.truth.items() if abs(true[2]) > TRUE}
     made["values"] = (values[0], values[-1])
     made["still"] = max(values) - min(values) <= 1e-9 * max(1.0, abs(values[0]))  # rounding
+    at_rest = not any(values) and turned < rows[0].truth.keys()  # right of a motor that rests
+    made["idle"] = not turned or at_rest
     if signal == "voltage":
         return _compare_voltage([(k, float(v)) for k, v in pairs], rows, made)
     return _compare_motion([(k, float(v)) for k, v in pairs], rows, made, signal)
