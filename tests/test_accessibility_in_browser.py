@@ -15,7 +15,7 @@ from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.cli.open.saved_page import save_page
-from sim.cli.open.session import OpenLog
+from sim.cli.open.session import OpenLog, Reading
 from sim.reconcile import reconcile
 
 pytestmark = [pytest.mark.slow, pytest.mark.browser]
@@ -84,11 +84,12 @@ def test_page_of_sysid_open_is_accessible_in_each_view(browser, tmp_path, viewpo
 
 def write_files(folder):
     """Saved pages, one with a story; the pages of a class, and of the edition with its slides."""
-    save_page(OpenLog(1, "log.csv", write_log(drive_log(), folder / "log.csv")), folder / "s.html")
+    one = OpenLog(1, "log.csv", write_log(drive_log(), folder / "log.csv"))
+    save_page(one, Reading(), folder / "s.html")
     arm = MECHANISMS["arm"].hide("drag", 1.0)
     log = simulate(arm, Routine(step=5.0), rng=np.random.default_rng(5))
     one = OpenLog(1, "arm.csv", folder, finished={"": log})
-    save_page(one, folder / "story.html", reconcile(log, type="arm"))
+    save_page(one, Reading(), folder / "story.html", reconcile(log, type="arm"))
     people = (student("Ada", [1.0, 2.0]), student("Bo", [0.0, 2.0]))
     write_pages(ClassResults("Robotics 1", people, ("exercise1",)), folder)
     cells = [nbformat.v4.new_markdown_cell(WIDE), nbformat.v4.new_code_cell(CODE)]

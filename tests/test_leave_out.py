@@ -103,6 +103,16 @@ def test_a_fit_without_the_slip_has_no_warning(tmp_path, capsys):
     assert "Left out: quasistatic-forward, 5.50 to 6.00 s." in said
 
 
+def test_robot_code_of_a_page_names_what_was_left_out(tmp_path, capsys):
+    path, page = write_log(drive_log(), tmp_path / "log.csv"), tmp_path / "page.html"
+    asked = ["fit", str(path), "--leave-out", "quasistatic-forward:3-3.5", "--html", str(page)]
+
+    assert run_command(sysid, name="sysid", arguments=asked) == 0
+
+    assert "// Left out: quasistatic-forward, 3.00 to 3.50 s" in page.read_text(encoding="utf-8")
+    capsys.readouterr()
+
+
 def test_a_fit_refuses_a_part_it_does_not_know(tmp_path, capsys):
     path = write_log(drive_log(), tmp_path / "drive.csv")
 

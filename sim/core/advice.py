@@ -88,6 +88,10 @@ WORDS = {
         "Run `sysid inspect`, then `sysid reconcile` to find the missing effect.",
         "Look at the faults, then search for what the model lacks.",
     ),
+    "chosen-entries": (
+        f"If that is wrong, name them with {NAMES}.",
+        "If that is wrong, choose other signals.",
+    ),
     "name-entries": (
         f"Or name another logger's entries with {NAMES}.",
         "Or choose another logger's entries by hand.",

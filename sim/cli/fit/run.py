@@ -78,7 +78,8 @@ def fit_files(  # noqa: PLR0917 - click passes options by name
     built = read_motor_parts(driven_by, count=count, ratio=ratio, radius=radius, load=load)
     gone = tuple(map(LeftOutPart.parse, left_out))
     turning = read_turning(straight, mass=mass, lever=lever)
-    parts = leave_out(reader.read_parts(files), gone)
+    complete = reader.read_parts(files)
+    parts = leave_out(complete, gone)
     log = join_parts(parts)
     find = partial(find_gains, type=reader.type or "", method=method, median=median)
     pooled = fit_parts(parts, find, files=len(files))
@@ -92,7 +93,9 @@ def fit_files(  # noqa: PLR0917 - click passes options by name
     tried = try_feedback_gains(found := found.in_log_units(), PRESETS[preset], own=own)
     found = replace(found, doubts=(*found.doubts, *warn_of_bad_suggestions(found, tried)))
     output = _FitOutput(files, found, log, preset, tried, notes, pooled, turned)
-    _write_files(output, html=html, plot=plot, wpilog=wpilog, parts=parts)
+    _write_files(output, plot=plot, wpilog=wpilog, parts=parts)
+    if html is not None:
+        _write_page(output, html, complete, gone)
     return output.echo(as_json=as_json, paste=paste, season=int(season))
 
 
@@ -145,36 +148,37 @@ class _FitOutput:
 
 
 def _write_files(
-    output: _FitOutput, *, html: Path | None, plot: Path | None, wpilog: Path | None, parts: Parts
+    output: _FitOutput, *, plot: Path | None, wpilog: Path | None, parts: Parts
 ) -> None:
     """Write the files that the options name."""
     if wpilog is not None:
         from sim.cli.fit.wpilog import write_replay  # noqa: PLC0415 - inspects the log
 
         write_replay(output.found, parts, wpilog)
-    if html is not None:
-        _write_page(output, html, parts)
     if plot is not None:
         from sim.report.fit_picture import write_picture  # noqa: PLC0415 - Matplotlib takes longer than the fit
 
         write_picture(output.found, output.log, plot)
 
 
-def _write_page(output: _FitOutput, html: Path, parts: Parts) -> None:
+def _write_page(
+    output: _FitOutput, html: Path, complete: Parts, left_out: tuple[LeftOutPart, ...]
+) -> None:
     """Write the page of ``sysid open`` as one file."""
     from sim.cli.open.saved_page import save_page  # noqa: PLC0415 - needs all that a page can show
-    from sim.cli.open.session import OpenLog  # noqa: PLC0415 - the same
+    from sim.cli.open.session import OpenLog, Reading  # noqa: PLC0415 - the same
 
     title = ", ".join(file.name for file in output.files)  # a page travels; folders are private
-    one = OpenLog(1, title, output.files[0], finished=parts)
+    one = OpenLog(1, title, output.files[0], finished=complete)
     symbol = find_unit(output.found.units).symbol
     trials = [
         f"With {'your own' if trial.owner == OWN else 'the suggested'} gains "
         f"({format_gain_pair(trial, symbol)}), the {trial.loop} loop {trial.verdict.description}."
         for trial in output.tried
     ]
-    one.keep_fit(replace(output.pooled, found=output.found, notes=(*output.notes, *trials)))
-    save_page(one, html)
+    pooled = replace(output.pooled, found=output.found, notes=(*output.notes, *trials))
+    one.keep_fit(reading := Reading(left_out=left_out), pooled)
+    save_page(one, reading, html)
 
 
 def _refuse_conflicting_options(ctx: click.Context) -> None:

@@ -34,18 +34,19 @@ SCRIPTS = """<script type="application/json" id="saved">{}</script>
 <script"""
 
 
-def save_page(one: OpenLog, target: Path, story: Story | None = None) -> None:
+def save_page(one: OpenLog, reading: Reading, target: Path, story: Story | None = None) -> None:
     """Write the page of one log; if that fails, an existing file stays as it was.
 
     Args:
         one: the log.
+        reading: how to read the log, and what to leave out.
         target: path of the page.
         story: a result of reconcile to show with it.
 
     Raises:
         Refusal: the log cannot be read, the name does not end in .html, or it cannot be written.
     """
-    write_page_file(render_saved_page(one, Reading(), story), choose_page_path(target))
+    write_page_file(render_saved_page(one, reading, story), choose_page_path(target))
 
 
 def render_saved_page(one: OpenLog, reading: Reading, story: Story | None = None) -> str:

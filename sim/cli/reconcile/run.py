@@ -13,7 +13,7 @@ from sim.cli.log_reader import LogReader
 from sim.cli.open.page_data import replace_gains
 from sim.cli.open.reconcile_job import search_effects
 from sim.cli.open.saved_page import save_page
-from sim.cli.open.session import OpenLog
+from sim.cli.open.session import OpenLog, Reading
 from sim.cli.options import refuse_overwriting
 from sim.core.log import Log
 from sim.fit import Fit, fit
@@ -65,7 +65,7 @@ def reconcile_files(
         )
     if html is not None:
         names = ", ".join(file.name for file in files)  # a page travels; folders are private
-        save_page(OpenLog(1, names, files[0], finished={"": logs["log"]}), html, story)
+        save_page(OpenLog(1, names, files[0], finished={"": logs["log"]}), Reading(), html, story)
     if paste:
         fit = _make_fit(story, logs["log"])
         click.echo(make_paste_text(fit, paste, season=int(season)), nl=False)

@@ -205,7 +205,8 @@ def _doubt_found_signals(motors: Sequence[MotorEntries], where: str) -> Doubt:
     return Doubt(
         "signals-found",
         f"{where}: the log does not use SysId's names, so signals were chosen by name, unit and "
-        f"motion: {names}{more}. If that is wrong, name them with {FLAGS}.",
+        f"motion: {names}{more}.",
+        action=Action("chosen-entries"),
     )
 
 
