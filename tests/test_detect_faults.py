@@ -138,7 +138,7 @@ def test_every_damaged_run_can_be_inspected(name, hurts, gone):
     for damage in found.damages:
         assert 0.0 < damage.confidence <= 1.0
         assert damage.evidence.endswith(".")
-        assert damage.advice.endswith(".")
+        assert str(damage.advice).endswith(".")
         assert damage.where.start <= damage.where.end
 
 
