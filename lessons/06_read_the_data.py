@@ -74,7 +74,7 @@ sound = simulate(ROBOT, ROUTINE, rng=np.random.default_rng(6))
 
 TAU = TRUTH["kA"] / TRUTH["kV"]
 print(f"The truth: kS {TRUTH['kS']:.3f} V, kV {TRUTH['kV']:.3f} V·s/m, kA {TRUTH['kA']:.3f} V·s²/m")
-print(f"kA/kV = {1000 * TAU:.0f} ms after a step of voltage, it has two thirds of its final speed.")
+print(f"kA/kV is {1000 * TAU:.0f} ms: so long after a step, it has nearly 2/3 of its final speed.")
 
 # %% [markdown]
 # ## 2 The model: what a good log looks like
@@ -144,9 +144,9 @@ print(f", {slope[later] / slope[early]:.0%} of it")
 # ### Explain
 #
 # The voltage that remains for the acceleration is V − kS − kV·v. The faster the robot goes, the
-# less voltage remains. So the acceleration is **largest at the start**. Each time that kA/kV
-# seconds pass, the acceleration drops to about 37 % of its value. Such a curve is called
-# *exponential*. In the plot of acceleration against velocity, it is a straight line that falls.
+# less voltage remains. So the acceleration is **largest at the start**. After every kA/kV seconds,
+# only about 37 % of it is left. Such a curve is called *exponential*. In the plot of acceleration
+# against velocity, it is a straight line that falls.
 #
 # **Myth check.** "The acceleration is constant while the velocity rises." *False* in a good test. A
 # constant acceleration means that something is wrong. The log named *current limit* in section 3 is
@@ -169,8 +169,8 @@ print(f", {slope[later] / slope[early]:.0%} of it")
 #
 # A *fault* is something that makes a log wrong: it *contaminates* the log. The table lists four
 # classic faults, five more that are common on real robots, and four that are easy to see. Exercise
-# 7 and `sysid inspect` use the same names, with a hyphen: `encoder-slip`. Two of the thirteen,
-# *velocity filter* and *current limit*, are not faults there: `sysid effects` lists them.
+# 7 and `sysid inspect` use the same names, with a hyphen: `encoder-slip`. Only *velocity filter*
+# and *current limit* are missing there: `sysid effects` lists them.
 #
 # | fault | what happened | what to do |
 # |---|---|---|
@@ -271,8 +271,8 @@ animate_charts(
 )
 
 # %% [markdown]
-# A log is only what the sensor says. Below, the robot really drives as in the clean log, and the
-# outline is where the log says that it is. Which fault moves the outline away for good?
+# A log is only what the sensor says. Below, the robot drives as in the clean log. The outline shows
+# where the damaged log says that the robot is. After which fault does it never come back?
 
 # %%
 LIARS = ("encoder slip", "stuck sensor", "unit error")
@@ -351,9 +351,8 @@ tabulate_fits(gallery, TRUTH)
 # ### How bad are timing gaps?
 #
 # To get the acceleration, SysId divides each change of the velocity by the *mean* time step of the
-# test. So at a gap the acceleration is wrong. The normal time step is 20 ms, and half of all steps
-# are a bit longer. So count only the time steps that are more than 1.5 times as long as usual. How
-# wrong is kA?
+# test. So at a gap the acceleration is wrong. A gap is a time step that is more than 1.5 times as
+# long as usual: the usual step is 20 ms, but half of all steps are a bit longer. How wrong is kA?
 #
 # <details><summary>For mentors: gaps and kA, with source</summary>
 #
@@ -639,9 +638,9 @@ escaped = [name for name, *found in rows if "caught" not in found]
 print(f"No check finds these logs: {'; '.join(escaped)}.")
 
 # %% [markdown]
-# The clean log has no fault, so no check reports it. But the other two logs in that last line are
-# damaged. Only somebody who knows the robot can find such damage. For example, look for a velocity
-# filter in the settings of your motor controller.
+# It is right that no check reports the clean log. But the other two logs in this line are damaged.
+# Only somebody who knows the robot can find such damage. For example, look for a velocity filter in
+# the settings of your motor controller.
 #
 # A sixth check: **fit forward and reverse separately.** Friction may differ between the directions.
 # One kS cannot describe both, and R² does not show it:
@@ -714,12 +713,12 @@ display(ask_question("lesson6.quick"), enable_checkboxes())
 # <details><summary>Answer</summary>
 #
 # A mechanical part got stuck and then came free: for example a loose chain, a skipped tooth or a
-# tight bearing. (It was encoder slip only if the position, a second sensor or the current shows
-# that the mechanism did *not* move.) The few samples of the jump matter a lot, because a fit
-# squares the errors: an error that is three times as large counts nine times as much. So kS is too
-# small or negative, kA is too large, kV hardly changes, and the simulated velocity R² stays above
-# 0.9. Find the log "sudden jump" in the table of section 5. Fix the mechanism and run again. A
-# median filter or trimming helps less.
+# tight bearing. (It was encoder slip only if a second sensor or the current shows that the
+# mechanism did *not* jump. The position comes from the same encoder: it cannot show this.) The few
+# samples of the jump matter a lot, because a fit squares the errors: an error that is three times
+# as large counts nine times as much. So kS is too small or negative, kA is too large, kV hardly
+# changes, and the simulated velocity R² stays above 0.9. Find the log "sudden jump" in the table of
+# section 5. Fix the mechanism and run again. A median filter or trimming helps less.
 # </details>
 #
 # **3.** "All our R² are above 0.97, so the gains are fine." What do you ask?

@@ -131,9 +131,9 @@ plot_voltage_velocity(log, lines={"straight line": Line(intercept, slope)})
 # ### Explain
 #
 # In a ramp the robot accelerates all the time. When the voltage rises by `ramp` volts each second,
-# the speed rises by `ramp/kV` each second. So during the whole ramp, the acceleration needs `kA·a =
-# (kA/kV)·ramp` volts. The equation of the straight line has no term for these volts, so they are
-# added to kS.
+# the speed rises by `ramp/kV` each second: this is the acceleration a. It needs `kA·a =
+# (kA/kV)·ramp` volts during the whole ramp. The equation of the straight line has no term for these
+# volts, so they are added to kS.
 #
 # <details><summary>Want to know why? The last hundredth of a volt</summary>
 #
@@ -526,9 +526,8 @@ animate_charts(
 #
 # ### Explain
 #
-# The **filter** and the **left side** matter most. A filter window that is longer than the rise
-# makes kA too small (section 9). Noise in the acceleration column also makes kA too small (section
-# 4).
+# The **filter** and the **left side** matter most. Section 9 shows what a filter does. Noise in the
+# acceleration column makes kA too small (section 4).
 #
 # <details><summary>Want to know more? Time step, trim and threshold</summary>
 #
@@ -571,7 +570,7 @@ animate_model(
 #
 # > R² = 1 − (sum of squared errors) / (sum of squared distances from the mean)
 #
-# So 1 is perfect. A score of 0 is no better than guessing the mean every time.
+# So 1 is perfect. With a score of 0, the model is as bad as a guess of the mean for every row.
 
 # %%
 explained = (volts - exact["kS"] * np.sign(v) - exact["kV"] * v) / exact["kA"]
@@ -588,7 +587,7 @@ sysids = 1 - rmse / np.sqrt(np.mean(seen**2))
 print(f"Acceleration R², adjusted: {adjusted:.4f} by hand, {recipe.acceleration_r2:.4f} by SysId")
 print(f"Simulated velocity R²: {sysids:.3f} by hand, {recipe.simulated_velocity_r2:.3f} by SysId")
 print(f"With the textbook's formula it would be {textbook:.4f}. (RMSE: {rmse:.4f} m/s)")
-print(f"If the mean velocity is 0, SysId writes 0.9 for a textbook's {1 - (1 - 0.9) ** 2:.2f}.")
+print(f"If the mean velocity is 0, SysId's 0.90 is a textbook's {1 - (1 - 0.9) ** 2:.2f}.")
 
 # %% [markdown]
 #
@@ -629,8 +628,8 @@ print(f"If the mean velocity is 0, SysId writes 0.9 for a textbook's {1 - (1 - 0
 #
 # ### What R² does not show
 #
-# Here are five logs of the same drivetrain. Cover the gains and rank the logs by R². Then uncover
-# them.
+# Here are five logs of the same drivetrain. Cover the gains with your hand. Which log has the best
+# R², which has the worst? Then look at the gains.
 
 # %%
 quiet = simulate(drivetrain, routine, rng=np.random.default_rng(3))
@@ -749,8 +748,8 @@ animate_charts(
 # and a large r give a large kP. A delay makes kP smaller, because late corrections make the
 # mechanism shake.
 #
-# Somebody got kP = 0.62 with kS 0.14, kV 2.68 and kA 0.34. Move q until the dot is on the dashed
-# line. Which q did they use?
+# Somebody got kP = 0.62 with kS 0.14, kV 2.68 and kA 0.34. Leave r and the delay as they are, and
+# move q until the dot is on the dashed line. Which q did they use?
 #
 # <details><summary>For mentors: the source lesson's kP</summary>
 #

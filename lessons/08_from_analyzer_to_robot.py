@@ -159,7 +159,7 @@ lift = elevator.gains
 ask_question("lesson8.slot")
 
 # %% [markdown]
-# At rest, the output of an elevator's feedforward is its second argument.
+# For a velocity of 0, an elevator's feedforward gives its second argument, in volts.
 
 # %%
 orders = {
@@ -564,15 +564,16 @@ tabulate_gains(
 
 # %% [markdown]
 # - **Guessed gains:** kG and kA are too small, and kS is missing.
-# - **Measured gains:** the worst error is about a third of the worst error with guessed gains. But
-#   kS is nearly zero! The model has no tube, so the fit put the force of the tube into the gains.
+# - **Measured gains:** the worst error is only a third as large. But kS is nearly zero! The model
+#   has no tube, so the fit put the force of the tube into the gains.
 # - **Reconciled gains:** kS is right again. But the tube still pulls. So add **one more term** ("+
 #   tube"), the voltage that balances the tube: `+ kTubeRate * position + kTubePreload`. Then the
 #   worst error is only two millimeters.
 #
 # ### ProfiledPIDController and Motion Magic: the same sum
 #
-# `ProfiledPIDController` makes the profile itself. You only add the feedforward.
+# `ProfiledPIDController` makes the profile itself. You only add the feedforward. Then our elevator
+# is about a centimeter ahead, because the feedback uses the setpoint of the next loop.
 #
 # <details><summary>The code in Java</summary>
 #
@@ -588,12 +589,8 @@ tabulate_gains(
 #
 # **Motion Magic** does all of this inside the motor controller. It uses the gains of
 # `Slot0Configs`, in volts per rotation of the *mechanism*. Here that is the drum that winds up the
-# rope.
-#
-# - With `ProfiledPIDController` our elevator is about a centimeter ahead, because the feedback uses
-#   the setpoint of the next loop.
-# - A common mistake: `SensorToMechanismRatio` is set, but the gains are per rotation of the *rotor*
-#   (the motor's shaft). Then they are too small by the gear ratio.
+# rope. A common mistake: `SensorToMechanismRatio` is set, but the gains are per rotation of the
+# *rotor* (the motor's shaft). Then they are too small by the gear ratio.
 #
 # <details><summary>If you use Motion Magic Expo: a kV and a kA of its own</summary>
 #
@@ -624,9 +621,9 @@ tabulate_gains(
 # %% [markdown]
 # ## 7 An arm that sinks
 #
-# Gravity also causes such an error. Somebody measured the gains of an **empty** arm. Now the arm is
-# level and holds a game piece at its end. A *position* loop with kP holds the arm: kP volts for
-# each radian of error.
+# Gravity, too, can cause an error that kP does not remove. Somebody measured the gains of an
+# **empty** arm. Now the arm is level and holds a game piece at its end. A *position* loop with kP
+# holds the arm: kP volts for each radian of error.
 #
 # **Predict:**
 
@@ -832,8 +829,8 @@ display(ask_question("lesson8.one"), ask_question("lesson8.two"))
 # ### When
 #
 # Plan two evenings in the last two weeks of build season: measure on the first, and again on the
-# second. Measure again if the mass changed (kA, kG), if gears or wheels changed (kV, kA), or if
-# something rubs (kS). Keep the old log and compare.
+# second. Measure again if the mass changed (kA, kG), if gears or wheels changed (kV, kA), or after
+# you repaired a part that rubbed (kS). Keep the old log and compare.
 #
 # <details><summary>For mentors: the schedule, with source</summary>
 #

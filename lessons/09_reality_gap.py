@@ -24,7 +24,7 @@
 # - measure the **gap**: how much a simulation with your gains differs from your robot;
 # - plot the remaining error in five ways, and say which effect could cause it;
 # - add an effect to the model, and decide with *other* data whether to keep it;
-# - explain how a slow sensor makes a robot look heavy;
+# - explain what a slow sensor does to kA;
 # - say when your data cannot decide, and which test can;
 # - use `sysid reconcile`, which does all of this, and judge its answer.
 
@@ -267,14 +267,14 @@ animate_charts(
 # 1. **Look** at the plot with the largest percentage. Which effects could cause it?
 # 2. **Choose** one of them in the menu. Read what it does, and press *Add and fit*. All gains and
 #    the parameters of the effect are fitted again. This takes one to three seconds.
-# 3. **Compare** by the gap of the *validation* log: press *Take back*, and try the other effects of
-#    the same line below. Keep the one with the smallest gap. If none helps, take the plot with the
-#    next percentage. If most of the gap shows in *no* plot, try the effects of every line.
+# 3. **Compare** the gaps of the *validation* log: press *Take back*, and try the other effects in
+#    the same line of the list below. Keep the one with the smallest gap. If none helps, take the
+#    plot with the next percentage. If most of the gap shows in *no* plot, try every line.
 # 4. **Look again.** Repeat this until the gap of the validation log is about 1, or until no other
 #    effect makes it smaller.
 # 5. **Check.** If you have several effects, choose each in the menu, and press *Take back*. Does
-#    the gap stay the same without it? Then leave it out: another effect does its work. Else add it
-#    again.
+#    the gap stay the same without it? Then leave it out: another effect does its work. If not, add
+#    it again.
 # 6. **Stop.** But before you press the last button, read section 5.
 #
 # Effects that can cause the largest percentage:
@@ -353,10 +353,10 @@ Table(
 # ## 6 When your data cannot decide
 #
 # The drivetrain of another team *does* have a current limit: its motors cannot push with more than
-# a certain force. (In the model, this limit is in volts: the voltage minus the back-EMF.) The team
-# records a gentle log with a 2.5 V step. Later it records a 6 V step.
+# a certain force. (The model limits the volts above the back-EMF instead.) The team records a
+# gentle log with a 2.5 V step. Later it records a 6 V step.
 #
-# The next cell tries limits from very low to very high, and plots the gap on both logs.
+# In the next picture you choose the limit in the model. Above each plot is the gap of that log.
 #
 # **Predict:**
 
@@ -390,11 +390,11 @@ animate_charts(
 )
 
 # %% [markdown]
-# Raise the limit (the volts above the back-EMF). Above about 2 V, the gap of the gentle test
-# **stays the same**. The gentle test never reached the limit, so every higher limit is equally
-# good. The data do not contain the answer, so no program can find it. We say that the parameter is
-# *not identifiable* from these data. (A book about tests that do contain the answer: Ljung, *System
-# Identification*, 2nd edition (1999), chapter 13.)
+# Raise the limit. Above about 2 V, the gap of the gentle test **stays the same**. The gentle test
+# never reached the limit, so every higher limit is equally good. The data do not contain the
+# answer, so no program can find it. We say that the parameter is *not identifiable* from these
+# data. (A book about tests that do contain the answer: Ljung, *System Identification*, 2nd edition
+# (1999), chapter 13.)
 #
 # The gap of the 6 V step is clearly smallest at the true limit, 3 V. You do not need a better
 # method. You need **another test.** (On your robot you know the limit, because you set it. Choose
@@ -478,8 +478,8 @@ else:
 # WPILib has simulations of its own: with `FlywheelSim` your robot code spins its wheel on your
 # computer. ([WPILib docs: Physics Simulation, at one
 # commit](https://github.com/wpilibsuite/frc-docs/blob/01297402d0a2406bb70e95e13d2620759a69e385/source/docs/software/wpilib-tools/robot-simulation/physics-sim.rst))
-# It needs only kV and kA. So measured gains make it *your* wheel. Is it? The next cells fit your
-# log of exercise 9, and give `FlywheelSim` the same volts. **Predict:**
+# It needs only kV and kA. If they are measured, does it move like *your* wheel? The next cells fit
+# your log of exercise 9, and give `FlywheelSim` the same volts. **Predict:**
 
 # %%
 ask_question("lesson9.wpilib")

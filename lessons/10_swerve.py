@@ -242,7 +242,7 @@ def roll(radius: float) -> Chart:
     """How far each wheel has rolled, if this is its radius [mm]."""
     way = 2 * np.pi * radius / 1000 / robot.ratio
     rolled = {name: way * turns for name, turns in spin.motor_turns.items()}
-    label = "rolled [m] (dashed: the way of a wheel by the gyro)"
+    label = "rolled [m] (dashed: the distance by the gyro)"
     return compare_values(rolled, truth=spin.turned * distance, xlabel=label)
 
 
@@ -403,10 +403,10 @@ animate_mechanism(
 )
 
 # %% [markdown]
-# A fit of such a log finds a kA that is far too large, because after the first jump the wheels
-# speed up only slowly, until the robot is as fast as its wheels. Choose a step that does not make
-# the wheels slip, here about 1.8 V. If the robot is heavier or the motors are weaker, the step may
-# be larger.
+# A fit of such a log finds a kA that is far too large. Look at the wheels after their first jump:
+# their speed hardly changes until the robot is as fast as they are. Choose a step that does not
+# make the wheels slip, here about 1.8 V. If the robot is heavier or the motors are weaker, the step
+# may be larger.
 #
 # ### Measure it
 #
@@ -609,10 +609,13 @@ Table(
 )
 
 # %% [markdown]
-# Their wheels are worn, so the robot drives 2.6 % less than its code computes. And their wheels
-# have less grip than their code assumes: with µ = 1.2 a planner plans curves in which the wheels
-# slip. Their moment of inertia is good enough: the measured value is a few percent too large,
-# because it contains wheels and rotors (section 5).
+# <details><summary>Which two numbers are wrong?</summary>
+#
+# The wheel radius: their wheels are worn, so the robot drives 2.6 % less than its code computes.
+# And the grip: with µ = 1.2 a planner plans curves in which the wheels slip. Their moment of
+# inertia is good enough: the measured value is a few percent too large, because it contains wheels
+# and rotors (section 5).
+# </details>
 
 # %% [markdown]
 # ## 8 Your own robot

@@ -239,9 +239,9 @@ def held_out(answers: Answers) -> str | None:
     )
     if after > WORSE * before:
         hint = (
-            "on runs that it was not fitted to, your model is worse than gains alone. It only "
-            "fits one log: decide by the validation, and leave out effects that do not help "
-            "there"
+            "on runs that it was not fitted to, your model is worse than gains alone. Are the "
+            "parameters those that try_it.py prints for your own log, in the same units? If "
+            "they are, leave out effects that do not make the gap of the validation smaller"
         )
     raise WrongAnswer(seen, hint=hint)
 

@@ -28,7 +28,7 @@ def list_lookalikes(variant: Variant) -> Numbers:
             "half-trackwidth": radius * HALF,
         },
         "lever": {"tank": side / 2.0, "whole-trackwidth": side, "diagonal": side / HALF},
-        "kA": {"as-kv": asked["kV"]},
+        "kA": {"as-kv": asked["kV"], "spun": variant.drive.rotation.gains["kA"]},
         "kA_turning": {
             "per-degree": turning * DEGREE,
             "per-rotation": turning * 2.0 * math.pi,
@@ -49,7 +49,7 @@ def list_lookalikes(variant: Variant) -> Numbers:
             "four-torques": 4.0 * asked["max_torque"],
         },
     }
-    return {name: SLIPS.list_lookalikes(one.items()) for name, one in found.items()}
+    return {name: SLIPS.list_lookalikes(one.items(), gain=name) for name, one in found.items()}
 
 
 def list_rarer_slips(variant: Variant) -> Numbers:
@@ -66,7 +66,7 @@ def list_rarer_slips(variant: Variant) -> Numbers:
             "spun": turning["kV"],
             "per-turn": asked["kV"] * around,
         },
-        "kA": {"spun": turning["kA"], "per-turn": asked["kA"] * around},
+        "kA": {"per-turn": asked["kA"] * around},
         "kS": {"spun": turning["kS"]},
         "worn_radius": {
             "turned-turns": variant.radius / own,

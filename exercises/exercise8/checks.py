@@ -118,12 +118,23 @@ def _require_stops_cut(answers: Answers) -> None:
             raise NotReachedError("counts after you cut the ends of tests that do not look right")
 
 
-def _keeps_ends(answers: Answers) -> bool:
-    """Whether both stops are cut and nothing that matters is; else a right gain is luck."""
+def _find_luck(answers: Answers) -> WrongAnswer | None:
+    """Why a right gain would be luck: a stop is kept, or what matters is cut; else None."""
     try:
-        return all(one.reaches for one in _measure_coverage(answers))
+        if all(one.reaches for one in _measure_coverage(answers)):
+            return None
     except NotReachedError:
-        return False
+        return WrongAnswer(
+            "you keep a part in which the mechanism hits its stop",
+            hint="Look at the last second of each test: where does the velocity fall although the "
+            "voltage stays on? Keep what is before",
+        )
+    return WrongAnswer(
+        "a test lost its fast end or its first rise",
+        hint="Of a quasistatic test keep the fast end, of a dynamic test the first rise. Cut only "
+        "where a test hits its stop",
+        misconception="M-TRIM-PRETTY",
+    )
 
 
 def _judge_gain(name: str, answers: Answers) -> None:
@@ -140,19 +151,15 @@ def _judge_gain(name: str, answers: Answers) -> None:
         ) from None
     value, asked = found.gains[name], variant.asked[name]
     score = judge_gain(value, asked)
-    kept = _keeps_ends(answers)
-    if score == POINTS and kept:
-        return
+    luck = _find_luck(answers)
+    if score == POINTS and luck:
+        luck.seen = f"{value:.4g} {asked.unit} is right, but only by luck: {luck.seen}"
+        raise luck
     if score == POINTS:
-        raise WrongAnswer(
-            f"{value:.4g} {asked.unit} is right, but with luck: a test lost its fast end or rise",
-            hint="Cut each test where it hits its stop, and keep what is before: of a quasistatic "
-            "test the fast end, of a dynamic test the first rise",
-            misconception="M-TRIM-PRETTY",
-        )
+        return
     says, code = blame(name, variant, preparation)
-    close = "Close. " if score and kept else ""
-    score = score if kept else 0.0
+    score = 0.0 if luck else score
+    close = "Close. " if score else ""
     raise WrongAnswer(
         f"{value:.4g} {asked.unit} comes out, with an acceleration R² of "
         f"{found.acceleration_r2:.3f}",

@@ -216,6 +216,7 @@ def _describe_wrong_number(name: str, value: float, slips: tuple[WrongNumber, ..
         )
     if value < 0:
         return (
-            f"{name} cannot be negative. Does velocity or voltage have the wrong sign in your data?"
+            f"{name} cannot be negative. Are all your gains negative? Then velocity or voltage has "
+            "the wrong sign in your data. Else check which rows and columns you fit"
         )
     return ""

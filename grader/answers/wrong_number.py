@@ -151,7 +151,7 @@ def explain_wrong_number(name: str, value: float, key: AnswerKey) -> tuple[Wrong
         excess = asked["kA"].expected / asked["kV"].expected * scene.ramp
         if excess > 0 and right(value - excess):
             found.append(_INTERCEPT)
-    if name == "kV" and value and right(1.0 / value):
+    if name in {"kV", "kA"} and value and right(1.0 / value):
         found.append(_UPSIDE_DOWN)
     for likely in scene.lookalikes.get(name, ()):
         if _looks_like(value, likely) and likely.slip not in found:
@@ -171,7 +171,7 @@ _INTERCEPT = WrongNumber(
 )
 
 _UPSIDE_DOWN = WrongNumber(
-    "upside-down", "this is upside down: speed for each volt. kV is volts for each unit of speed"
+    "upside-down", "this is upside down: kV and kA are volts for a unit, not units for a volt"
 )
 
 
@@ -182,8 +182,8 @@ def _explain_by_factors(
         says = "the size is right, the sign is not"
         if scene.ramp and asked.unit.startswith("V"):
             says += (
-                ". Positive volts have to give a positive velocity: does the voltage column or "
-                "the velocity column have the wrong sign?"
+                ". Do all your gains have the wrong sign? Then the voltage or the velocity has it: "
+                "positive volts have to give a positive velocity. Else look for a lost minus"
             )
         yield WrongNumber("sign", says)
     factors = [*_list_factors(scene, velocity=name in {"kV", "kA"}, unit=asked.unit)]

@@ -71,7 +71,7 @@ MISTAKES = (
     Mistake("the trackwidth in the spin", ANSWERS, scale_numbers(math.sqrt(2.0), "worn_radius"),
         "worn-radius", "the trackwidth for the lever?", "M-LEVER"),
     Mistake("speed for each volt", ANSWERS, change_number("kV", lambda right: 1.0 / right["kV"]),
-        "kv", "speed for each volt"),
+        "kv", "this is upside down"),
     Mistake("a quarter of a motor's current", ANSWERS, scale_numbers(0.25, "slip_current"),
         "slip-current", "did you divide by four?"),
     Mistake("the current after the slip", ANSWERS, scale_numbers(0.9, "slip_current"),

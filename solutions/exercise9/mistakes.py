@@ -153,7 +153,14 @@ MISTAKES = (
         ANSWERS,
         change_number("kV", lambda right: 1.0 / right["kV"]),
         "kv",
-        "speed for each volt",
+        "this is upside down",
+    ),
+    Mistake(
+        "beta in place of kA",
+        ANSWERS,
+        change_number("kA", lambda right: 1.0 / right["kA"]),
+        "ka",
+        "this is upside down",
     ),
     Mistake(
         "a number from nowhere",
