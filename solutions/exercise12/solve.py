@@ -50,7 +50,8 @@ def find_effects(search: EffectSearch) -> None:
     them helps.
     """
     while search.gaps["validation"] > NOISE:
-        likely = SHOWS[search.views.clearest]
+        views = search.views.views
+        likely = SHOWS[max(views, key=lambda name: views[name].explains)]
         if not (_add_best(search, likely) or _add_best(search, EFFECTS)):
             break
     for effect in search.effects[:-1]:  # one that later effects made needless
