@@ -495,6 +495,7 @@ def test_signals_of_unknown_names_are_chosen_with_a_picture_of_each(page, tmp_pa
     assert page.locator(".candidate svg path").count() == 3  # what never changes is no signal
     page.locator("#roles [value=velocity]").click()
     assert "likely" in page.locator(".candidate").nth(1).inner_text()  # our own guess is first
+    assert page.get_by_role("button", name="Open the log").is_disabled()  # no voltage is known
     choose_signals(page, voltage="/a/1", position="/a/2", velocity="/a/3", state="/b")
     page.locator("#gain-kV").wait_for()
 

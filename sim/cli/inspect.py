@@ -9,7 +9,7 @@ import click
 
 from sim.cli.log_reader import LogReader, refuse_duplicates
 from sim.cli.options import FILE, as_json, reading_options
-from sim.core.doubt import SHOWN_FIRST, Doubt
+from sim.core.doubt import Doubt, sort_doubts
 from sim.inspect.detect_faults import Inspection, inspect_together
 from sim.inspect.fault import Damage
 from sim.support.command_line import DONE, NOT_RIGHT
@@ -100,8 +100,7 @@ def _show_doubts(doubts: Iterable[Doubt], *, lines_left: int, cut: bool) -> None
 
     If doubts are left out, or places were (``cut``), a line says how to list everything.
     """
-    ordered = sorted(doubts, key=lambda doubt: (not doubt.grave, doubt.code not in SHOWN_FIRST))
-    shown = []
+    shown, ordered = [], sort_doubts(doubts)
     for doubt in ordered:
         text = click.wrap_text(f"warning: {doubt.text}", width=WIDTH, subsequent_indent=" " * 9)
         lines = text.splitlines()

@@ -1,10 +1,11 @@
 """A warning that is attached to a result."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from sim.core.advice import Action
 
-SHOWN_FIRST = frozenset({"contradicting-units", "unit-error"})  # all others depend on these
+SHOWN_FIRST = frozenset({"contradicting-units", "unit-error"})  # others depend on these
 GAINS = ("kS", "kV", "kA", "kG", "offset_rad")
 OF_POSITION = GAINS[1:]  # gains that depend on the unit of the position
 
@@ -28,6 +29,16 @@ class Doubt:
     gains: tuple[str, ...] = ()
 
     @property
+    def stands_first(self) -> bool:
+        """Whether it is shown before the result."""
+        return self.grave or self.code in SHOWN_FIRST
+
+    @property
     def text(self) -> str:
         """Cause and advice, as the command line says it."""
         return self.message if self.action is None else f"{self.message} {self.action}"
+
+
+def sort_doubts(doubts: Iterable[Doubt]) -> list[Doubt]:
+    """What is wrong comes first, then what other doubts depend on, then doubts about gains."""
+    return sorted(doubts, key=lambda one: (not one.grave, not one.stands_first, not one.gains))

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from rich.console import Console
 from rich.table import Table
 
-from sim.core.doubt import SHOWN_FIRST
+from sim.core.doubt import sort_doubts
 from sim.core.log import Log
 from sim.core.units import Unit, find_unit
 from sim.feedback import Preset
@@ -41,11 +41,11 @@ def show_fit(
     """
     say = WrappedPrinter(console)
     per = find_unit(found.units)
-    doubts = found.doubts if tried else found.list_doubts(preset)
+    doubts = sort_doubts(found.doubts if tried else found.list_doubts(preset))
     for doubt in doubts:
         if doubt.grave:
             say(f"wrong: {doubt.text}", hang=7, style=WRONG)
-        elif doubt.code in SHOWN_FIRST:
+        elif doubt.stands_first:
             say(f"warning: {doubt.text}", hang=9, style=WARNING)
     style = VERDICT_STYLES.get(judge_gains(found), "bold yellow")
     say(f"Verdict: {write_gain_verdict(found, log)}", hang=9, style=style)
@@ -75,7 +75,7 @@ def show_fit(
     for note in notes:
         say(note, hang=2)
     for doubt in doubts:
-        if not doubt.grave and doubt.code not in SHOWN_FIRST:
+        if not doubt.stands_first:
             say(f"warning: {doubt.text}", hang=9, style=WARNING)
 
 

@@ -25,6 +25,7 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from sim.core.advice import Action
+from sim.core.doubt import sort_doubts
 from sim.core.errors import BadRequest, refuse_unknown
 from sim.core.leave_out import LeftOutPart
 from sim.core.units import TURN, find_unit
@@ -235,8 +236,8 @@ def _list_warnings(found: Fit) -> Iterator[str]:
     """The lines of a list: the verdict on the gains, and the first sentence of each doubt."""
     if not found.doubts:
         return
-    messages = (f"Verdict: {write_gain_verdict(found)}", *(doubt.message for doubt in found.doubts))
-    for message in messages:
+    doubts = [doubt.message for doubt in sort_doubts(found.doubts)]
+    for message in (f"Verdict: {write_gain_verdict(found)}", *doubts):
         first = re.split(r"(?<=[.!?])\s+(?=[A-Z`])", message, maxsplit=1)[0]
         yield from textwrap.wrap(
             first, LINE, initial_indent="- ", subsequent_indent="  ", break_long_words=False

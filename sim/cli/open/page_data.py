@@ -15,7 +15,7 @@ from sim.cli.entries import describe_entry
 from sim.cli.inspect import SURE, name_confidence
 from sim.cli.open.session import OpenLog, Reading, Session
 from sim.core.advice import Action
-from sim.core.doubt import Doubt
+from sim.core.doubt import Doubt, sort_doubts
 from sim.core.errors import BadRequest, Refusal, refuse_unknown
 from sim.core.leave_out import cut_run
 from sim.core.log import Array, Log
@@ -454,7 +454,7 @@ def _describe_doubts(doubts: Sequence[Doubt], one: OpenLog) -> list[dict[str, An
             if doubt.action and doubt.action.name == "gravity-type"
             else "",
         }
-        for doubt in doubts
+        for doubt in sort_doubts(doubts)
     ]
 
 

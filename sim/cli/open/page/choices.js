@@ -60,6 +60,7 @@ function candidate(words, { name, unit, signal, text: isText, values, picture },
 
 function showChosen() {
   const { chosen } = shownLog().choice;
+  at("open-chosen").disabled = ["voltage", "state"].some((one) => !chosen[one] && unchosen(one).endsWith("choose one"));
   for (const one of at("roles").children) one.lastChild.textContent = chosen[one.control.value] || unchosen(one.control.value);
 }
 
@@ -81,9 +82,8 @@ function sparkline(values) {
 
 at("entry-filter").addEventListener("input", showCandidates);
 at("choose-back").addEventListener("click", () => {
-  const log = shownLog();
-  log.choice = null;
-  activate(log.id);
+  shownLog().choice = null;
+  activate(shownLog().id);
 });
 at("signals").addEventListener("submit", (event) => {
   event.preventDefault();
