@@ -238,7 +238,10 @@ def test_what_is_left_out_is_neither_drawn_nor_counted(page, tmp_path):
     drop(page, write_log(slipped_log(), tmp_path / "slipped.csv"))
     page.locator("#gain-kV").wait_for()
     before = page.locator("#meter .gap").inner_text()
+    page.get_by_role("button", name="Look for what is missing").click()
+    page.get_by_role("button", name="Stop").wait_for()
     page.locator("#faults").get_by_role("button", name="Leave out").click()
+    page.get_by_text("its search is gone").wait_for()
     page.get_by_text("Left out: quasistatic-forward").wait_for()
     wait_until(page, "[...sysid.logs.values()][0].fit?.doubts.length === 0")
     holes = "[...sysid.logs.values()][0].simulated.map(one => one.velocity.filter(isNaN).length)"

@@ -2,7 +2,7 @@
 
 import { Refused, addressOf, ask, askLog, askSamples, saved } from "./api.js";
 import { sentence } from "./elements.js";
-import { guarded } from "./page.js";
+import { guarded, say } from "./page.js";
 import { simulate } from "./simulation.js";
 
 const FINEST = 1000; // times of a part to leave out are rounded to 1/FINEST s
@@ -189,6 +189,7 @@ function takeFit(log, fit) {
 /** Fit again without these parts: {test, start, end}, in the log's time. */
 export function leaveOut(log, parts) {
   const named = new Map(parts.map((part) => [nameOfPart(part), part])); // each once
+  if (log.search) say("The log has changed, so its search is gone. Search again.");
   Object.assign(log, { leftOut: [...named.values()], effects: [], search: null, fit: null, fitRefused: null, asked: {} });
   setBusy(log, true);
   for (const what of ["faults", "fit", "story"]) changed(log, what);
