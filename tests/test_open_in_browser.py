@@ -14,6 +14,7 @@ from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.cli.open.session import LiveView
+from sim.core.units import TURN
 from sim.fit import fit
 from sim.fit.replay import replay_fit
 from sim.io import read
@@ -310,6 +311,12 @@ def test_the_robot_code_has_the_gains_that_were_moved(page, tmp_path):
     page.get_by_label("kV as a number").fill("2.75")
     page.locator("#paste").click()
     page.locator("#code-text", has_text="kV = 2.75").wait_for()
+    assert page.locator("#word").inner_text() == "Moved by hand"
+    page.get_by_label("Language").select_option("phoenix6")
+    page.locator("#radius").fill("0.05")
+    page.locator("#code-text", has_text="Slot0Configs").wait_for()
+    page.locator("#radius").press("Enter")
+    assert page.locator("#code-text").is_visible()
     page.get_by_label("Language").select_option("python")
     page.locator("#code-text", has_text="import").wait_for()
 
@@ -334,6 +341,13 @@ def test_the_feedback_gains_follow_controller_and_weights(page, tmp_path):
     page.locator("#loop-gains dd", has_text="duty cycle/(m/min)").first.wait_for()
 
     assert page.locator("#loop-gains").inner_text() != ours
+    kv = float(page.locator("#loop-form [name=kV]").input_value())
+    page.locator("#loop-form [name=units]").select_option("rotations")
+    page.locator("#loop-gains dd", has_text="needs the wheel").wait_for()
+    page.locator("#loop-form [name=radius]").fill("0.05")
+    page.locator("#loop-gains dd", has_text="duty cycle/(rot/min)").first.wait_for()
+    turned = float(page.locator("#loop-form [name=kV]").input_value())
+    assert turned == pytest.approx(kv * 0.05 * TURN, rel=1e-3)
     assert page.complaints == []
 
 

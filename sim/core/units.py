@@ -75,3 +75,22 @@ def find_unit(name: str) -> Unit:
     name = name.strip().lower()
     refuse_unknown("units", name, UNITS)
     return UNITS[name]
+
+
+def compute_unit_ratio(new: Unit, old: Unit, *, radius: float | None = None) -> float:
+    """A new unit of position in old ones [1]; nan if that needs a radius above zero, and has none.
+
+    Args:
+        new: the new unit.
+        old: the old unit.
+        radius: of wheel or drum [m], where one is a length and the other an angle.
+
+    Examples:
+        >>> compute_unit_ratio(find_unit("rotations"), find_unit("meters"), radius=0.5)  # [m]
+        3.141592653589793
+    """
+    if new.angular == old.angular:
+        return new.si / old.si
+    if radius is None or not 0.0 < radius < math.inf:
+        return math.nan
+    return new.si / old.si * (radius if new.angular else 1.0 / radius)

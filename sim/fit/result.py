@@ -8,7 +8,7 @@ from sim.core.advice import Action
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
 from sim.core.log import Log
-from sim.core.units import Unit, convert_gains, find_unit
+from sim.core.units import Unit, compute_unit_ratio, convert_gains, find_unit
 from sim.feedback import (
     PRESETS,
     Feedback,
@@ -69,21 +69,25 @@ class Fit:
     parts: tuple[Part, ...] = field(default=())
     doubts: tuple[Doubt, ...] = field(default=())
 
-    def in_units(self, name: str) -> "Fit":
+    def in_units(self, name: str, *, radius: float | None = None) -> "Fit":
         """The fit converted to another unit of position, as from V·s/radian to V·s/rotation.
 
+        Args:
+            name: name of the unit.
+            radius: of wheel or drum [m], where one unit is an angle and the other a length.
+
         Raises:
-            BadRequest: an unknown unit, or one is an angle and the other a length.
+            BadRequest: an unknown unit, or the radius is missing or not above zero.
         """
-        old, new = find_unit(self.units), find_unit(name)
-        if old.angular != new.angular:
+        new = find_unit(name)
+        factor = compute_unit_ratio(new, find_unit(self.units), radius=radius)
+        if math.isnan(factor):
             raise BadRequest(
                 f"{self.units} cannot be converted into {name}",
                 advice=(
                     "One is a length, the other an angle: the conversion needs the wheel's radius."
                 ),
             )
-        factor = new.si / old.si
         return replace(
             self,
             units=new.name,

@@ -28,7 +28,7 @@ from sim.core.advice import Action
 from sim.core.doubt import sort_doubts
 from sim.core.errors import BadRequest, refuse_unknown
 from sim.core.leave_out import LeftOutPart
-from sim.core.units import TURN, find_unit
+from sim.core.units import TURN, compute_unit_ratio, find_unit
 from sim.feedback import PRESETS, Preset
 from sim.fit import Fit
 from sim.fit.feedback_trial import try_feedback_gains
@@ -361,12 +361,9 @@ def convert_units(found: Fit, unit: str, *, radius: float | None) -> Conversion:
     given = find_unit(found.units)
     wanted = find_unit(unit or found.units)
     name = f"k{given.name.capitalize()}Per{wanted.name.capitalize().removesuffix('s')}"
-    between = 1.0
-    if given.angular != wanted.angular:
-        if radius is None or not (math.isfinite(radius) and radius > 0.0):
-            raise BadRequest(
-                f"{given.name} become {wanted.name} only with a radius", advice=Action("radius")
-            )
-        between = radius if wanted.angular else 1.0 / radius  # [m/rad], or its inverse
-    factor = wanted.si * between / given.si
+    factor = compute_unit_ratio(wanted, given, radius=radius)
+    if math.isnan(factor):
+        raise BadRequest(
+            f"{given.name} become {wanted.name} only with a radius", advice=Action("radius")
+        )
     return Conversion(name, factor, f"{given.symbol}/{wanted.symbol}", wanted.symbol)

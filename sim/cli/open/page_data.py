@@ -378,8 +378,9 @@ def describe_feedback(query: Mapping[str, str]) -> dict[str, Any]:
     gains = {name: numbers.get(name, 0.0) for name in (*ORDER.get(type_, ()), "offset_rad")}
     units = query.get("units", "meters")
     before = query.get("before") or units
-    found = Fit.from_gains(gains, type=type_, units=before, **delays).in_units(units)
-    per = find_unit(units)
+    given = units if query.get("motor") else before  # theory's gains replace those that are given
+    typed = Fit.from_gains(gains, type=type_, units=given, **delays)
+    found, per = typed.in_units(units, radius=numbers.get("radius")), find_unit(units)
     if query.get("motor"):
         count, ratio, radius = (numbers.get(name, 1.0) for name in ("count", "ratio", "radius"))
         motor = find_motor(query["motor"])

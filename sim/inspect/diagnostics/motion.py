@@ -90,7 +90,7 @@ def check_repeated_tests(features: LogFeatures) -> Iterator[Doubt]:
 def _measure_speed_excess(features: LogFeatures, index: int) -> float:
     """[share of its top speed] median of a run's velocity minus the predicted one."""
     run, predicted = features.log.runs[index], features.predicted_velocities[index]
-    if not run.moving.any():
+    if not run.top_speed:
         return 0.0
     ahead = (run.velocity - predicted) * np.sign(predicted)
     return float(np.median(ahead[run.moving])) / run.top_speed

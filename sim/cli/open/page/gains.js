@@ -40,7 +40,7 @@ function moveGains(values) {
   const log = shownLog();
   if (!log?.fit) return;
   log.gains = values;
-  log.moved = sliders.isMoved;
+  if (log.moved !== sliders.isMoved) { log.moved = sliders.isMoved; showDoubts(); }
   if (moveGains.waiting) return;
   moveGains.waiting = requestAnimationFrame(() => {
     moveGains.waiting = 0;
@@ -96,4 +96,4 @@ async function showCode() {
 at("reset").addEventListener("click", () => sliders.reset());
 at("paste").addEventListener("click", async () => { if (showCode.log !== shownLog()) at("radius").value = ""; showCode.log = shownLog(); await showCode(); at("code").showModal(); });
 at("copy").addEventListener("click", () => copy(at("code-text")));
-for (const id of ["language", "season", "radius"]) at(id).addEventListener("change", showCode);
+for (const id of ["language", "season", "radius"]) at(id).addEventListener("input", showCode);

@@ -21,20 +21,21 @@ export function openLoops() {
     const known = { ...log.gains, ...log.fit.delays, type: log.fit.type, units: log.summary.units.name, motor: "" };
     for (const [name, value] of Object.entries(known)) form[name].value = typeof value === "number" ? Number(value.toPrecision(DIGITS)) : value;
   }
+  unitsShown = form.units.value;
   at("loops").showModal();
   showLoops();
 }
 
 /** Ask for the feedback gains of what the form holds, and show them. */
-async function showLoops(event) {
+async function showLoops() {
   const query = Object.fromEntries([...new FormData(form)].map(([name, value]) => [name, value.replace(",", ".")]));
   const asked = (showLoops.asked = {}); // an answer to an older request is not shown
-  const before = event?.target === form.units ? unitsShown : ""; // then the gains are converted
-  unitsShown = query.units;
+  const before = query.units === unitsShown ? "" : unitsShown; // then the gains are converted
   at("loop-parts").hidden = !query.motor;
   try {
     const { gains, rows, symbol } = await ask(`feedback?${new URLSearchParams({ ...query, before })}`);
     if (showLoops.asked !== asked) return;
+    unitsShown = query.units;
     if (query.motor || before) for (const name of ["kV", "kA", "velocity_error", "position_error"]) if (name in gains) form[name].value = Number(gains[name].toPrecision(DIGITS));
     for (const one of form.querySelectorAll("i")) one.textContent = symbol;
     const shown = rows.map(({ loop, gains: words, step, instead }) => [make("dt", "", `${loop} loop`),

@@ -77,9 +77,10 @@ export function showDoubts() {
   const log = shownLog();
   const { fit, fitRefused, faults } = log;
   const sure = faults?.faults.some((one) => one.sureness === "sure" && !isLeftOut(log, one));
-  const word = fitRefused ? "No gains" : !fit ? "Fitting…" : !faults ? "Checking…" : sure && ["Usable", "Partly usable"].includes(fit.word) ? "Check first" : fit.word;
+  const moved = fit?.gains.filter(({ name, value }) => log.gains[name] !== value).length;
+  const word = moved ? "Moved by hand" : fitRefused ? "No gains" : !fit ? "Fitting…" : !faults ? "Checking…" : sure && ["Usable", "Partly usable"].includes(fit.word) ? "Check first" : fit.word;
   at("word").textContent = word;
-  if (fit) at("verdict").replaceChildren(...prose(fit.verdict));
+  if (fit) at("verdict").replaceChildren(...prose(moved ? "These gains are not measured, so their errors are not known. Reset them to see the verdict." : fit.verdict));
   at("verdict-card").classList.toggle("wrong", Boolean(fitRefused) || word === "Do not use");
   at("verdict-card").classList.toggle("well", word === "Usable");
   const said = [...fit?.doubts ?? [], ...faults?.doubts ?? []].filter(({ code }) => !faults?.faults.some(({ fault }) => fault === code)).sort((a, b) => Number(b.grave) - Number(a.grave));
