@@ -348,6 +348,8 @@ def test_the_feedback_gains_follow_controller_and_weights(page, tmp_path):
     page.locator("#loop-gains dd", has_text="duty cycle/(rot/min)").first.wait_for()
     turned = float(page.locator("#loop-form [name=kV]").input_value())
     assert turned == pytest.approx(kv * 0.05 * TURN, rel=1e-3)
+    allowed = float(page.locator("#loop-form [name=position_error]").input_value())
+    assert allowed == pytest.approx(0.1 / (0.05 * TURN), rel=1e-3)
     assert page.complaints == []
 
 

@@ -19,7 +19,7 @@ from sim.core.doubt import Doubt, sort_doubts
 from sim.core.errors import BadRequest, Refusal, refuse_unknown
 from sim.core.leave_out import cut_run
 from sim.core.log import Array, Log
-from sim.core.units import find_unit
+from sim.core.units import compute_unit_ratio, find_unit
 from sim.estimation.measurements import MIN_SAMPLES
 from sim.feedback import PRESETS
 from sim.fit import Fit
@@ -389,11 +389,11 @@ def describe_feedback(query: Mapping[str, str]) -> dict[str, Any]:
         theory = {"kV": parts.kv * per.si, "kA": (parts.ka or 0.0) * per.si}
         found = replace(found, gains=gains | theory)
     allowed = {name: numbers[name] for name in ALLOWED if name in numbers}
+    turned = compute_unit_ratio(per, find_unit(before), radius=numbers.get("radius"))
     for name in allowed.keys() - {"volts"}:  # the unit of these has changed as that of the gains
-        allowed[name] *= find_unit(before).si / per.si
-    tried = try_feedback_gains(found, PRESETS[chosen], allowed=allowed)
+        allowed[name] /= 1.0 if math.isnan(turned) else turned
     rows = []
-    for trial in tried:
+    for trial in try_feedback_gains(found, PRESETS[chosen], allowed=allowed):
         best = find_better_gains(found, trial)
         shown = format_gain_pair(best, per.symbol) if best else "no good start"
         step = f"In simulation, it {best.verdict.description}." if best else NO_START
