@@ -17,6 +17,7 @@ from sim.cli.open.session import LiveView
 from sim.core.units import TURN
 from sim.fit import fit
 from sim.fit.replay import replay_fit
+from sim.inspect.contaminate import contaminate
 from sim.io import read
 from sim.io.formats.wpilog.signals import SignalGroup, write_signals
 
@@ -253,6 +254,18 @@ def test_what_is_left_out_is_neither_drawn_nor_counted(page, tmp_path):
     page.locator("#moving").focus()
     page.keyboard.press("Home")
     assert "NaN" not in page.locator("#readout").inner_text()
+
+
+def test_a_fault_of_nearly_a_whole_run_cannot_be_left_out(page, tmp_path):
+    rng = np.random.default_rng(4)
+    dropped = contaminate(
+        drive_log(4), "voltage-dropout", severity=1.0, test="quasistatic-forward", at=0.5, rng=rng
+    )
+    drop(page, write_log(dropped.log, tmp_path / "dropped.csv"))
+    fault = page.locator("li.fault", has_text="voltage dropout").first
+    fault.get_by_role("button", name="Show").wait_for()
+
+    assert fault.get_by_role("button", name="Leave out").count() == 0
 
 
 def test_faults_are_listed_and_marked_and_shown_on_demand(page, tmp_path):

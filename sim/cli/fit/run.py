@@ -168,8 +168,9 @@ def _write_page(
     from sim.cli.open.saved_page import save_page  # noqa: PLC0415 - needs all that a page can show
     from sim.cli.open.session import OpenLog, Reading  # noqa: PLC0415 - the same
 
-    title = ", ".join(file.name for file in output.files)  # a page travels; folders are private
-    one = OpenLog(1, title, output.files[0], finished=complete)
+    # A page travels, and folders are private
+    names = ", ".join(file.name for file in output.files)
+    one = OpenLog(1, names, output.files[0], finished=complete)
     symbol = find_unit(output.found.units).symbol
     trials = [
         f"With {'your own' if trial.owner == OWN else 'the suggested'} gains "

@@ -396,7 +396,8 @@ def describe_feedback(query: Mapping[str, str]) -> dict[str, Any]:
     for trial in try_feedback_gains(found, PRESETS[chosen], allowed=allowed):
         best = find_better_gains(found, trial)
         shown = format_gain_pair(best, per.symbol) if best else "no good start"
-        step = f"In simulation, it {best.verdict.description}." if best else NO_START
+        late = f"In simulation with {1e3 * trial.delay:.0f} ms of delay"
+        step = f"{late}, it {best.verdict.description}." if best else NO_START
         own = f"{format_gain_pair(trial, per.symbol)}: with them, it {trial.verdict.description}"
         instead = "" if trial.is_good else f"Do not use SysId’s own suggestion, {own}."
         rows.append({"loop": trial.loop, "gains": shown, "step": step, "instead": instead})

@@ -24,7 +24,7 @@ export function showFaults() {
   const left = faults.filter((one) => !isLeftOut(log, one));
   const lines = left.slice(0, MOST_LINES).map((one) => {
     const words = `${titleOf(log, one)} (${one.sureness})${one.test ? `: ${nameOfTest(log, one)}` : ""}`;
-    return make("li", "grave", button("link", words, () => showFault(one)), canLeaveOut(one) && make("span", "leave", " · ", leaveButton(log, one, "link")));
+    return make("li", "grave", button("link", words, () => showFault(one)), canLeaveOut(log, one) && make("span", "leave", " · ", leaveButton(log, one, "link")));
   });
   if (left.length > MOST_LINES) lines.push(make("li", "busy", button("link", `${left.length - MOST_LINES} more below`, () => at("faults").scrollIntoView({ behavior: "smooth" }))));
   at("fault-lines").replaceChildren(...faults.length ? lines : [make("li", "well", none)], ...leftOutLines(log));
@@ -33,9 +33,8 @@ export function showFaults() {
 
 /** Show where a fault is on the time axis; one without a place, its card. */
 function showFault(one) {
-  const placed = one.run !== null && one.test;
-  if (placed) chart.showFault({ run: one.run, start: one.start_s, end: one.end_s });
-  at(placed ? "plot" : "faults").scrollIntoView({ block: "center", behavior: "smooth" });
+  if (isPlaced(one)) chart.showFault({ run: one.run, start: one.start_s, end: one.end_s });
+  at(isPlaced(one) ? "plot" : "faults").scrollIntoView({ block: "center", behavior: "smooth" });
 }
 
 /** The name of a fault, after the number that marks it in the chart. */
@@ -43,10 +42,7 @@ const titleOf = (log, one) => `${log.faults.faults.indexOf(one) + 1} ${one.fault
 const nameOfTest = (log, { run, test }) => `${log.runs[run]?.part ?? ""} ${test}`.trim();
 const partOf = (one) => ({ test: one.test, start: one.start_s, end: one.end_s });
 
-function isLeftOut(log, one) {
-  const { test, start, end } = partOf(one);
-  return log.leftOut.some((part) => part.test === test && part.start <= start && part.end >= end);
-}
+const isLeftOut = ({ leftOut }, one) => leftOut.some(({ test, start, end }) => test === one.test && start <= one.start_s && end >= one.end_s);
 
 function faultCard(log, one) {
   const where = one.run === null ? one.test : `${nameOfTest(log, one)}, ${one.start_s.toFixed(2)} to ${one.end_s.toFixed(2)} s`;
@@ -54,10 +50,12 @@ function faultCard(log, one) {
     make("h3", "", titleOf(log, one), make("span", "badge", one.sureness)),
     one.test && make("p", "where", where),
     make("p", "", prose(one.evidence)), make("p", "advice", prose(one.advice)),
-    canLeaveOut(one) && [button("button small", "Show", () => showFault(one)), " ", leaveButton(log, one, "button small")]);
+    isPlaced(one) && [button("button small", "Show", () => showFault(one)), " ", canLeaveOut(log, one) && leaveButton(log, one, "button small")]);
 }
 
-const canLeaveOut = (one) => one.test && one.run !== null;
+const isPlaced = (one) => one.test && one.run !== null;
+/** Whether most of a test is left without a fault. */
+const canLeaveOut = ({ runs }, one) => isPlaced(one) && runs[one.run].time.at(-1) - runs[one.run].time[0] > 2 * (one.end_s - one.start_s);
 
 function leaveButton(log, one, kind) {
   const out = isLeftOut(log, one);
