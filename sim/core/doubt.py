@@ -29,7 +29,7 @@ class Doubt:
     gains: tuple[str, ...] = ()
 
     @property
-    def stands_first(self) -> bool:
+    def is_shown_first(self) -> bool:
         """Whether it is shown before the result."""
         return self.grave or self.code in SHOWN_FIRST
 
@@ -41,4 +41,4 @@ class Doubt:
 
 def sort_doubts(doubts: Iterable[Doubt]) -> list[Doubt]:
     """What is wrong comes first, then what other doubts depend on, then doubts about gains."""
-    return sorted(doubts, key=lambda one: (not one.grave, not one.stands_first, not one.gains))
+    return sorted(doubts, key=lambda one: (not one.grave, not one.is_shown_first, not one.gains))

@@ -15,7 +15,7 @@ from sim.core.log import MOVING, Log, Run
 from sim.core.vocabulary import TESTS
 
 MIN_SAMPLES = 5  # [samples] shorter pieces of a run are left out, too
-LITTLE = 0.5  # [share of a test's samples] of less, the rest hardly is that test
+MIN_SHARE_LEFT = 0.5  # [share of samples] a test of which less is left has a warning
 SPELLING = re.compile(r"(?P<test>[\w-]+?)(:(?P<start>[\d.]+)-(?P<end>[\d.]+))?")
 
 
@@ -114,7 +114,7 @@ def _doubt_rest(log: Log, left: Log) -> Iterator[Doubt]:
         before, after = (
             sum(len(run) for run in one.runs if run.test == test) for one in (log, left)
         )
-        if after < LITTLE * before:
+        if after < MIN_SHARE_LEFT * before:
             yield Doubt(
                 "little-left",
                 f"Only {after / before:.0%} of {test} is left. What this test shows is missing in "

@@ -174,7 +174,7 @@ def _suggest_others(found: Fit, trial: FeedbackTrial) -> Iterator[FeedbackTrial]
 
 
 def format_gain_pair(trial: FeedbackTrial, symbol: str) -> str:
-    """KP and kD with four digits and their units; a kD of zero is left out.
+    """The gains kP and kD with four digits and units; a kD of zero is left out.
 
     Args:
         trial: a trial of the gains.

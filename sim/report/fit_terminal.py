@@ -45,7 +45,7 @@ def show_fit(
     for doubt in doubts:
         if doubt.grave:
             say(f"wrong: {doubt.text}", hang=7, style=WRONG)
-        elif doubt.stands_first:
+        elif doubt.is_shown_first:
             say(f"warning: {doubt.text}", hang=9, style=WARNING)
     style = VERDICT_STYLES.get(judge_gains(found), "bold yellow")
     say(f"Verdict: {write_gain_verdict(found, log)}", hang=9, style=style)
@@ -75,7 +75,7 @@ def show_fit(
     for note in notes:
         say(note, hang=2)
     for doubt in doubts:
-        if not doubt.stands_first:
+        if not doubt.is_shown_first:
             say(f"warning: {doubt.text}", hang=9, style=WARNING)
 
 

@@ -12,7 +12,7 @@ OWNER_ONLY, USUAL = 0o600, 0o666
 OWNER_ONLY_FOLDER = 0o700
 # Number and pause [s] of tries: Windows cannot replace a file while a program reads it
 TRIES, PAUSE = 20, 0.05
-# The name of a temporary file, as a pattern: a program that is killed leaves one
+# Pattern of the names of temporary files: a program that is killed can leave one
 PARTS = f".{'[0-9a-f]' * 32}.part.*"
 
 

@@ -178,7 +178,7 @@ def _write_page(
         for trial in output.tried
     ]
     pooled = replace(output.pooled, found=output.found, notes=(*output.notes, *trials))
-    one.keep_fit(reading := Reading(left_out=left_out), pooled)
+    one.store_fit(reading := Reading(left_out=left_out), pooled)
     save_page(one, reading, html)
 
 

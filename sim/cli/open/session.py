@@ -184,7 +184,7 @@ class OpenLog:
         """The log of each mechanism, side or motor, without the parts that the user left out."""
         return leave_out(self.read_parts(reading), reading.left_out)
 
-    def keep_fit(self, reading: Reading, pooled: PooledParts) -> None:
+    def store_fit(self, reading: Reading, pooled: PooledParts) -> None:
         """Store a fit that was already computed."""
         self._results[self.revision, ("fit", reading)] = pooled
 
