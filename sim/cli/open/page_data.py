@@ -59,6 +59,7 @@ MEANS = {
 }
 WORDS = ("type", "preset", "units", "before", "motor")  # of a request for feedback gains
 ALLOWED = ("position_error", "velocity_error", "volts")  # weights of the regulator
+DELAYS = ("position_delay", "velocity_delay")  # [s] of a feedback loop
 LAGS = 1e-5  # [s] a shorter lag is shown as 0
 
 
@@ -223,10 +224,7 @@ def describe_fit(
         "parts": [] if chosen else sorted(part.effect for part in found.parts),
         "lag": found.position_delay if found.position_delay > LAGS else 0.0,
         "window": max(2.0 * (found.velocity_delay - found.position_delay), 0.0),
-        "delays": {
-            "position_delay": found.position_delay,
-            "velocity_delay": found.velocity_delay,
-        },
+        "delays": {name: getattr(found, name) for name in DELAYS},
         **({} if chosen else _describe_starts(found, log, reading)),
     }
 
@@ -374,7 +372,7 @@ def describe_feedback(query: Mapping[str, str]) -> dict[str, Any]:
         label = wrong[0].replace("_", " ")
         raise BadRequest(f"{texts[wrong[0]]!r} is no {label}", advice="Type a number above zero.")
     numbers = {name: float(text) for name, text in texts.items()}
-    delays = {name: numbers.get(name, 0.0) for name in ("position_delay", "velocity_delay")}
+    delays = {name: numbers.get(name, 0.0) for name in DELAYS}
     gains = {name: numbers.get(name, 0.0) for name in (*ORDER.get(type_, ()), "offset_rad")}
     units = query.get("units", "meters")
     before = query.get("before") or units

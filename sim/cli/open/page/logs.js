@@ -152,8 +152,8 @@ async function askFaults(log, asked) {
     faults: [], clean: false, doubts: [{ code: "", message: sentence(problem), grave: true }],
   }));
   if (log.asked !== asked) return;
-  log.faults = found; // those to show, the surest first; in a log that grows, a missing test is none
-  found.faults = found.faults.filter(({ fault }) => !(log.revision && fault === "missing-test")).sort((a, b) => b.confidence - a.confidence);
+  log.faults = found; // those to show, the surest first, and those alike in the order of the log; in a log that grows, a missing test is none
+  found.faults = found.faults.filter(({ fault }) => !(log.revision && fault === "missing-test")).sort((a, b) => (a.sureness === b.sureness ? 0 : b.confidence - a.confidence));
   changed(log, "faults");
 }
 

@@ -50,7 +50,8 @@ function faultCard(log, one) {
     make("h3", "", titleOf(log, one), make("span", "badge", one.sureness)),
     one.test && make("p", "where", where),
     make("p", "", prose(one.evidence)), make("p", "advice", prose(one.advice)),
-    isPlaced(one) && [button("button small", "Show", () => showFault(one)), " ", canLeaveOut(log, one) && leaveButton(log, one, "button small")]);
+    isPlaced(one) && [button("button small", "Show", () => showFault(one)), " ",
+      canLeaveOut(log, one) ? leaveButton(log, one, "button small") : make("span", "quiet leave", "Too long to leave out.")]);
 }
 
 const isPlaced = (one) => one.test && one.run !== null;
@@ -81,6 +82,7 @@ export function showDoubts() {
   if (fit) at("verdict").replaceChildren(...prose(moved ? "These gains are not measured, so their errors are not known. Reset them to see the verdict." : fit.verdict));
   at("verdict-card").classList.toggle("wrong", Boolean(fitRefused) || word === "Do not use");
   at("verdict-card").classList.toggle("well", word === "Usable");
+  at("paste").classList.toggle("primary", !["Not usable", "Do not use"].includes(word));
   const said = [...fit?.doubts ?? [], ...faults?.doubts ?? []].filter(({ code }) => !faults?.faults.some(({ fault }) => fault === code)).sort((a, b) => Number(b.grave) - Number(a.grave));
   const known = [...Map.groupBy(said, ({ code }) => code).values()].map((alike) =>
     ({ ...alike[0], message: [...new Set(alike.map(({ message }) => message))].join(" ") }));
