@@ -22,7 +22,6 @@ import sim  # noqa: E402 - the course in this folder
 from sim.bench.mechanism import Mechanism  # noqa: E402 - the same
 from sim.bench.simulate import move_gains_only, simulate  # noqa: E402 - the same
 from sim.core.log import Array, Log  # noqa: E402 - the same
-from sim.fit import fit  # noqa: E402 - the same
 from sim.inspect.contaminate import contaminate  # noqa: E402 - the same
 from sim.physics.engine import State, simulate_run  # noqa: E402 - the same
 from sim.physics.model import Model  # noqa: E402 - the same
@@ -77,12 +76,13 @@ def simulate_lift(volts: float) -> Array:
     return simulate_run(ELEVATOR.model, time=TIME[:20], voltage=held, state=start).position
 
 
-def chart_tests(log: Log, directions: str) -> Chart:
-    """Voltage and speed of a log's tests, interrupted between them."""
+def chart_tests(log: Log, directions: str, *shown: str) -> Chart:
+    """The named signals of a log's tests, interrupted between them."""
     runs = [run for run in log.runs if run.direction in directions]
     signals = [np.array([run.time, run.voltage, run.velocity]) for run in runs]
     time, volts, speed = np.hstack([np.insert(one, one.shape[1], np.nan, 1) for one in signals])
-    return chart_curves(time, {VOLTS: volts, SPEED: speed}, xlabel=SECONDS, ylabel="")
+    lines = {VOLTS: volts, SPEED: speed}
+    return chart_curves(time, {one: lines[one] for one in shown}, xlabel=SECONDS, ylabel="")
 
 
 def chart_lessons() -> Iterator[Chart]:
@@ -90,8 +90,8 @@ def chart_lessons() -> Iterator[Chart]:
     log = record(DRIVETRAIN)
     run = log.runs[0]
 
-    # 0: guessed and measured gains
-    yield chart_drives({"measured gains": fit(log).gains, "guessed gains": GUESS})
+    # 0: guessed gains
+    yield chart_drives({"with guessed gains": GUESS})
 
     # 1: the terms of a voltage
     terms = split_voltage(TRUTH)
@@ -103,8 +103,8 @@ def chart_lessons() -> Iterator[Chart]:
     yield chart_curves(TIME[:20], lines, xlabel=SECONDS, ylabel="height [m]")
 
     # 3 and 4: two kinds of tests, each in two directions
-    yield chart_tests(log, "forward")
-    yield chart_tests(log, "forward, reverse")
+    yield chart_tests(log, "forward", VOLTS)
+    yield chart_tests(log, "forward, reverse", VOLTS, SPEED)
 
     # 5: a ramp on a floor
     free, curves = replace(DRIVETRAIN, travel=None), [Curve("wall", [12.0] * 2, [0.0, 4.0], "bar")]

@@ -16,8 +16,8 @@
 # *About 40 minutes. You need only this page: no robot, no earlier lesson, no math beyond a straight
 # line.*
 #
-# ![Speed over time. The robot should reach 2 m/s. With measured gains it does what you want. With
-# guessed gains it only reaches 1.6 m/s.](attachment:picture.png)
+# ![Speed over time. The robot should reach 2 m/s. With guessed gains it only reaches 1.6
+# m/s.](attachment:picture.png)
 #
 # **At the end you can**
 #

@@ -15,8 +15,8 @@
 #
 # *About 40 minutes. You need lessons 1 and 2. You need no robot today.*
 #
-# ![Voltage and speed of two tests. In the first test, both grow slowly. In the second test, the
-# voltage jumps, and the speed follows in half a second.](attachment:picture.png)
+# ![The voltage of two tests. In the first test it grows slowly. In the second test it
+# jumps.](attachment:picture.png)
 #
 # **At the end you can**
 #

@@ -202,11 +202,7 @@ suspects = record_suspects()
 # - **breakaway friction**: the friction is larger at very low speed (also called *Stribeck*
 #   friction).
 #
-# Look at each robot below. Then say which robot has which effect.
-
-# %%
-display(*(ask_question(f"lesson9.{robot}") for robot in "abcd"))
-
+# Choose each robot in turn.
 
 # %%
 UNITS = ("speed [m/s]", "time [s]", "position [m]", "voltage [V]", "−1 reverse, 1 forward")
@@ -238,6 +234,11 @@ animate_charts(
 # The line shows the mean of nearby samples. The percentage above each plot says how much of the
 # (squared) voltage residual beyond noise follows this line. Compare the percentages of each robot.
 # They can be more than 100 % together, because one effect can show in two plots.
+#
+# Which robot has which effect?
+
+# %%
+display(*(ask_question(f"lesson9.{robot}") for robot in "abcd"))
 
 # %% [markdown]
 # ### Explain
