@@ -75,3 +75,16 @@ def test_a_speed_left_out_a_voltage_beyond_any_battery_and_swapped_gains_are_nam
         found = grade_answer(copy, student=student, **{name: f"{volts:.4f}"})[name]
 
         assert says in found.hint, (name, volts)
+
+
+@pytest.mark.parametrize("student", CLASS[:12])
+def test_a_decimal_point_and_inches_are_named_with_their_factor(copy, student):
+    variant = OWN.module.draw(student)
+    kick, speed, _ = variant.terms("forward")
+    cases = [(10.0 * (kick + speed), "10 times too large"), (kick + speed / 10.0, "kV·v 10 times")]
+    if variant.kind == "drivetrain":
+        cases.append((kick + 12.0 * speed, "a foot is 12 inches"))
+    for volts, says in cases:
+        found = grade_answer(copy, student=student, forward=f"{volts:.4f}")["forward"]
+
+        assert says in found.hint, volts

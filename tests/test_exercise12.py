@@ -145,6 +145,16 @@ def test_a_parameter_that_an_effect_does_not_have_is_named(tmp_path):
     assert "It has delay.lag." in check.hint
 
 
+@pytest.mark.parametrize("line", ["", 'stribeck.{} = ""\n'])
+def test_a_parameter_that_an_effect_lacks_is_named(line, tmp_path):
+    first, *rest = [one.name for one in find_effect("stribeck").parameters]
+    text = f'effects = ["stribeck"]\nstribeck.{first} = 0.03\n{line.format(rest[0])}'
+    check = grade_answer(text, "ada", tmp_path)["held-out"]
+
+    assert check.seen == f"no stribeck.{rest[0]}"
+    assert not check.is_unanswered
+
+
 def test_trying_an_effect_shows_the_gaps_but_not_the_held_out_one(copy, monkeypatch, capsys):
     name = ROOM.draw("ada").hidden[0]
     script = str(copy.folder / "try_it.py")

@@ -100,3 +100,20 @@ def test_the_radius_of_each_wheel_follows_from_the_spin(copy, student):
 @pytest.mark.parametrize("word", ["rad/s", "Radians per second", "radians_per_second"])
 def test_the_unit_of_a_rate_may_be_written_in_many_ways(copy, word):
     assert grade_answer(copy, rate_unit=word)["rate-unit"].status == "passed"
+
+
+@pytest.mark.parametrize("student", CLASS[:12])
+def test_a_missing_mass_and_the_share_of_a_planner_are_named(copy, student):
+    variant = OWN.module.draw(student)
+    right = {name: one.expected for name, one in variant.asked.items()}
+    free = variant.drive.motor.free_speed * variant.radius / variant.ratio
+    cases = (
+        ("inertia", right["inertia"] / variant.mass, "is the mass missing?"),
+        ("inertia", right["inertia"] * math.pi / 180.0, "Is your kA of turning per degree?"),
+        ("top_speed", 0.85 * right["top_speed"], "is this 85 % of"),
+        ("top_speed", 0.85 * free, "is this 85 % of"),
+    )
+    for name, value, says in cases:
+        found = grade_answer(copy, student=student, **{name: f"{value:.5g}"})
+
+        assert says in found[name.replace("_", "-")].hint, (name, value)

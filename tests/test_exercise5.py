@@ -159,6 +159,26 @@ def test_controller_for_tests_only_is_a_guard(made, tmp_path):
     assert (found.status == "passed") is CONTROLLERS[made], found.seen
 
 
+NAMED = {  # how a button is asked for, and how the feedback names it
+    "a()": "A button (a())",
+    "button(7)": "Back button (back())",
+    "leftTrigger()": "LeftTrigger (leftTrigger())",
+    "button(11)": "button 11",
+}
+
+
+@pytest.mark.parametrize(
+    ("name", "guard", "controller"),
+    [(JAVA, GUARD, "m_driverController"), (PYTHON, ".and_(testing)", "self.driver")],
+)
+@pytest.mark.parametrize("button", NAMED)
+def test_button_is_named_as_robot_code_names_it(button, name, guard, controller, tmp_path):
+    asked = (f"{controller}.a()", f"{controller}.{button}")
+    found = graded(tmp_path, (guard, ""), asked, name=name)["guard"]
+
+    assert f"{NAMED[button]} of the controller at port 0 alone starts" in found.seen
+
+
 def test_comment_is_read_in_the_file_of_the_binding_only(tmp_path):
     container, mark, subsystem = solution(JAVA).partition("/** One motor, and a routine")
     imports = container[: container.index("/** The robot's parts")]

@@ -159,6 +159,14 @@ def test_a_number_that_a_program_computed_is_not_blamed_on_a_calculator(copy, sl
     assert "Check four steps: take the tests one by one" in hint
 
 
+def test_friction_column_that_is_the_same_in_every_row_is_named(copy):
+    text = (OWN.solution / "fit.py").read_text("utf-8")
+    assert "np.sign(" in text
+    hint = grade_answer(copy.folder, text.replace("np.sign(", "np.ones_like(")).hint
+
+    assert "Then forward and reverse cancel" in hint
+
+
 def test_a_gain_under_another_name_is_shown_the_names(copy):
     check = grade_answer(copy.folder, NAIVE.format(slope="np.gradient(velocity, time)", ks="ks"))
 

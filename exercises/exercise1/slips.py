@@ -94,6 +94,20 @@ def _list_whole_slips(variant: Variant, name: str) -> Iterator[tuple[float, Wron
             yield sum(variant.terms(other)), SLIPS.name("swapped", other=other)
 
 
+def _list_rarer_guesses(variant: Variant, name: str) -> Iterator[Guess]:
+    """Slips that are suspected only where no other slip alone gives the voltage."""
+    terms = variant.terms(name)
+    whole = sum(terms)
+    parts = (("this", whole), *zip(("kS", "kV·v", "kA·a"), terms, strict=True))
+    slips = [("decimal", 10.0, what, volts) for what, volts in parts if volts]
+    if variant.kind == "drivetrain":
+        slips.append(("inches", 12.0, "kV·v", terms[1]))
+    for code, factor, what, volts in slips:
+        for times, way in ((factor, "large"), (1.0 / factor, "small")):
+            slip = SLIPS.name(code, what=what, way=way)
+            yield Guess(whole + (times - 1.0) * volts, (slip,))
+
+
 def find_suspects(value: float, variant: Variant, name: str) -> tuple[tuple[WrongNumber, ...], ...]:
     """The slips, or pairs of them, that would give this voltage; the simplest only."""
     near = {
@@ -101,6 +115,8 @@ def find_suspects(value: float, variant: Variant, name: str) -> tuple[tuple[Wron
         for guess in list_guesses(variant, name)
         if guess.fits(value)
     }
-    alone = tuple(slips for slips in near.values() if len(slips) == 1)
+    alone = tuple(slips for slips in near.values() if len(slips) == 1) or tuple(
+        guess.slips for guess in _list_rarer_guesses(variant, name) if guess.fits(value)
+    )
     found = alone or tuple(near.values())
     return found if len(found) <= (MANY if alone else 1) else ()

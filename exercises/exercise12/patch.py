@@ -83,7 +83,7 @@ def read_parts(names: tuple[str, ...], given: Mapping[str, object], unit: Unit) 
 
 
 def _require_parameters(name: str, table: Mapping[str, object], known: list[str]) -> None:
-    """Refuse a parameter that the effect does not have.
+    """Refuse a parameter that the effect does not have, and an effect that lacks one.
 
     Raises:
         WrongAnswer: there is one.
@@ -95,6 +95,9 @@ def _require_parameters(name: str, table: Mapping[str, object], known: list[str]
                 f"{name}.{shorten(other)}, which is not a parameter of {name}",
                 hint=f"It has {own}. Copy the lines that try_it.py prints.",
             )
+    for one in known:
+        if table.get(one, "") == "":
+            raise WrongAnswer(f"no {name}.{one}", hint=f"Write a line for it: {name}.{one} = …")
 
 
 def _read_value(name: str, known: Parameter, raw: object, unit: Unit) -> float:

@@ -9,6 +9,7 @@ from sim.bench.swerve_logs import KINETIC
 from .drive import BATTERY, Variant
 
 SLIPS = Slips(Path(__file__).with_name("slips.toml"))
+PROPOSED = 0.85  # [of the free speed] what PathPlanner's page proposes without a measurement
 DEGREE, HALF = math.pi / 180.0, math.sqrt(0.5)  # [rad], [1] of a square's side to its diagonal
 Numbers = dict[str, tuple[Lookalike, ...]]  # name of a number -> what slips make of it
 
@@ -40,7 +41,6 @@ def list_lookalikes(variant: Variant) -> Numbers:
             "no-lever": mass * turning / straight,
             "turned-inertia": mass * lever * straight / turning,
             "plate": mass * side**2 / 6.0,
-            "inertia-degrees": inertia * DEGREE,
         },
         "slip_current": {"four-currents": 4.0 * asked["slip_current"]},
         "top_speed": {"rate": asked["top_speed"] / lever},
@@ -76,6 +76,8 @@ def list_rarer_slips(variant: Variant) -> Numbers:
         "inertia": {
             "lever-twice": asked["inertia"] * lever,
             "mass-at-wheels": variant.mass * lever**2,
+            "no-mass": asked["inertia"] / variant.mass,
+            "inertia-degrees": asked["inertia"] * DEGREE,
         },
         "slip_current": {
             "quarter-current": slip / 4.0,
@@ -88,6 +90,8 @@ def list_rarer_slips(variant: Variant) -> Numbers:
             "feet": asked["top_speed"] / 0.3048,
             "turned-speed": 1.0 / asked["top_speed"],
             "multiplied": BATTERY * asked["kV"],
+            "share": PROPOSED * asked["top_speed"],
+            "free-share": PROPOSED * motor.free_speed * variant.radius / variant.ratio,
         },
         "max_torque": {
             "stall-torque": torque,

@@ -16,6 +16,7 @@ from grader.texts import read_texts
 MANY = 3  # more suspects than this tell the learner nothing
 NOTICED = 1.2  # a gear ratio nearer to 1 would explain any number that is a little off
 LARGE = 1000.0  # from here on a factor is written without decimals
+NO_FRICTION = 0.1  # [share of kS] a fit in which forward and reverse cancel finds less
 ALIKE = 0.02  # [share] how near a number has to be to what a wrong recipe gives on the same log
 
 
@@ -151,6 +152,8 @@ def explain_wrong_number(name: str, value: float, key: AnswerKey) -> tuple[Wrong
         excess = asked["kA"].expected / asked["kV"].expected * scene.ramp
         if excess > 0 and right(value - excess):
             found.append(_INTERCEPT)
+        if scene.period and not found and abs(value) <= NO_FRICTION * asked[name].expected:
+            found.append(_CANCELED)
     if name in {"kV", "kA"} and value and right(1.0 / value):
         found.append(_UPSIDE_DOWN)
     for likely in scene.lookalikes.get(name, ()):
@@ -168,6 +171,12 @@ _INTERCEPT = WrongNumber(
     "a little too large, by about the voltage that accelerates the mechanism during the ramp. Is "
     "your kS where the line through the quasistatic runs crosses v = 0?",
     "M-KS-INTERCEPT",
+)
+
+_CANCELED = WrongNumber(
+    "canceled",
+    "there is almost no friction in this. Is the column of kS in your fit the same number in every "
+    "row? Then forward and reverse cancel: it has to be sgn(v)",
 )
 
 _UPSIDE_DOWN = WrongNumber(

@@ -381,7 +381,7 @@ class ButtonBench(Bench):
         )
         return Press(
             test,
-            tuple(f"{kind} {number} of controller {port}" for port, kind, number in inputs),
+            tuple(map(_describe_input, inputs)),
             tuple(dict.fromkeys(port for port, _, _ in inputs)),
             switch[0] if switch else "",
             mode,
@@ -469,6 +469,14 @@ def find_tests(command: Any) -> list[str]:
         return [made[id(command)]]
     parts = walk_fields(command, leave=is_subsystem)
     return [made[id(one)] for _, _, one in parts if id(one) in made]
+
+
+def _describe_input(one: Input) -> str:
+    """An input as robot code names it: ``Y button (y()) of the controller at port 0``."""
+    port, kind, number = one
+    users = (hid for hid in WORLD.controllers if hid._port == port)
+    said = next((hid._describe(kind, number) for hid in users), f"{kind} {number}")
+    return f"{said} of the controller at port {port}"
 
 
 def _get_line(thing: Any) -> int:

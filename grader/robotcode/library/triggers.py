@@ -5,10 +5,11 @@
 """
 
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from enum import Enum
 from itertools import product
+from types import MappingProxyType
 from typing import Any
 
 from grader.robotcode.library.base import TABLES, Fake, WrongArgument, describe, fake
@@ -213,8 +214,10 @@ class GenericHID(_Controller):
     """A controller (allwpilib v2026, wpilibj/.../GenericHID.java).
 
     ``_used``: ("button", number), ("axis", number) and ("pov", angle) that the program reads, each
-    with the first line where it does.
+    with the first line where it does. ``_names``: those inputs that have a name.
     """
+
+    _names: Mapping[tuple[str, int], str] = MappingProxyType({})
 
     def __init__(self, port: int) -> None:
         self._hid = self
@@ -222,6 +225,14 @@ class GenericHID(_Controller):
         self._line = WORLD.where()
         self._used: dict[tuple[str, int], int] = {}
         WORLD.controllers.append(self)
+
+    def _describe(self, kind: str, number: int) -> str:
+        """An input by the method that robot code calls, where it has one: ``Y button (y())``."""
+        name = self._names.get((kind, number))
+        if name is None:
+            return f"{kind} {number}"
+        ending = f" {kind}" if kind == "button" else ""
+        return f"{name}{ending} ({_name_method(name)}())"
 
     def _note(self, kind: str, number: Any) -> None:  # may be unknown
         self._used.setdefault((kind, number), WORLD.where())
@@ -258,11 +269,14 @@ class CommandGenericHID(_Controller):
         return self._hid
 
 
+def _name_method(name: str) -> str:
+    return name if len(name) == 2 else name[0].lower() + name[1:]  # noqa: PLR2004 - as L1
+
+
 def _add_button(hid: type, command: type, name: str, number: int) -> None:
     """Add the methods of one button to both classes of a controller."""
-    plain = name if len(name) == 2 else name[0].lower() + name[1:]  # noqa: PLR2004 - as L1
     for cls in (hid, command):
-        setattr(cls, plain, lambda self, loop=None: self.button(number, loop))
+        setattr(cls, _name_method(name), lambda self, loop=None: self.button(number, loop))
     for end in ("", "Pressed", "Released"):
         read = getattr(GenericHID, f"getRawButton{end}")
         for form in (f"get{name}{end}", f"get{name}Button{end}"):
@@ -285,7 +299,11 @@ def _make_controller(name: str, first: int, buttons: str, axes: str) -> None:
     numbers = {f"k{button}": number for number, button in enumerate(buttons.split(), first)}
     places = {f"k{axis}": number for number, axis in enumerate(axes.split())}
     enums = {"Button": Enum("Button", numbers), "Axis": Enum("Axis", places)}
-    hid = type(name, (GenericHID,), enums)
+    names = {("button", number): one for number, one in enumerate(buttons.split(), first)}
+    names |= {
+        ("axis", number): one for number, one in enumerate(axes.split()) if one.endswith("Trigger")
+    }
+    hid = type(name, (GenericHID,), {**enums, "_names": names})
     command = type(f"Command{name}", (CommandGenericHID,), {"_of": hid})
     for number, button in enumerate(buttons.split(), first):
         _add_button(hid, command, button, number)
