@@ -30,7 +30,7 @@ export function showStory() {
 /** The headline, the models to choose from, the findings, and where the base model is wrong. */
 function storyParts(story, log) {
   const found = story.findings.map((one) => make("article", "finding",
-    make("h3", "", plain(one.name), make("span", "badge", one.kind === "fault" ? "damage" : one.size)),
+    make("h3", "", one.name, make("span", "badge", one.kind === "fault" ? "damage" : one.size)),
     make("p", "", one.sentence),
     one.parameters.map((words) => make("p", "where", words)),
     one.look.map(([title, words]) => make("p", "advice", `${title}: ${words}`))));
@@ -39,7 +39,7 @@ function storyParts(story, log) {
   const places = story.places.length
     ? [make("p", "quiet places", "Where the base model is wrong most"), make("ul", "doubts", story.places.map((one) => make("li", "busy", one)))]
     : [];
-  const tried = foldedItem("busy", "Tried", `What became of each effect. ${story.tried.map(plain).join("; ")}.`);
+  const tried = foldedItem("busy", "Tried", `What became of each effect. ${story.tried.join("; ")}.`);
   const models = story.effects.length && log.plain ? [gainsTable(story, log)] : [];
   return [make("p", "headline", prose(story.headline)), ...models, gapBars(story), ...found, make("ul", "doubts", rest, tried), ...places, make("p", "quiet how", story.how)];
 }
@@ -50,7 +50,7 @@ function showModels(log) {
   const boxes = effects.map((name) => {
     const chosen = (ticked) => effects.filter((one) => (one === name ? ticked : log.effects.includes(one)));
     const onchange = ({ target }) => guarded(log.name, () => chooseEffects(log, chosen(target.checked)));
-    return make("label", "", make("input", { type: "checkbox", checked: log.effects.includes(name), onchange }), plain(name));
+    return make("label", "", make("input", { type: "checkbox", checked: log.effects.includes(name), onchange }), name);
   });
   at("models").hidden = !effects.length;
   at("models").replaceChildren(make("legend", "", "Effects in the model"), ...boxes);
@@ -60,7 +60,7 @@ function showModels(log) {
 function gainsTable({ why_unticked: reason }, { effects: chosen, plain: without, fit }) {
   const say = ({ text, error_text: error }) => `${text} ±\u00a0${error}`;
   const row = (tag, words) => make("tr", "", words.map((one) => make(tag, "", one)));
-  const withThem = chosen.length ? [`with ${chosen.map(plain).join(", ")}`] : [];
+  const withThem = chosen.length ? [`with ${chosen.join(", ")}`] : [];
   const table = make("table", "gains-table", row("th", ["gain", "without", ...withThem, "unit"]),
     without.gains.map((gain, k) => row("td", [gain.label, say(gain), ...withThem.map(() => say(fit.gains[k])), gain.unit])));
   return make("div", "models", reason && make("p", "quiet", `${reason} Tick an effect to see what it changes.`), table,
@@ -98,7 +98,3 @@ at("look").addEventListener("click", () => {
   at("story").scrollIntoView({ block: "center", behavior: "smooth" });
   guarded(log.name, () => reconcile(log, {}));
 });
-
-function plain(name) {
-  return name.replaceAll("-", " ");
-}

@@ -88,7 +88,7 @@ export function showDoubts() {
     ({ ...alike[0], message: [...new Set(alike.map(({ message }) => message))].join(" ") }));
   const notes = (fit?.notes ?? []).map((note) => foldedItem("well", "Note", note));
   const parts = fit?.parts.length
-    ? [foldedItem("busy", "Note", `The fit also allows for ${fit.parts.map((one) => one.replaceAll("-", " ")).join(", ")}; the curve here leaves them out.`)]
+    ? [foldedItem("busy", "Note", `The fit also allows for ${fit.parts.join(", ")}; the curve here leaves them out.`)]
     : [];
   const open = [...at("doubts").querySelectorAll("[open] > summary")].map((one) => one.textContent);
   at("doubts").replaceChildren(...known.map((one) => doubtItem(log, one)), ...parts, ...notes);
