@@ -3,10 +3,9 @@
 import re
 from collections.abc import Iterator
 
-from mutation.text_operators import Rule, all_changes, either, times, without_a_letter
+from mutation.text_operators import COMMON, Rule, all_changes, either, without_a_letter
 
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
-NUMBER = r"(?<![\w.])\d+(?:\.\d+)?(?![\w.])"
 SENT = r"setVoltage\(voltage\.in\(Volts\)\)"
 STATEMENT = r"^ {4,}[\w.]+(?:\([^\n]*\)|\s=[^\n]*);\n"
 PERIODIC = "\n\n  @Override\n  public void periodic() {{\n    {};\n  }}"
@@ -71,23 +70,16 @@ RULES = (
     Rule("never-starts", LAST_WAY, r"\g<0>.unless(edu.wpi.first.wpilibj.DriverStation::isTest)"),
     Rule("may-not-run", r"^( +)(?=m_driverController\.\w\(\)\.and)", r"\1if (1 > 2) "),
     Rule("may-not-run", r"^( +)(?=m_driverController\.\w\(\)\.and)", rf"\1if ({ASKS} && false) "),
-    Rule("on-true", r"whileTrue", "onTrue"),
-    Rule("toggle", r"whileTrue", "toggleOnTrue"),
-    Rule("while-false", r"whileTrue", "whileFalse"),
-    Rule("on-false", r"whileTrue", "onFalse"),
     Rule("other-button", r"(?<=m_driverController)\.[abxy]\(\)", ".a()"),
     Rule("other-button", r"(?<=m_driverController)\.[abxy]\(\)", ".b()"),
     Rule("other-test", r"[qQ]uasistatic\(", lambda m: {"q": "d", "Q": "D"}[m[0][0]] + "ynamic("),
     Rule("other-test", r"[dD]ynamic\(", lambda m: {"d": "q", "D": "Q"}[m[0][0]] + "uasistatic("),
-    Rule("other-direction", r"kForward|kReverse", either("kForward", "kReverse")),
     Rule("fixed-direction", r"(?<=[cC]\()direction\)", "SysIdRoutine.Direction.kForward)"),
     Rule("hide-method", r"public Command", "private Command"),
     Rule("hide-method", r"public Command", "Command"),
     Rule("never-bind", r"^ +configureBindings\(\);\n", ""),
     Rule("wrong-comment", r"(?<=// )Quasistatic", "Dynamic", comments=True),
     Rule("wrong-comment", r"(?<=// )Dynamic", "Quasistatic", comments=True),
-    Rule("wrong-comment", r"kS and kV", "kA", comments=True),
-    Rule("wrong-comment", r"\bkA\b", "kV", comments=True),
     Rule("drop-comment", r"// (?:Quasistatic|Dynamic)[^\n]*", "//", comments=True),
     # Copied and not changed, left for right.
     Rule("swap-sides", r"\bm_(?:left|right)\b", either("left", "right")),
@@ -97,8 +89,6 @@ RULES = (
     Rule("drop-conversion", r" \* [A-Z]+_PER_[A-Z]+", ""),
     Rule("double-conversion", r" \* ([A-Z]+_PER_[A-Z]+)", r"\g<0> * \1"),
     Rule("invert-conversion", r" \* ([A-Z]+_PER_[A-Z]+)", r" / \1"),
-    Rule("drop-seconds", r" / 60(?:\.0)?", ""),
-    Rule("times-seconds", r" / 60(?:\.0)?", " * 60.0"),
     Rule("double-seconds", r" / 60(?:\.0)?", r"\g<0> / 60.0"),
     Rule("diameter-for-radius", r"Math\.PI", "2 * Math.PI"),
     Rule("forget-pi", r"Math\.PI \* |\ \* Math\.PI", ""),
@@ -127,7 +117,6 @@ RULES = (
     Rule("int-for-double", r"(?<![\w.])0\.5(?![\w.])", "1 / 2"),
     Rule("int-for-double", r"(?<![\w.])3\.5(?![\w.])", "(7 / 2)"),
     # Signs, quantities, sources.
-    Rule("flip-sign", r"(?<=setVoltage\()(?=\w)", "-"),
     Rule("flip-sign", r"(?<=\.of\()(?=[\w.]+[(.])(?!\d)", "-"),
     Rule("flip-sign", r"(?<=return )(?=motor)", "-"),
     Rule("flip-sign", r"(?<=double \w{2} = )(?=\d)|(?<=ROTATION = )", "-"),
@@ -176,23 +165,12 @@ RULES = (
     Rule("own-unit", r"edu\.wpi\.first\.units\.Units(?=\.(?:Meters|MetersPerSecond|Volts|Seconds);)", "frc.robot.Units"),
     Rule("measure-for-number", r"voltage\.in\(Volts\)", "voltage"),
     # Constants and arguments.
-    Rule("other-constant", NUMBER, times(2.0)),
-    Rule("other-constant", NUMBER, times(0.5)),
-    Rule("other-constant", NUMBER, times(10.0)),
-    Rule("other-constant", NUMBER, times(1 / 12)),
-    Rule("zero-constant", NUMBER, "0"),
-    Rule("negative-constant", NUMBER, r"-\g<0>"),
     Rule("swap-config", r"(Volts\.of\(0\.5\)\.per\(Second\)), (Volts\.of\(3\.5\))", r"\2, \1"),
     Rule("swap-config", r"(Volts\.of\(3\.5\)), (Seconds\.of\(10\))", r"\2, \1"),
     Rule("swap-callbacks", r"(this::drive), (this::record)", r"\2, \1"),
     Rule("swap-callbacks", r"(this::record), (this)\b", r"\2, \1"),
     Rule("same-callback", r"this::drive", "this::record"),
     Rule("same-callback", r"this::record", "this::drive"),
-    Rule("swap-arguments", r"(\w+Constants\.k\w), (\w+Constants\.k\w)", r"\2, \1"),
-    Rule("other-gain", r"(?<=Constants\.)k[SVAG](?=[,)])", "kS"),
-    Rule("other-gain", r"(?<=Constants\.)k[SVAG](?=[,)])", "kV"),
-    Rule("other-gain", r"(?<=Constants\.)k[SVAG](?=[,)])", "kP"),
-    Rule("drop-argument", r", \w+Constants\.k\w(?=\))", ""),
     Rule("other-feedforward", r"(?<=new )(?:SimpleMotor|Elevator)(?=Feedforward)", "Arm"),
     Rule("other-feedforward", r"(?<=new )Arm(?=Feedforward)", "Elevator"),
     Rule("null-argument", r"(?<=, )this(?=\))", "null"),
@@ -209,20 +187,15 @@ RULES = (
     Rule("no-subsystem", r" extends SubsystemBase", " extends Command"),
     Rule("drop-field", r"^  private final [A-Z]\w+ m_\w+ = [^\n]*;\n", ""),
     Rule("double-parameter", r"Voltage voltage", "double voltage"),
-    Rule("drop-converted", r" \* CONVERSION", ""),
-    Rule("double-converted", r" \* CONVERSION", r"\g<0>\g<0>"),
-    Rule("invert-converted", r" \* CONVERSION", " / CONVERSION"),
-    Rule("duty-gain", r"(?<== )\d[\d.e-]*(?= \* CONVERSION)", r"\g<0> / 12"),
     Rule("drop-unit", r" // V[^\n]*", "", comments=True),
     Rule("other-unit", r"(?<=// )V·s(?:²)?/\w+", "V", comments=True),
     # Code that cannot compile.
     Rule("drop-import", r"^import [^\n]*\n", ""),
     Rule("misspell-import", r"^import [\w. ]*\.(?=[A-Z]\w{4,};)\w+", without_a_letter),
     Rule("misspell-class", r"(?<![\w.\"])(?=[A-Z]\w{5,})(?![A-Z_]+\b)\w+(?!\w*;\n)", without_a_letter),
-    Rule("misspell-class", r"\bSysIdRoutine\b", "SysidRoutine"),
-    Rule("misspell-method", r"(?<=\.)[a-z]\w{6,}(?=\()", without_a_letter),
     Rule("misspell-variable", r"(?<![\w.])m_\w{4,}(?![\w(])", without_a_letter),
     Rule("misspell-constant", r"(?<![\w.])[A-Z]+_PER_[A-Z]+\b", without_a_letter),
+    *COMMON,
 )  # fmt: skip
 
 

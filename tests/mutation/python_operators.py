@@ -3,10 +3,9 @@
 import re
 from collections.abc import Iterator
 
-from mutation.text_operators import Rule, all_changes, either, times, without_a_letter
+from mutation.text_operators import COMMON, Rule, all_changes, either, without_a_letter
 
 COMMENT = re.compile(r'#[^\n]*|"""(?:.|\n)*?"""')
-NUMBER = r"(?<![\w.])\d+(?:\.\d+)?(?![\w.])"
 PERIODIC = "\n\n    def periodic(self) -> None:\n        {}\n"
 SENT = r"setVoltage\(voltage\)"
 ASKS = r"(?:wpilib\.)?DriverStation\.isTest"
@@ -49,22 +48,15 @@ RULES = (
         Rule("clear-bindings", r"^ +self\.subsystem\.dynamic\(SysIdRoutine\.Direction\.kReverse\)\n( +)\)\n", rf"\g<0>\1from commands2 import CommandScheduler\n\1{SCHEDULER}.{loop}().clear()\n")
         for loop in ("getDefaultButtonLoop", "getActiveButtonLoop")
     ),
-    Rule("on-true", r"whileTrue", "onTrue"),
-    Rule("toggle", r"whileTrue", "toggleOnTrue"),
-    Rule("while-false", r"whileTrue", "whileFalse"),
-    Rule("on-false", r"whileTrue", "onFalse"),
     Rule("other-button", r"(?<=driver)\.[abxy]\(\)", ".a()"),
     Rule("other-button", r"(?<=driver)\.[abxy]\(\)", ".b()"),
     Rule("other-test", r"(?<=\.)quasistatic\(", "dynamic("),
     Rule("other-test", r"(?<=\.)dynamic\(", "quasistatic("),
-    Rule("other-direction", r"kForward|kReverse", either("kForward", "kReverse")),
     Rule("fixed-direction", r"(?<=c\()direction\)", "SysIdRoutine.Direction.kForward)"),
     Rule("hide-method", r"(?<=def )(?=quasistatic|dynamic)", "_"),
     Rule("never-bind", r"^ +self\.configure_bindings\(\)\n", ""),
     Rule("wrong-comment", r"(?<=# )Quasistatic", "Dynamic", comments=True),
     Rule("wrong-comment", r"(?<=# )Dynamic", "Quasistatic", comments=True),
-    Rule("wrong-comment", r"kS and kV", "kA", comments=True),
-    Rule("wrong-comment", r"\bkA\b", "kV", comments=True),
     Rule("drop-comment", r"# (?:Quasistatic|Dynamic)[^\n]*", "#", comments=True),
     # Copied and not changed, left for right.
     Rule("swap-sides", r"\b(?:left|right)(?=\.|_|\b)", either("left", "right")),
@@ -75,8 +67,6 @@ RULES = (
     Rule("double-conversion", r" \* (METERS_PER_\w+)", r"\g<0> * \1"),
     Rule("invert-conversion", r"(?<=PerPulse\()(?=\w)", "1 / "),
     Rule("invert-conversion", r" \* (METERS_PER_\w+)", r" / \1"),
-    Rule("drop-seconds", r" / 60(?:\.0)?", ""),
-    Rule("times-seconds", r" / 60(?:\.0)?", " * 60.0"),
     Rule("diameter-for-radius", r"math\.pi", "2 * math.pi"),
     Rule("angular-for-linear", r"(?<=\.)(?:position|velocity)(?=\()", lambda m: f"angular{m[0].title()}"),
     Rule("minutes-for-seconds", r"getRate\(\)", "getRate() * 60"),
@@ -84,7 +74,6 @@ RULES = (
     Rule("raw-pulses", r"getDistance", "getRaw"),
     Rule("raw-pulses", r"getDistance", "get"),
     # Signs, quantities, sources.
-    Rule("flip-sign", r"(?<=setVoltage\()(?=\w)", "-"),
     Rule("flip-sign", r"(?<=\.voltage\()(?=self)", "-"),
     Rule("flip-sign", r"(?<=[ (])(?=self\.\w+_encoder\.get)", "-"),
     Rule("flip-sign", r"(?<=PerPulse\()", "-"),
@@ -114,12 +103,6 @@ RULES = (
     Rule("closed-loop", r"(?<=setVoltage\()voltage", "self.controller.calculate(0, voltage)"),
     Rule("stop-motor", SENT, "stopMotor()"),
     # Constants and arguments.
-    Rule("other-constant", NUMBER, times(2.0)),
-    Rule("other-constant", NUMBER, times(0.5)),
-    Rule("other-constant", NUMBER, times(10.0)),
-    Rule("other-constant", NUMBER, times(1 / 12)),
-    Rule("zero-constant", NUMBER, "0"),
-    Rule("negative-constant", NUMBER, r"-\g<0>"),
     Rule("swap-config", r"rampRate=(0\.5), stepVoltage=(3\.5)", r"rampRate=\2, stepVoltage=\1"),
     Rule("swap-config", r"stepVoltage=(3\.5), timeout=(10\.0)", r"stepVoltage=\2, timeout=\1"),
     Rule("misspell-keyword", r"rampRate|stepVoltage|timeout", without_a_letter),
@@ -128,11 +111,6 @@ RULES = (
     Rule("same-callback", r"self\.drive(?=,)", "self.record"),
     Rule("same-callback", r"self\.record(?=,)", "self.drive"),
     Rule("called-callback", r"(?<=Mechanism\()self\.drive", "self.drive()"),
-    Rule("swap-arguments", r"(\w+Constants\.k\w), (\w+Constants\.k\w)", r"\2, \1"),
-    Rule("other-gain", r"(?<=Constants\.)k[SVAG](?=[,)])", "kS"),
-    Rule("other-gain", r"(?<=Constants\.)k[SVAG](?=[,)])", "kV"),
-    Rule("other-gain", r"(?<=Constants\.)k[SVAG](?=[,)])", "kP"),
-    Rule("drop-argument", r", \w+Constants\.k\w(?=\))", ""),
     Rule("other-feedforward", r"(?<=\.feedforward = )\w+(?=\()", "ArmFeedforward"),
     Rule("null-argument", r"(?<=, )self(?=\))", "None"),
     Rule("null-argument", r"self\.(?:drive|record)(?=,)", "None"),
@@ -147,20 +125,15 @@ RULES = (
     Rule("drop-super", r"^ +super\(\)\.__init__\(\)\n", ""),
     Rule("no-subsystem", r"\(Subsystem\)(?=:)", ""),
     Rule("drop-self", r"(?<![\w.])self\.(?=left|right|driver\.|subsystem\.|routine\.)", ""),
-    Rule("drop-converted", r" \* CONVERSION", ""),
-    Rule("double-converted", r" \* CONVERSION", r"\g<0>\g<0>"),
-    Rule("invert-converted", r" \* CONVERSION", " / CONVERSION"),
-    Rule("duty-gain", r"(?<== )\d[\d.e-]*(?= \* CONVERSION)", r"\g<0> / 12"),
     Rule("drop-unit", r"  # V[^\n]*", "", comments=True),
     Rule("other-unit", r"(?<=# )V·s(?:²)?/\w+", "V", comments=True),
     # Code that stops with an error.
     Rule("drop-import", r"^(?:import|from) [^\n]*\n", ""),
     Rule("misspell-import", r"^from [\w.]+ import \w{5,}", without_a_letter),
     Rule("misspell-class", r"(?<![\w.\"])(?=[A-Z]\w{5,})(?![A-Z_]+\b)\w+", without_a_letter),
-    Rule("misspell-class", r"\bSysIdRoutine\b", "SysidRoutine"),
-    Rule("misspell-method", r"(?<=\.)[a-z]\w{6,}(?=\()", without_a_letter),
     Rule("misspell-variable", r"(?<=self\.)\w{4,}(?=[.,)])", without_a_letter),
     Rule("misspell-constant", r"(?<=\()[A-Z]+_PER_[A-Z]+\b", without_a_letter),
+    *COMMON,
 )  # fmt: skip
 
 

@@ -63,3 +63,36 @@ def without_a_letter(match: re.Match[str]) -> str:
 def times(factor: float) -> Callable[[re.Match[str]], str]:
     """Multiply a number."""
     return lambda match: f"{float(match[0]) * factor:.8g}"
+
+
+NUMBER = r"(?<![\w.])\d+(?:\.\d+)?(?![\w.])"
+COMMON = (
+    Rule("on-true", r"whileTrue", "onTrue"),
+    Rule("toggle", r"whileTrue", "toggleOnTrue"),
+    Rule("while-false", r"whileTrue", "whileFalse"),
+    Rule("on-false", r"whileTrue", "onFalse"),
+    Rule("other-direction", r"kForward|kReverse", either("kForward", "kReverse")),
+    Rule("wrong-comment", r"kS and kV", "kA", comments=True),
+    Rule("wrong-comment", r"\bkA\b", "kV", comments=True),
+    Rule("drop-seconds", r" / 60(?:\.0)?", ""),
+    Rule("times-seconds", r" / 60(?:\.0)?", " * 60.0"),
+    Rule("flip-sign", r"(?<=setVoltage\()(?=\w)", "-"),
+    Rule("other-constant", NUMBER, times(2.0)),
+    Rule("other-constant", NUMBER, times(0.5)),
+    Rule("other-constant", NUMBER, times(10.0)),
+    Rule("other-constant", NUMBER, times(1 / 12)),
+    Rule("zero-constant", NUMBER, "0"),
+    Rule("negative-constant", NUMBER, r"-\g<0>"),
+    Rule("swap-arguments", r"(\w+Constants\.k\w), (\w+Constants\.k\w)", r"\2, \1"),
+    Rule("other-gain", r"(?<=Constants\.)k[SVAG](?=[,)])", "kS"),
+    Rule("other-gain", r"(?<=Constants\.)k[SVAG](?=[,)])", "kV"),
+    Rule("other-gain", r"(?<=Constants\.)k[SVAG](?=[,)])", "kP"),
+    Rule("drop-argument", r", \w+Constants\.k\w(?=\))", ""),
+    Rule("drop-converted", r" \* CONVERSION", ""),
+    Rule("double-converted", r" \* CONVERSION", r"\g<0>\g<0>"),
+    Rule("invert-converted", r" \* CONVERSION", " / CONVERSION"),
+    Rule("duty-gain", r"(?<== )\d[\d.e-]*(?= \* CONVERSION)", r"\g<0> / 12"),
+    Rule("misspell-class", r"\bSysIdRoutine\b", "SysidRoutine"),
+    Rule("misspell-method", r"(?<=\.)[a-z]\w{6,}(?=\()", without_a_letter),
+)  # fmt: skip
+"""Mistakes that look alike in Java and in Python."""
