@@ -398,7 +398,7 @@ def test_the_chart_is_moved_by_wheel_hand_and_keyboard(page, tmp_path):
     page.mouse.move(*middle)
     page.mouse.wheel(0, -600)
     wait_until(page, f"sysid.chart.view[1] - sysid.chart.view[0] < {0.6 * whole}")
-    assert page.locator("#readout .measured dd").inner_text().endswith("m/s")
+    assert page.locator("#readout .measured dt").inner_text().endswith("m/s")
     before = page.evaluate("sysid.chart.view[0]")
     page.mouse.down()
     page.mouse.move(middle[0] - 80, middle[1], steps=4)

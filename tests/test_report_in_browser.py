@@ -2,7 +2,7 @@
 
 import pytest
 from chromium import LEAST_CONTRAST, least_contrast
-from open_page import drive_log, slipped_log, write_log
+from open_page import drive_log, served, slipped_log, write_log
 from test_open_in_browser import SET, TEXTS
 
 from sim.cli import sysid
@@ -70,6 +70,29 @@ def test_saved_page_reacts_like_the_page_of_the_server(saved):
     page.locator("#code-text", has_text="a saved page cannot").wait_for()
     assert not page.get_by_text("Add log").is_visible()
     assert page.complaints == []
+
+
+def test_saved_page_shows_what_was_on_the_screen(browser, tmp_path):
+    html, page, later = tmp_path / "saved.html", browser.new_page(), browser.new_page()
+    with served(tmp_path, write_log(slipped_log(), tmp_path / "log.csv")) as server:
+        page.goto(f"http://{server.hosts[0]}/{server.word}/")
+        page.locator("#fault-lines button.leave").first.click()
+        page.locator("#word", has_text="Usable").wait_for()
+        page.locator("#gain-kV").evaluate(SET, 2.9)
+        page.locator("#word", has_text="Moved by hand").wait_for()
+        with page.expect_download() as given:
+            page.locator("#report").click()
+        given.value.save_as(html)
+        shown = {place: page.locator(place).inner_text() for place in ("#meter", "#doubts")}
+    later.goto(html.as_uri())
+    later.locator("#word", has_text="Moved by hand").wait_for()
+    left_out = later.locator("#fault-lines").inner_text()
+    kept = {place: later.locator(place).inner_text() for place in shown}
+    page.close()
+    later.close()
+
+    assert kept == shown
+    assert left_out.startswith("Left out: quasistatic-forward")
 
 
 def test_file_name_is_never_run_as_code(browser, tmp_path):

@@ -27,7 +27,7 @@ def warn_of_lags(window: float, lag: float) -> Iterator[Doubt]:
     if window > LEAST_LAG:
         yield Doubt(
             "velocity-lag",
-            f"The velocity is averaged over {window * 1000:.0f} ms, so it is "
+            f"The velocity is averaged over about {window * 1000:.0f} ms, so it is about "
             f"{window * 500:.0f} ms late. The gains account for this delay. Your feedback "
             "controller gets the same delay: shorten the filter of the motor controller.",
         )
@@ -65,8 +65,8 @@ def warn_of_misfit(
     elif replay.has_misfit:
         yield Doubt(
             "small-misfit",
-            "A simulation with these gains misses the velocity by little, but by more than the "
-            "sensor noise. The errors above include it.",
+            "A simulation with these gains misses the velocity by more than the sensor noise, but "
+            f"by less than {NOTICED:.0%} of the top speed. The errors above include it.",
             action=Action("look-for-cause"),
         )
 

@@ -29,7 +29,7 @@ __all__ = ["Place", "Residuals", "find_gap_places"]
 PER_WAY = 2  # places of one way of binning that are listed; the others are mostly the same
 LARGEST_RHO = 0.98  # [1] upper limit of ρ
 SURE = 4.0  # [standard errors] with pure noise, one log in fifty has one of 300 bins beyond it
-_UNITS = {RUN: "s", REST: "V"}
+_UNITS = {RUN: "s after its start", REST: "V"}
 _WHOLES = {SPEED: "the top speed", POSITION: "the way"}
 
 

@@ -29,7 +29,7 @@ class Place:
         """The disagreement in a sentence: where, in which direction, by how much."""
         way = "faster" if self.error > 0.0 else "slower"
         return (
-            f"{self.where}: the robot is {way} than in the model, by "
+            f"{self.where}: {way} than in the model, by "
             f"{format_noises(abs(self.error))} times the noise of its velocity"
         )
 

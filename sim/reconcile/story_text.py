@@ -15,7 +15,12 @@ from sim.reconcile.story import (
     ParameterEstimate,
     Story,
 )
-from sim.reconcile.thresholds import MAJOR_UNEXPLAINED, PROBABLE, VISIBLE_FLOORS
+from sim.reconcile.thresholds import (
+    LEAST_PROBABILITY,
+    MAJOR_UNEXPLAINED,
+    PROBABLE,
+    VISIBLE_FLOORS,
+)
 from sim.support.printable import join_names, write_minus_sign
 
 FAR = 3.0  # [standard errors] by which two estimates of one gain hardly ever differ
@@ -155,8 +160,8 @@ def list_gain_doubts(story: Story) -> tuple[Doubt, ...]:
     if not moved or narrows_gap(story):
         return ()
     text = (
-        f"The effects change {join_names(moved)} by far more than their errors allow, and narrow "
-        "the gap only a little. Before you use these gains, record another log, and compare."
+        f"The effects change {join_names(moved)} by far more than their errors allow. Before you "
+        "use these gains, record another log, and compare."
     )
     return (Doubt("gains-move", text, gains=tuple(moved)),)
 
@@ -180,7 +185,8 @@ def explain_unapplied_effects(story: Story) -> str:
             "model of the search does not. So the fit's gains hold, and its error is small without "
             "the effect."
         )
-    return "The effects narrow the gap only a little, so they are not applied unasked."
+    share = 1.0 - MAJOR_UNEXPLAINED
+    return f"The effects narrow the gap by less than {share:.0%}, so they are not applied unasked."
 
 
 def list_outcomes(story: Story) -> dict[str, list[str]]:
@@ -194,6 +200,9 @@ def list_outcomes(story: Story) -> dict[str, list[str]]:
         for one in story.findings
         for rival in one.ambiguous_with
     }
+    unlikely = (one.effect for one in story.judged if one.probability < LEAST_PROBABILITY)
+    for effect in unlikely:
+        known.setdefault(effect, f"fits better, but is too unlikely{beside}")
     for effect, (tried, chapter) in last.items():
         is_last = chapter is story.chapters[-1]
         fitted = "fits better, but is too unlikely" if is_last else "makes no difference"

@@ -44,7 +44,7 @@ def check_width(row: Sequence[str], header: Sequence[str], *, where: str) -> Non
     """
     if len(row) != len(header):
         raise UnreadableFile(
-            f"the row has {len(row)} cells where the header has {len(header)}",
+            f"the row and the header differ in length: {len(row)} and {len(header)}",
             where=where,
-            advice="Complete the line, or remove it.",
+            advice="Complete the line, or remove it. In a log, each line is one sample.",
         )

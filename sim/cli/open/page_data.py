@@ -313,7 +313,7 @@ def write_code(
         raise BadRequest("this season is not supported", advice="Choose 2026.")
     compared = one.fit(reading).found if chosen else one.compare_directions(reading)[0]
     found = _apply_model(compared.in_log_units(), chosen)
-    moved = {name: float(query[name]) for name in found.gains if _is_number(query.get(name, ""))}
+    moved = {name: value for name, value in read_moved_gains(query).items() if name in found.gains}
     errors = {name: error for name, error in found.errors.items() if name not in moved}
     # A value set by hand has no standard error
     known = (*found.doubts, *_doubt_faults(one, reading, known=found.doubts))
@@ -325,6 +325,11 @@ def write_code(
         moved=[*moved],
     )  # fmt: skip
     return {"code": code}
+
+
+def read_moved_gains(query: Mapping[str, str]) -> dict[str, float]:
+    """The gains that a request of the page names, moved by hand."""
+    return {name: float(query[name]) for name in MEANS if _is_number(query.get(name, ""))}
 
 
 def _doubt_faults(one: OpenLog, reading: Reading, *, known: Sequence[Doubt]) -> Iterator[Doubt]:

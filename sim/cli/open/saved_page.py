@@ -3,6 +3,7 @@
 import base64
 import json
 import re
+from collections.abc import Mapping
 from dataclasses import asdict
 from itertools import combinations, product
 from pathlib import Path
@@ -49,8 +50,19 @@ def save_page(one: OpenLog, reading: Reading, target: Path, story: Story | None 
     write_page_file(render_saved_page(one, reading, story), choose_page_path(target))
 
 
-def render_saved_page(one: OpenLog, reading: Reading, story: Story | None = None) -> str:
+def render_saved_page(
+    one: OpenLog,
+    reading: Reading,
+    story: Story | None = None,
+    chosen: Mapping[str, str] | None = None,
+) -> str:
     """The page of one log as HTML.
+
+    Args:
+        one: the log.
+        reading: how to read the log, and what to leave out.
+        story: a result of reconcile to show with it.
+        chosen: effects to tick, and gains that were moved; None ticks those of the story.
 
     Raises:
         Refusal: the log cannot be read.
@@ -61,7 +73,9 @@ def render_saved_page(one: OpenLog, reading: Reading, story: Story | None = None
         lambda found: f'url("{_make_address(PAGE / found[1])}")',
         (PAGE / "style.css").read_text(encoding="utf-8"),
     )
-    answers = json.dumps(_collect_answers(one, reading, story), allow_nan=False)
+    choices = {"logs": {one.number: _describe_choices(one, reading, story, chosen)}}
+    data = _collect_answers(one, reading, story) | {"choices": choices}
+    answers = json.dumps(data, allow_nan=False)
     modules = {path.name: _make_address(path) for path in (*PAGE.glob("*.js"), *SHARED)}
     return (
         text.replace("<head>", f"<head>{POLICY}")
@@ -70,6 +84,29 @@ def render_saved_page(one: OpenLog, reading: Reading, story: Story | None = None
         .replace("<script", SCRIPTS.format(answers.replace("<", "\\u003c"), json.dumps(modules)), 1)
         .replace(' src="main.js">', '>import "main.js";')
     )
+
+
+def _describe_choices(
+    one: OpenLog, reading: Reading, story: Story | None, chosen: Mapping[str, str] | None
+) -> dict[str, Any]:
+    """What the user has chosen on the page, as the page keeps it."""
+    named = (chosen or {}).get("effects", "").split(",")
+    effects = None if chosen is None else list(filter(None, named))
+    left_out = [
+        {
+            "test": part.test,
+            "start": max(part.start, float(run.time[0])),
+            "end": min(part.end, float(run.time[-1])),
+        }
+        for part in reading.left_out
+        for run in one.combine_runs(reading).runs
+        if run.test == part.test
+    ]
+    return {
+        "leftOut": left_out,
+        "moved": page_data.read_moved_gains(chosen or {}),
+        **({} if story is None else {"settings": {}, "effects": effects}),
+    }
 
 
 def _make_address(path: Path) -> str:

@@ -175,7 +175,9 @@ class PageRequest(BaseHTTPRequestHandler):
             )
         reading = Reading.from_query(query)
         search = (
-            self._start_search(one, query) if what == "reconcile" or query.get("effects") else None
+            self._start_search(one, query)
+            if what == "reconcile" or query.get("effects") or query.get("story")
+            else None
         )
         if what == "samples":
             content = page_data.pack_samples(one.combine_runs(reading))
@@ -184,12 +186,16 @@ class PageRequest(BaseHTTPRequestHandler):
             content = page_data.pack_entry(one, one.combine_runs(reading), query.get("name", ""))
             self._send(content, "application/octet-stream")
         elif what == "report.html":
-            text = render_saved_page(one, reading, search.story if search else None)
+            text = render_saved_page(one, reading, search.story if search else None, query)
             self._send(text.encode(), KINDS[".html"], page=True)
         elif search and what == "reconcile":
             self._send_json(search.to_json())
         else:
-            chosen = search.refit(query["effects"].split(",")) if search else None
+            chosen = (
+                search.refit(query["effects"].split(","))
+                if search and query.get("effects")
+                else None
+            )
             data = page_data.answer_request(one, reading, what, query, chosen)
             if data is None:
                 self._refuse(HTTPStatus.NOT_FOUND, "there is nothing here")

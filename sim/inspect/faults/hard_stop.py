@@ -17,6 +17,7 @@ from dataclasses import replace
 import numpy as np
 
 from sim.core.log import Array, Log, Run
+from sim.core.units import Unit, find_unit
 from sim.inspect.anomalies import find_first_motion
 from sim.inspect.fault import (
     Damage,
@@ -65,11 +66,14 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
 def detect(features: LogFeatures) -> Iterable[Damage]:
     """Find runs that end at a stop with the voltage on, or start pressed against one."""
     yield from _find_pressed_starts(features)
+    unit = find_unit(features.log.units)
     for index, run in enumerate(features.log.runs):
-        yield from _find_stop(index, run, still=features.still_speed, period=features.period)
+        yield from _find_stop(index, run, unit, still=features.still_speed, period=features.period)
 
 
-def _find_stop(index: int, run: Run, *, still: float, period: float) -> Iterable[Damage]:
+def _find_stop(
+    index: int, run: Run, unit: Unit, *, still: float, period: float
+) -> Iterable[Damage]:
     """The stop at which a run ends, if there is one."""
     impact = _find_impact(run, speed=FAST * still, still=still)
     if impact is None:
@@ -88,13 +92,14 @@ def _find_stop(index: int, run: Run, *, still: float, period: float) -> Iterable
     share = 1.0 - moved / (speed * lasts)
     if share < 1.0 - LARGEST_REBOUND:
         return
+    went = abs(float(run.position[impact] - run.position[0]))
     yield Damage(
         where=LogInterval.of_samples(index, run, impact),
         confidence=share,
         evidence=f"The mechanism stops from {min(1.0, speed / top):.0%} of its top speed within "
         f"{SETTLES:g} s and stays there for {lasts:.2f} s, although the voltage stays "
         f"at up to {volts[impact:].max():.1f} V: it hit its end, "
-        f"{abs(float(run.position[impact] - run.position[0])):.3g} from where the run started.",
+        f"{went / unit.si:.3g} {unit.symbol} from where the run started.",
         advice="Keep only the part of the run before the impact. Or set soft limits, run the test "
         "again, and let go of the button earlier.",
     )

@@ -60,7 +60,9 @@ function candidate(words, { name, unit, signal, text: isText, values, picture },
 
 function showChosen() {
   const { chosen } = shownLog().choice;
-  at("open-chosen").disabled = ["voltage", "state"].some((one) => !chosen[one] && unchosen(one).endsWith("choose one"));
+  const missing = ROLES.find(([one]) => ["voltage", "state"].includes(one) && !chosen[one] && unchosen(one).endsWith("choose one"));
+  at("open-chosen").disabled = Boolean(missing);
+  at("missing").textContent = missing ? `Still missing: ${missing[1]}.` : "";
   for (const one of at("roles").children) one.lastChild.textContent = chosen[one.control.value] || unchosen(one.control.value);
 }
 

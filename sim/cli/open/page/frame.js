@@ -63,7 +63,9 @@ export function drawGrid(chart, to, name) {
   const across = (style, value) => drawLine(to, style, chart.left, Math.round(y(value)) + 0.5, chart.right, Math.round(y(value)) + 0.5);
   to.textBaseline = "middle";
   to.textAlign = "right";
-  for (const tick of roundTicks(low, high, Math.max(2, Math.floor((bottom - top) / apart)))) {
+  let count = Math.max(2, Math.floor((bottom - top) / apart));
+  while (roundTicks(low, high, count).length < 2) count++; // zero alone is no scale
+  for (const tick of roundTicks(low, high, count)) {
     across({ color: rule, width: Math.abs(tick) < 1e-9 * (high - low) ? 1.6 : 0.8 }, tick);
     to.fillStyle = quiet;
     to.fillText(short(tick), chart.left - 7, Math.round(y(tick)) + 0.5);
@@ -71,8 +73,10 @@ export function drawGrid(chart, to, name) {
   if (dashed) across({ color: quiet, dash: [5, 4] }, dashed(chart));
   to.textAlign = "left";
   to.textBaseline = "alphabetic";
+  const at = [title(chart), chart.left + 5, name === Object.keys(chart.panels)[0] ? top + 13 : top - 6];
+  draw(to, { color: chart.colors.card, width: 4 }, () => to.strokeText(...at)); // a curve below it stays behind
   to.fillStyle = quiet;
-  to.fillText(title(chart), chart.left + 5, name === Object.keys(chart.panels)[0] ? top + 13 : top - 6);
+  to.fillText(...at);
 }
 
 /** Draw runs of other logs over the velocity. */

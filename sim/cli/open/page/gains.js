@@ -18,18 +18,17 @@ export function showFit() {
   const { fit, fitRefused } = log;
   at("paste").disabled = at("feedback").disabled = !fit;
   at("reset").hidden = true;
-  const report = at("report");
-  report.toggleAttribute("href", false);
-  report.setAttribute("aria-disabled", String(!fit));
+  at("report").removeAttribute("href");
+  at("report").setAttribute("aria-disabled", String(!fit));
   showDoubts();
   if (!fit) {
     for (const id of ["sliders", "meter"]) at(id).replaceChildren();
+    document.querySelector(".legend .without").hidden = true;
     at("verdict").textContent = fitRefused ? sentence(fitRefused) : log.summary.compiles
       ? "The simulation is compiled first. That is done once, and takes about twenty seconds." : "";
     return;
   }
-  report.href = addressOf(log.id, "report.html", modelQuery(log));
-  report.download = `${log.name}.html`;
+  nameReport();
   sliders.show(fit.gains, log.gains, { fixed: Boolean(fit.tracks) });
   log.moved = sliders.isMoved;
   showSimulation(log);
@@ -77,13 +76,24 @@ function showMeter(log, error) {
   at("meter").replaceChildren(gap, make("p", "quiet", `simulation error ${figure(error)} ${symbol}/s${moved}`), bar);
 }
 
+/** The query for the chosen model, with the gains that the user moved. */
+function movedQuery(log) {
+  const moved = log.fit.gains.map(({ name, value }) => [name, log.gains[name] === value ? undefined : log.gains[name]]);
+  return { ...modelQuery(log), ...Object.fromEntries(moved) };
+}
+
+/** Let the page be saved as it is seen now. */
+function nameReport() {
+  const log = shownLog();
+  Object.assign(at("report"), { href: addressOf(log.id, "report.html", { ...movedQuery(log), story: log.search?.story && 1 }), download: `${log.name}.html` });
+}
+
 /** Robot code with the gains; those that the user moved replace those of the fit. */
 async function showCode() {
   const log = shownLog();
-  const moved = log.fit.gains.map(({ name, value }) => [name, log.gains[name] === value ? undefined : log.gains[name]]);
   const [language, season] = [at("language").value, at("season").value];
   const asked = showCode.asked = {}; // an answer that a later question overtakes is not shown
-  const query = { ...modelQuery(log), ...Object.fromEntries(moved), language, season, radius: at("radius").value.replace(",", ".") };
+  const query = { ...movedQuery(log), language, season, radius: at("radius").value.replace(",", ".") };
   at("code-text").textContent = "Writing…";
   at("copy").disabled = true;
   const [text, problem] = await askLog(log.id, "code", query).then(({ code }) => [code], (refusal) => [sentence(refusal), refusal]);
@@ -94,6 +104,7 @@ async function showCode() {
 }
 
 at("reset").addEventListener("click", () => sliders.reset());
+at("report").addEventListener("click", nameReport);
 at("paste").addEventListener("click", async () => { if (showCode.log !== shownLog()) at("radius").value = ""; showCode.log = shownLog(); await showCode(); at("code").showModal(); });
 at("copy").addEventListener("click", () => copy(at("code-text")));
 for (const id of ["language", "season", "radius"]) at(id).addEventListener("input", showCode);

@@ -13,7 +13,7 @@ const KEPT = ["query", "leftOut", "others", "effects"]; // kept while the page i
 export const logs = new Map();
 export const state = { active: null, view: { raw: false, span_text: {} } }; // view: the PageView of the server
 const begun = new Set(); // numbers of the logs that are or were open
-const kept = history.state ?? { logs: {} }; // the choices before the page was loaded again
+const kept = saved?.choices ?? history.state ?? { logs: {} }; // the choices before the page was saved or loaded again
 let tell = () => {};
 
 /** Call a function with "tabs" when the open logs change, or with what has changed of the log that is shown. */
@@ -57,7 +57,7 @@ export async function begin({ id, name, revision = 0 }, { show = id === kept.act
   await load(log);
   if (settings) await reconcile(log, settings, effects);
   if (moved && log.fit && !log.fit.tracks) {
-    log.gains = moved;
+    log.gains = { ...log.gains, ...moved };
     changed(log, "fit");
   }
 }
@@ -95,7 +95,6 @@ export async function load(log) {
   tell("tabs");
   if (!state.view.raw) await Promise.all([askFaults(log, asked), askFit(log, asked)]);
   setBusy(log, false);
-  if (saved && `logs/${log.id}/reconcile` in saved) await reconcile(log, {});
 }
 
 /** Read a log again with another type or unit; if that fails, it stays as it was. */
@@ -120,7 +119,7 @@ export async function offerChoice(log, problem = null) {
   const entries = log.choice?.entries ?? await askLog(log.id, "entries").catch(() => []);
   if (!entries.length) return false;
   const why = !problem ? "Choose them again." : log.choice ? sentence(problem) : `${problem.what}.`;
-  log.choice = { entries, why, chosen: { ...log.query }, columns: problem ? problem.asks === "columns" : log.choice?.columns ?? Boolean(log.query.time) };
+  log.choice = { entries, why, chosen: { ...log.query }, columns: problem?.asks === "columns" || (log.choice?.columns ?? Boolean(log.query.time)) };
   changed(log, "log");
   tell("tabs");
   return true;
@@ -149,7 +148,7 @@ export async function takeEntry(log, name) {
 
 async function askFaults(log, asked) {
   const found = await askLog(log.id, "faults", log.query).catch((problem) => ({
-    faults: [], clean: false, doubts: [{ code: "", message: sentence(problem), grave: true }],
+    faults: [], clean: false, refused: true, doubts: [{ code: "", message: sentence(problem), grave: true }],
   }));
   if (log.asked !== asked) return;
   log.faults = found; // those to show, the surest first, and those alike in the order of the log; in a log that grows, a missing test is none
@@ -246,7 +245,7 @@ export function stop(log) {
 
 /** The query for data about the chosen model. */
 export function modelQuery(log) {
-  return { ...log.query, ...log.search?.settings, effects: log.effects.join(), left_out: log.leftOut.map(nameOfPart).join() };
+  return { ...log.query, ...log.search?.settings, effects: log.effects.join(), left_out: saved ? "" : log.leftOut.map(nameOfPart).join() }; // a saved page has answers for one choice of parts
 }
 
 /** Show gains and curves of the model with these effects; without any, those of the fit. */

@@ -17,7 +17,7 @@ export async function guarded(name, work) {
 
 function showRefusal(name, problem) {
   const card = make("article", { className: "refusal", role: "alert" },
-    make("h3", "", name), make("p", "", `${problem.what ?? problem.message}.`), make("p", "advice", problem.advice),
+    make("h3", "", problem.where || name), make("p", "", `${problem.what ?? problem.message}.`), make("p", "advice", problem.advice),
     button("close", "×", () => card.remove(), { "aria-label": "Close this message" }));
   at("refusals").prepend(card);
 }

@@ -97,7 +97,7 @@ export function showCursor(cursor) {
   const values = chart.shown.curves.filter(({ label }) => label).map(({ label, of, unit, color }) => {
     const one = run && of(chart, cursor.run);
     const value = one?.values[cursor.sample - one.first];
-    return [label, Number.isFinite(value) ? `${figure(value)} ${unit(chart)}` : "–", color];
+    return [`${label}, ${unit(chart)}`, Number.isFinite(value) ? figure(value) : "–", color];
   });
   const rows = [["run", run ? run.test : "point at the curve", "run"], ...times, ...values];
   at("readout").replaceChildren(...rows.map(([name, value, kind = ""]) => make("div", kind, make("dt", "", name), make("dd", "", value))));

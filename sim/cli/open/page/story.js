@@ -20,11 +20,13 @@ export function showStory() {
   }
   const others = [...logs.values()].filter((one) => one !== log && one.runs);
   const parts = !search
-    ? [make("p", "quiet", "Tries every effect of the catalogue, drag to backlash, and names those that explain the simulation error. ", log.summary.compiled
+    ? [make("p", "quiet", "Tries the effects of the catalogue, drag to backlash, and names those that explain the simulation error. ", log.summary.compiled
         ? "This takes seconds, and up to a minute on a slow laptop." : "This takes minutes: Numba is not installed. With the extra fast it takes seconds.")]
     : search.refused ? [make("li", "grave", search.refused)]
       : storyParts(search.story, log);
-  place.replaceChildren(...parts, searchForm(search, others, (settings) => guarded(log.name, () => reconcile(log, settings))));
+  const form = searchForm(search, others, (settings) => guarded(log.name, () => reconcile(log, settings)));
+  const first = search?.story && !search.story.complete ? 1 : parts.length; // an unfinished search goes on from its headline
+  place.replaceChildren(...parts.slice(0, first), form, ...parts.slice(first));
 }
 
 /** The headline, the models to choose from, the findings, and where the base model is wrong. */
@@ -88,7 +90,7 @@ function searchForm(search, others, begin) {
 function gapBars({ gaps, findings }) {
   const damaged = findings.some(({ kind }) => kind === "fault");
   const most = Math.max(1, ...gaps.map(({ gap }) => gap ?? 0));
-  const rows = gaps.map(({ name, text, gap }, k) => make("div", k === gaps.length - 1 ? "last" : "",
+  const rows = gaps.map(({ name, text, gap }, k) => make("div", k === gaps.length - 1 && (gap ?? most) < (gaps[k - 1]?.gap ?? 0) ? "last" : "",
     make("span", "", name), make("i", { style: `--share: ${(gap ?? most) / most}` }), make("b", "", text)));
   return make("div", "gaps", make("p", "quiet", `Simulation error, in times the noise of the velocity${damaged ? ", without the damaged parts" : ""}`), rows);
 }

@@ -19,15 +19,15 @@ export function showFaults() {
   const { faults } = log.faults;
   const rows = faults.slice(0, MOST_SHOWN).map((one) => faultCard(log, one));
   if (faults.length > MOST_SHOWN) rows.push(make("li", "busy", `${faults.length - MOST_SHOWN} more are marked on the time axis.`));
-  const none = `No fault in ${log.runs.length === 1 ? "this run" : `these ${log.runs.length} runs`}.`;
-  place.replaceChildren(...rows.length ? rows : [make("li", "well", none)]);
+  const none = log.faults.refused ? "Not inspected." : `No fault in ${log.runs.length === 1 ? "this run" : `these ${log.runs.length} runs`}.`;
+  place.replaceChildren(...rows.length ? rows : [make("li", log.faults.refused ? "busy" : "well", none)]);
   const left = faults.filter((one) => !isLeftOut(log, one));
   const lines = left.slice(0, MOST_LINES).map((one) => {
     const words = `${titleOf(log, one)} (${one.sureness})${one.test ? `: ${nameOfTest(log, one)}` : ""}`;
     return make("li", "grave", button("link", words, () => showFault(one)), canLeaveOut(log, one) && make("span", "leave", " · ", leaveButton(log, one, "link")));
   });
   if (left.length > MOST_LINES) lines.push(make("li", "busy", button("link", `${left.length - MOST_LINES} more below`, () => at("faults").scrollIntoView({ behavior: "smooth" }))));
-  at("fault-lines").replaceChildren(...faults.length ? lines : [make("li", "well", none)], ...leftOutLines(log));
+  at("fault-lines").replaceChildren(...faults.length || log.faults.refused ? lines : [make("li", "well", none)], ...leftOutLines(log));
   showDoubts();
 }
 
@@ -67,8 +67,8 @@ function leaveButton(log, one, kind) {
 function leftOutLines(log) {
   const parts = [...new Set(log.runs.map(({ part }) => part))].filter(Boolean);
   const of = parts.length ? ` of ${parts.join(" and ")}` : "";
-  return log.leftOut.map((part) => make("li", "busy", `Left out: ${part.test}${of}, ${part.start.toFixed(2)} to ${part.end.toFixed(2)}\u00a0s `,
-    button("link", "Take in again", () => leaveOut(log, log.leftOut.filter((one) => one !== part)))));
+  return log.leftOut.map((part) => make("li", "busy", `Left out: ${part.test}${of}, ${part.start.toFixed(2)} to ${part.end.toFixed(2)}\u00a0s of the log `,
+    button("link leave", "Take in again", () => leaveOut(log, log.leftOut.filter((one) => one !== part)))));
 }
 
 /** The verdict in a word, and the warnings of fit and inspection, a line for each kind, the worst first. */
@@ -78,11 +78,12 @@ export function showDoubts() {
   const sure = faults?.faults.some((one) => one.sureness === "sure" && !isLeftOut(log, one));
   const moved = fit?.gains.filter(({ name, value }) => log.gains[name] !== value).length;
   const word = moved ? "Moved by hand" : fitRefused ? "No gains" : !fit ? "Fitting…" : !faults ? "Checking…" : sure && ["Usable", "Partly usable"].includes(fit.word) ? "Check first" : fit.word;
+  const bad = ["Not usable", "Do not use"].includes(word);
   at("word").textContent = word;
   if (fit) at("verdict").replaceChildren(...prose(moved ? "These gains are not measured, so their errors are not known. Reset them to see the verdict." : fit.verdict));
-  at("verdict-card").classList.toggle("wrong", Boolean(fitRefused) || word === "Do not use");
+  at("verdict-card").classList.toggle("wrong", Boolean(fitRefused) || bad);
   at("verdict-card").classList.toggle("well", word === "Usable");
-  at("paste").classList.toggle("primary", !["Not usable", "Do not use"].includes(word));
+  at("paste").classList.toggle("primary", !bad);
   const said = [...fit?.doubts ?? [], ...faults?.doubts ?? []].filter(({ code }) => !faults?.faults.some(({ fault }) => fault === code)).sort((a, b) => Number(b.grave) - Number(a.grave));
   const known = [...Map.groupBy(said, ({ code }) => code).values()].map((alike) =>
     ({ ...alike[0], message: [...new Set(alike.map(({ message }) => message))].join(" ") }));
