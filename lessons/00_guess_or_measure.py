@@ -28,8 +28,8 @@
 #
 # **How a lesson works.** Gray cells hold code. Click into one and press *Shift + Enter*: the cell
 # runs, and its answer appears below. Go through the page from top to bottom, and run every cell.
-# Most code only prepares or draws something. A bar with three dots hides it: run these cells like
-# the others, you need not open them. The code that you see is worth reading.
+# Most code only prepares or draws something. It is hidden behind a bar with three dots. Run these
+# cells like the others; you do not have to open them. The code that you see is worth reading.
 #
 # <details><summary>Do you see no buttons or sliders?</summary>
 #
@@ -192,7 +192,7 @@ race(KS, KV, seconds=90.0)
 # and run it:
 
 # %%
-MY_KS, MY_KV = START  # for example 0.2, 2.4
+MY_KS, MY_KV = START  # for example 0.44, 3.1
 
 # %% [markdown]
 # Now your opponent drives. Line one of its program runs four tests with the robot and keeps the
@@ -382,9 +382,8 @@ Table(
 # ## 5 Two questions
 #
 # If you guess, you ask: **which number makes the robot behave as I like?** SysId asks: **which
-# physical model best explains what the robot did?** The official definition says the same: system
-# identification is finding a mathematical model of a system "through statistical analysis of its
-# inputs and outputs". The two questions give different results:
+# physical model best explains what the robot did?** It computes this model from what went into the
+# robot (the voltage) and what came out (the motion). The two questions give different results:
 #
 # | | guessing | measuring |
 # |---|---|---|
@@ -546,8 +545,8 @@ Table(("added to", "moving mass [kg]", "kV grows by", "kA grows by", "kG grows b
 #
 # - For **kV**, and often for kS, a line that you draw with care is as good as a fit. If you need no
 #   other gain, draw such a line.
-# - For **kA**, and for **kG**, measuring wins. You can see the effect of kA only while the speed
-#   changes, and friction makes kG hard to see (lesson 2).
+# - For **kA** and **kG**, measuring wins. Your eye sees kA only while the speed changes, and
+#   friction hides kG (lesson 2).
 # - When **something changes** on the robot, measuring wins: it shows what changed, and by how much.
 # - With a **damaged log** (a log with wrong data), a guess can be better. A fit prints three gains
 #   even when they are wrong. Lesson 6 teaches you to recognize such a log.
@@ -595,8 +594,8 @@ Table(
 )
 
 # %% [markdown]
-# With good gains the feedback has little to correct. But you still need feedback: the gains in the
-# last row of the table were right before the bearing got worse. And these gains fit only *your*
+# With good gains the feedback has little to correct. But you still need feedback: in the last row
+# of the table the gains were right, until a bearing got worse. And these gains fit only *your*
 # robot: another team's robot has other gains.
 #
 # <details><summary>For mentors: can feedforward hit 4000 rpm exactly, without PID?</summary>

@@ -126,9 +126,9 @@ Table(
 )
 
 # %% [markdown]
-# So "7 V at 2 m/s" has two possible explanations. Either kA·a takes the volts that are left: then
-# the robot is getting faster. Or the speed is steady: then the robot has a larger kV. To decide,
-# check whether the velocity is still changing.
+# We know this robot's gains. So kA·a takes the volts that are left: the robot is getting faster.
+# For a robot with unknown gains, "7 V at 2 m/s" has a second explanation: the speed is steady, and
+# kV is larger. To decide, check whether the velocity is still changing.
 
 # %% [markdown]
 # ## 3 Doing it: the voltage budget
@@ -333,9 +333,9 @@ print(f"With kV = 0.4 V·s/m, 12 V would give 12 / 0.4 = {12 / 0.4:.0f} m/s: no 
 
 # %% [markdown]
 # The next table has the theoretical kV of eight motors without gears. WPILib's class for motor
-# data, `DCMotor`, first subtracts from the 12 V a small voltage that is lost inside the motor. So
-# this class gets a kV that is a little lower: see the last column. (FOC is a mode of the Kraken
-# that needs a paid license.)
+# data, `DCMotor`, has a slightly lower kV: it first subtracts the voltage that is lost inside the
+# motor. The last column says how much lower. (FOC is a mode of the Kraken that needs a paid
+# license.)
 #
 # <details><summary>For mentors: 12 V ÷ free speed, with source</summary>
 #
@@ -440,10 +440,9 @@ tabulate_gains(SETS, first="robot", more={"kV above theory": above})
 # When kV is more than 20 % above the theoretical kV, check the easiest things first:
 #
 # 1. **Numbers** (at a desk): check gear ratio, wheel size, units and the kind of motor.
-# 2. **Electrical** (in the log): did the logged voltage really reach the motors? Do all motors have
-#    power? If one motor has no power, the others do its work, and kS and kA grow. If the
-#    controller of that motor is in *brake mode* (it brakes a motor that gets no voltage), kV grows,
-#    too.
+# 2. **Electrical** (in the log): did the logged voltage really reach the motors, and all of them?
+#    If one motor gets no voltage, the others do its work, and kS and kA grow. If its controller
+#    is in *brake mode*, that motor also slows the others down, and kV grows, too.
 # 3. **Mechanical** (with a wrench): check belt, chain, bearings and grease. Turn the mechanism by
 #    hand. Is any part hot after a test?
 #
@@ -473,7 +472,7 @@ Table(("motor", "theoretical kV [V·s/m]", "2.68 is above it by"), tuple(rows))
 
 # %% [markdown]
 # With kV = 2.68, the first two motors would have to turn faster than they can. Either that robot
-# had Kraken X44 motors, or the ratio is wrong.
+# had Kraken X44 motors, or one of its numbers is wrong.
 
 # %% [markdown]
 # ## 6 How fast is it: τ = kA/kV
@@ -560,7 +559,7 @@ print(f"which is {100 * flag / 12:.0f} % of 12 V. Our drivetrain's kS is {gains[
 # 0.5 V, which is about 4 % of 12 V. (This rule is our own. Some healthy mechanisms with a high gear
 # ratio are above it.)
 #
-# Two warning signs need no limit:
+# Two more signs warn you, even if kS is below both limits:
 #
 # - **kS has grown since last week.** Write kS down each time.
 # - **Left and right differ.** They are built the same, so they should have the same friction. For
@@ -589,8 +588,8 @@ Table(("unit", "the same speed in this unit", "kV [V for one unit]", "kV·v [V]"
 
 # %% [markdown]
 # The same speed needs the same volts in every unit: look at the last column. 50 rot/s is 314 rad/s,
-# so each rad/s needs fewer volts. **When the number for the speed grows, the gain shrinks by the
-# same factor.**
+# so each rad/s needs fewer volts. **In a unit in which the speed is 6.28 times as large a number,
+# the gain is 6.28 times smaller.**
 #
 # - From V·s/rot to V·s/rad: **divide** by 2π. Do the same with kA. kS is in volts, so it stays.
 # - From V·s/rot of a wheel to V·s/m: divide by the wheel's circumference.
@@ -619,8 +618,8 @@ print(f"4 inch wheel: kV = 0.8 V·s/rot is the same as {0.8 / (math.pi * wheel):
 # - [ ] Each gain has its **unit** written next to it.
 # - [ ] kV is positive, and 0 to 8 % above the theoretical kV. If it is not, you know why.
 # - [ ] kS is below 0.5 V, the same left and right, and the same as last week.
-# - [ ] kA/kV is tens of milliseconds for a light mechanism, and hundreds of milliseconds for a
-#   mechanism that is heavy for its motors.
+# - [ ] kA/kV fits the mechanism: tens of milliseconds if it is light, hundreds if it is heavy for
+#   its motors.
 # - [ ] The velocity that you pass to the feedforward has the same length or angle unit as kV.
 #
 # ## 10 Knowledge check

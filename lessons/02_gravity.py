@@ -22,8 +22,7 @@
 # **At the end you can**
 #
 # - say what kG is, and which voltages hold an elevator still;
-# - find kG and kS from two voltages, and say whether a method finds a kG that is too small or too
-#   large;
+# - find kG and kS from two voltages, and say which methods find a wrong kG;
 # - find kG and kS of an arm, and correct the zero of its encoder (the sensor that measures
 #   position);
 # - choose SysId's analysis type and WPILib's feedforward class, with the arguments in the right
@@ -143,8 +142,9 @@ Table(
 print(f"elevator: kG/kA = {truth['kG'] / truth['kA']:.2f} m/s². Gravity is 9.81 m/s².")
 
 # %% [markdown]
-# On a real elevator kG/kA is a little smaller, because kA also contains the spinning parts of the
-# motors. If your kG/kA is 15 m/s², look for a mistake before you trust the two gains.
+# On a real elevator kG/kA is smaller, because kA also contains the spinning parts of the motors: a
+# little smaller with usual gears, much smaller with a very high gear ratio. If your kG/kA is 15
+# m/s², look for a mistake before you trust the two gains.
 #
 # For two kinds of elevator, kG/kA is not near 9.81 m/s². The next cell computes kG/kA for both:
 #
@@ -362,11 +362,39 @@ animate_charts(lambda: chart_hold_angles(measured, kg=arm.gains["kG"], ks=arm.ga
 # ### An encoder with an offset
 #
 # The formula needs the angle from **level**. But an encoder does not know where level is: its zero
-# depends on how somebody mounted it. Suppose our encoder shows 25° too much. The *reading* is the
-# angle that the encoder shows. Then the true angle is the reading plus the *offset*, here −25°.
+# depends on how somebody mounted it. The *reading* is the angle that the encoder shows. The
+# *offset* is what you add to a reading to get the true angle.
 #
-# You can find the offset from the windows. The next cell computes it with a fit. In the picture
-# after it, you can find the offset by eye.
+# Our encoder shows too much. In the next picture the marks are highest where the arm is *really*
+# level, not where the encoder shows 0°. Find the offset at which the shaded band covers all marks.
+
+
+# %%
+def askew_chart(offset: float) -> Chart:
+    """The readings of the encoder that is askew, and the cosine with an offset of your choice."""
+    readings = np.linspace(-120.0, 120.0, 49)
+    middle = arm.gains["kG"] * np.cos(np.radians(readings + offset))
+    width = arm.gains["kS"]
+    band = np.concatenate([middle - width, (middle + width)[::-1]])
+    angles, lowest, highest = zip(*table, strict=True)
+    curves = (
+        Curve("window", np.concatenate([readings, readings[::-1]]), band, "area", 4),
+        Curve("kG·cos(reading + offset)", readings, middle, "dashed", 0),
+        Curve("no longer falls", angles, lowest, "dots", 1),
+        Curve("begins to rise", angles, highest, "dots", 2),
+    )
+    return Chart("what the encoder reads [deg]", "voltage [V]", curves)
+
+
+TILT = 25.0  # [deg] our encoder shows this much too much
+table = [(angle + TILT, low, high) for angle, low, high in measured]
+animate_charts(
+    askew_chart,
+    knobs=(Knob("offset", "offset [deg]", low=-60.0, high=60.0, step=2.0, value=0.0),),
+)
+
+# %% [markdown]
+# The next cell computes the offset with a fit, and kG and kS, too. Is it the offset that you found?
 #
 # <details><summary>How to compute the offset (you need it for exercise 3)</summary>
 #
@@ -383,8 +411,6 @@ animate_charts(lambda: chart_hold_angles(measured, kg=arm.gains["kG"], ks=arm.ga
 # </details>
 
 # %%
-TILT = 25.0  # [deg] our encoder shows this much too much
-table = [(angle + TILT, low, high) for angle, low, high in measured]
 reading = np.radians([row[0] for row in table])
 middle = np.array([(low + high) / 2 for _, low, high in table])
 half_width = np.array([(high - low) / 2 for _, low, high in table])
@@ -395,39 +421,11 @@ found_kg = float(np.hypot(a_share, b_share))
 found_offset = float(np.degrees(np.arctan2(-b_share, a_share)))
 print(f"kG = {found_kg:.3f} V (true: {arm.gains['kG']:.3f} V)")
 print(f"kS = {half_width.mean():.3f} V (true: {arm.gains['kS']:.3f} V)")
-print(f"offset = {found_offset:.1f}°. Add the offset to every reading of the encoder.")
+print(f"offset = {found_offset:.1f}° (true: {-TILT:g}°). Add the offset to every reading.")
 
 # %% [markdown]
-# The values that the fit finds are not exactly the true values, because we tried only one voltage
-# every 10 mV.
+# The fit is not exactly right, because we tried only one voltage every 10 mV.
 #
-# In the next picture the marks are highest where the arm is *really* level, not where the encoder
-# shows 0°. Find the offset at which the shaded band covers all marks.
-
-
-# %%
-def askew_chart(offset: float) -> Chart:
-    """The readings of the encoder that is askew, and the cosine with an offset of your choice."""
-    readings = np.linspace(-120.0, 120.0, 49)
-    middle = found_kg * np.cos(np.radians(readings + offset))
-    width = float(half_width.mean())
-    band = np.concatenate([middle - width, (middle + width)[::-1]])
-    angles, lowest, highest = zip(*table, strict=True)
-    curves = (
-        Curve("window", np.concatenate([readings, readings[::-1]]), band, "area", 4),
-        Curve("kG·cos(reading + offset)", readings, middle, "dashed", 0),
-        Curve("no longer falls", angles, lowest, "dots", 1),
-        Curve("begins to rise", angles, highest, "dots", 2),
-    )
-    return Chart("what the encoder reads [deg]", "voltage [V]", curves)
-
-
-animate_charts(
-    askew_chart,
-    knobs=(Knob("offset", "offset [deg]", low=-60.0, high=60.0, step=2.0, value=0.0),),
-)
-
-# %% [markdown]
 # SysId uses the same method for an arm: it fits a cosine and a sine, and computes kG and the offset
 # from them.
 #
@@ -611,8 +609,8 @@ Table(("log", "kS ± [%]", "kG ± [%]"), tuple(rows), caption="± is one standar
 # tests. Run all four, and be careful: the carriage falls even with 0 V, and **each test ends with
 # 0 V**. ([`SysIdRoutine` of robotpy-commands-v2
 # 2026.2.2](https://pypi.org/project/robotpy-commands-v2/2026.2.2/)) Set the motors to *Brake*: then
-# a falling carriage turns them, and they slow it down, as in the next cell. In *Coast* mode they do
-# not, and the carriage falls freely. A TalonFX is in *Coast* mode until you change it.
+# they slow the falling carriage down. The next cell computes how fast it still falls. In *Coast*
+# mode they do not, and the carriage falls freely. A TalonFX is in *Coast* mode until you change it.
 # ([`MotorOutputConfigs` of phoenix6 26.3.0](https://pypi.org/project/phoenix6/26.3.0/)) When you
 # let go of the button, the subsystem's default command takes over: lesson 5, section 8.
 #
@@ -673,12 +671,13 @@ print(f"The slow ramp up lasted {log.runs[0].time[-1] - log.runs[0].time[0]:.1f}
 ask_question("lesson2.order")
 
 # %%
-wrong = truth["kV"]  # at rest, an ElevatorFeedforward gives its second argument
+wrong = truth["kV"]
 print(f"At rest the motor gets {wrong:.2f} V instead of {truth['kG']:.2f} V.")
 print(f"The carriage moves at {let_go(wrong, height=0.3):.2f} m/s.")
 
 # %% [markdown]
-# So check the order of the arguments in your robot's code today.
+# At rest, an `ElevatorFeedforward` gives its second argument. So check the order of the arguments
+# in your robot's code today.
 #
 # <details><summary>For mentors: kG in WPILib's classes, with source</summary>
 #
@@ -703,7 +702,7 @@ print(f"The carriage moves at {let_go(wrong, height=0.3):.2f} m/s.")
 # - [ ] An arm's angle is 0 when the arm is **level**, and the angle is in radians where the code
 #   needs radians.
 # - [ ] An elevator's kG/kA is near 9.81 m/s². It is larger (up to 19.6) only with a cascade, and
-#   much smaller only with a counterweight or a spring.
+#   much smaller only with a counterweight, a spring or a very high gear ratio.
 # - [ ] In the code kG is the second argument, and the carriage stays still at zero speed.
 #
 # ## 9 Knowledge check

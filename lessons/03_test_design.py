@@ -22,7 +22,7 @@
 #
 # - say which gains you get from the slow ramp and which from the sudden step, and why you need
 #   both;
-# - explain why the kS that you take from a ramp's line is too large, and by how much;
+# - read kS off a ramp, and say how large the error of this kS is, and why;
 # - say which gains become unknown when a test is missing, and give three reasons for tests in
 #   reverse;
 # - choose the voltage ramp, the voltage step, the timeout and a mark on the floor for a room.
@@ -217,9 +217,9 @@ animate_charts(
 #
 # <details><summary>Want to know why the error in the picture is a little larger?</summary>
 #
-# The small difference has two causes. Each row contains the speed at its time, but the voltage for
-# the next 20 ms, so on average voltage and speed are 10 ms apart. And noise in the velocity makes
-# the line a little flatter (lesson 7).
+# The small difference has two causes. Each row contains the speed at one moment, and the voltage
+# of the 20 ms after it, which is already a little larger. And noise in the velocity makes the line
+# a little flatter (lesson 7).
 # </details>
 #
 # SysId itself does not read an intercept: it fits all runs at once, and its model has a kA term for
@@ -281,18 +281,19 @@ animate_charts(
 )
 
 # %% [markdown]
-# Set a test to 0 %, and back to 100 %. Which single test can you leave out? With the ramps alone,
-# kS and kA are uncertain, because a ramp shows mainly the sum kS + τ·ramp (section 3).
+# Set a test to 0 %, and back to 100 %. Which single test can you leave out? Then leave out both
+# step tests, and then both ramps.
 
 # %% [markdown]
 # ### Explain
 #
-# - **Without step tests** kA and kS are very uncertain.
+# - **Without step tests** kA and kS are very uncertain, because a ramp shows mainly the sum kS +
+#   τ·ramp (section 3).
 # - **Without ramps**, you can find no gain. With one constant voltage the rows only show the final
 #   speed and how quickly the robot reaches it. These two numbers are not enough for three unknown
 #   gains. (If you knew kS, you could compute kV and kA.)
-# - **Without the dynamic reverse run**, the errors grow only a little. In this simulation the robot
-#   behaves the same forward and in reverse.
+# - **Without one test**, whichever it is, the errors grow only a little. In this simulation the
+#   robot behaves the same forward and in reverse.
 #
 # But SysId accepts only a log with all four runs:
 
@@ -352,11 +353,11 @@ rows.append(("truth", f"{0.30 + LEAN:.2f} and {0.30 - LEAN:.2f}", truth["kV"], t
 Table(("runs", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "simulated velocity R²"), tuple(rows))
 
 # %% [markdown]
-# A fit of one direction alone gives good gains. A fit of both directions together gives a wrong kA,
-# because the model has only one kS for both directions. The kS of this fit is wrong, too, and
-# nearly 0: the ramps show only the sum kS + kA·(ramp/kV). If kA is too large in this sum, kS
-# becomes too small (lesson 7, section 8). The simulated velocity R² (SysId's score; 1 is perfect,
-# lesson 7) stays high. So compare the gains of the forward runs with the gains of the reverse runs.
+# A fit of one direction alone gives good gains. A fit of both directions together has only one kS
+# for both. So its kA becomes much too large. And its kS becomes nearly 0: the ramps show only the
+# sum kS + kA·(ramp/kV), and the large kA takes nearly all of this sum (lesson 7, section 8). The
+# simulated velocity R² (SysId's score; 1 is perfect, lesson 7) stays high. So compare the gains of
+# the forward runs with the gains of the reverse runs.
 #
 # Without the reverse runs you would know only the first row of the table. In reverse, your
 # feedforward would give only a third of the voltage that friction needs.
@@ -548,7 +549,7 @@ Table(
 # %% [markdown]
 # SysId uses only the rows up to 90 % of the final speed, so a long test does not make kA wrong. But
 # a long test needs a long room: look at the last column. After 3τ, the rows contain nothing new
-# about kA. (If a fit also uses the later rows, its kA is wrong: lesson 7.)
+# about kA. (A fit that uses these rows finds a wrong kA: lesson 7.)
 #
 # <details><summary>For mentors: does a long dynamic test spoil kA?</summary>
 #
@@ -628,9 +629,8 @@ animate_mechanism(
 # (This is simplified: the motors brake at 0 V, the floor is flat, and the battery voltage does not
 # drop. Leave more room than the plan says.)
 #
-# **A shooter** can spin as long as you like, so its ramp may be as slow as the timeout allows. **An
-# elevator** can move only a short way, and it has less time on the way down, because gravity pulls
-# it.
+# **A shooter** needs no room: only the timeout limits how slow its ramp may be. **An elevator** can
+# move only a short way, and it has less time on the way down, because gravity pulls it.
 
 # %% [markdown]
 # ## 10 System check

@@ -93,11 +93,10 @@ tabulate_gains(
 # | voltage V | the motor controller | every fit |
 # | velocity v | the encoder | every fit |
 # | acceleration a | SysId computes it from v and the time | every fit, but you do not log it |
-# | position | the encoder | arms: gravity depends on the angle |
+# | position | the encoder | arms: gravity depends on the angle. And drivetrains? |
 #
-# SysId's window loads a log only if it has position, velocity and voltage. But the fit of a
-# drivetrain or a shooter uses only velocity and voltage. The last cell of this section removes the
-# positions and fits again. Do the gains change?
+# SysId's window loads a log only if it has position, velocity and voltage. The last cell of this
+# section removes the positions and fits again. Do the gains of a drivetrain change?
 #
 # <details><summary>For mentors: which signals does the regression need?</summary>
 #
@@ -132,8 +131,9 @@ no_positions = replace(
 tabulate_fits({"correct": right, "without positions": no_positions}, truth)
 
 # %% [markdown]
-# The gains do not change. The two **R²** ("R squared") are SysId's scores: 1 is perfect. Lesson 7
-# explains them. In this lesson we only check whether R² shows a mistake.
+# The gains do not change: a drivetrain's fit uses only velocity and voltage. The two **R²** ("R
+# squared") are SysId's scores: 1 is perfect. Lesson 7 explains them. In this lesson we only check
+# whether R² shows a mistake.
 
 # %% [markdown]
 # ## 3 Doing it: the routine, part by part
@@ -162,8 +162,8 @@ tabulate_fits({"correct": right, "without positions": no_positions}, truth)
 # ### Config: how hard, how long
 #
 # `Config` holds the ramp rate (volts per second), the step voltage (volts) and the timeout
-# (seconds). In Java, `null` means "use the library's default". In Python, leave the argument out:
-# there `None` is an error.
+# (seconds). For the library's default, write `null` in Java. In Python leave the argument out: for
+# these three, `None` is an error.
 #
 # | setting | default | this lesson's log |
 # |---|---|---|
@@ -248,8 +248,8 @@ animate_mechanism(
 # `Mechanism` has an optional fourth argument: the name in the log. If you leave it out, the log
 # uses the name of the subsystem.
 #
-# If you give the state to a logger of your own in Python, use `SysIdRoutineLog.stateEnumToString`:
-# it makes the word that the analyzer looks for. But `str(state)` does not.
+# If you give the state to a logger of your own in Python, use `SysIdRoutineLog.stateEnumToString`.
+# It makes the word that the analyzer looks for; `str(state)` makes another word.
 #
 # The log callback of `Mechanism` may be `null` too, but only if another logger records the motors
 # for you: CTRE's SignalLogger, URCL for REV, or AdvantageKit. Lesson 5 shows how. In Python, `None`
@@ -266,11 +266,10 @@ animate_mechanism(
 # ### Mechanism, first callback: drive
 #
 # The routine gives your drive callback a voltage. You send it to **every** motor of the mechanism,
-# but not to a *follower*: a motor that your code has told to copy another motor, its leader. The
-# leader gets the voltage, and the follower copies it. If you also send the follower a voltage, it
-# stops copying. If the two motors face each other, they then push against each other.
-# ([`Follower` of phoenix6 26.3.0](https://pypi.org/project/phoenix6/26.3.0/)) There are three
-# rules:
+# except to followers. A *follower* is a motor that copies another motor, its leader. If you also
+# send a voltage to the follower, it stops copying. If the two motors face each other, they then
+# push against each other. ([`Follower` of phoenix6
+# 26.3.0](https://pypi.org/project/phoenix6/26.3.0/)) There are three rules:
 #
 # 1. **Open loop.** Nothing may correct the motion. Use no PID, no `VelocityVoltage` and no Motion
 #    Magic. If a controller corrects the motion, the gains describe this controller, too.
@@ -641,7 +640,7 @@ display(ask_question("lesson4.gain"), ask_question("lesson4.factor"), ask_questi
 # | …but logs applied volts | `set(volts / 12)`, and the log contains `getMotorVoltage()` |
 # | turns called meters | `Meters.of(wheelTurns)` |
 # | radians taken for turns | `circumference * radians` |
-# | encoder inverted | `setInverted` forgotten |
+# | encoder inverted | the encoder's `setReverseDirection(true)` forgotten |
 # | one motor of each pair | the second motor of each side gets no command |
 
 # %%
@@ -665,8 +664,8 @@ programs = {
 }
 
 # %% [markdown]
-# Choose a program, and hold a button of the controller. The solid robot really drives, with the
-# volts at its motors. The dashed outline is where the log callback says that the robot is.
+# Choose a program and a test. (The letter is the button of the controller.) The solid robot shows
+# what really happens. The dashed outline shows where the robot is if you believe the log.
 
 # %%
 BUTTONS = {f"{button}: {test}": test for button, test in zip("ABXY", routine.tests, strict=True)}

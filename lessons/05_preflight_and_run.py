@@ -198,8 +198,8 @@ print(f"and {lifted['kA'] / TRUTH['kA']:.2f} times the true kA.")
 
 # %% [markdown]
 # Here kV is almost right (a real robot also has less friction on blocks). But kA on blocks only
-# describes wheels and motors. It is not exactly a tenth: on blocks, kA/kV is only 8 ms. That is
-# less than one row of the log, so the fit cannot measure kA well (lesson 1, section 6).
+# describes wheels and motors. Why is it not exactly a tenth? On blocks kA/kV is only 8 ms, less
+# than one row of the log. So the fit cannot measure kA well (lesson 1, section 6).
 #
 # So test on the floor, and compute the space you need.
 
@@ -377,11 +377,11 @@ Table(("skipped", "found in the log", "kS ÷ true", "kV ÷ true", "kA ÷ true"),
 #
 # ### Battery
 #
-# A charged battery shows 12.7 V or more at rest. At 12 V there is no brownout yet: a roboRIO 1
-# disables the motors below 6.3 V, and a roboRIO 2 below 6.75 V, unless you change this limit. Does
-# an old or empty battery make kA wrong? The next cell runs the tests with two batteries and two
-# step voltages. It computes kA once from the voltage that was **applied** to the motors, and once
-# from the voltage that the code **commanded**.
+# A charged battery shows 12.7 V or more with nothing connected. At 12 V there is no brownout yet: a
+# roboRIO 1 disables the motors below 6.3 V, and a roboRIO 2 below 6.75 V, unless you change this
+# limit. Does an old or empty battery make kA wrong? The next cell runs the tests with two batteries
+# and two step voltages. It computes kA once from the voltage that was **applied** to the motors,
+# and once from the voltage that the code **commanded**.
 #
 # <details><summary>For mentors: batteries below 12 V, with source</summary>
 #
@@ -427,13 +427,14 @@ Table(
         "kA ÷ true, commanded voltage",
     ),
     tuple(rows),
-    caption=f"The charged battery has {ROBOT.battery.rest} V at rest. The tired battery is old and "
-    f"has {TIRED.battery.rest} V.",
+    caption=f"In an idle robot, the charged battery has {ROBOT.battery.rest} V. The tired battery "
+    f"is old and has {TIRED.battery.rest} V.",
 )
 
 # %% [markdown]
 # The picture shows the battery voltage just after a step, while the motors still stand and take
-# most current. Set your own battery, as the battery tester shows it. How large may your step be?
+# most current. (The line gets flat where the motors' limit of 120 A acts.) Set your own battery, as
+# the battery tester shows it. From which step on is there a brownout, if at all?
 
 
 # %%
@@ -458,8 +459,9 @@ animate_charts(
 # %% [markdown]
 # Without a brownout, both kA columns are right, even with the tired battery: this robot calls
 # `setVoltage`, and its motor controllers compensate for the lower battery voltage. With `set`, the
-# controllers do not do this (lesson 4). With a brownout, both are wrong, and kA from the commanded
-# voltage is far worse. So charge the battery, begin with a small step, and log the applied voltage.
+# controllers do not do this (lesson 4). With a brownout, both columns are wrong, and kA from the
+# commanded voltage is far worse. So charge the battery, begin with a small step, and log the
+# applied voltage.
 #
 # Require **more than 12.5 V at rest**, and 20 mΩ or less on a battery tester.
 #
@@ -491,9 +493,9 @@ animate_charts(
 #
 # ### Guard
 #
-# A guard is the condition in your code that locks the tests (lesson 4 shows three kinds). Lock the
-# tests with the guard, and enable the robot: if Test mode (*Utility* mode in 2027) is your guard,
-# enable it in Teleop. Press all four buttons. Nothing may move. During the tests, the only job of
+# A guard is the condition in your code that locks the tests (lesson 4 shows three kinds). Check
+# that it locks them: if Test mode (*Utility* mode in 2027) is your guard, enable the robot in
+# Teleop. Press all four buttons. Nothing may move. During the tests, the only job of
 # one person is to press *Disable*. In the 2026 Driver Station the **Enter** key disables the robot.
 # The **space bar** is the emergency stop: it works even if another window is in front, and you have
 # to reboot the roboRIO afterwards. ([WPILib docs: Driver
@@ -547,7 +549,7 @@ print(f"With the commanded voltage, it gives {asked:.2f} times the true kA.")
 # Who wrote it?
 # ├─ WPILib (DataLogManager; the routine of lesson 4 uses it): a .wpilog file
 # │   Was a Driver Station connected while the program ran?
-# │   ├─ no  → its name still has TBD in it, and the next start of the program deletes it
+# │   ├─ no  → the file's name contains TBD, and the next start of the program deletes the file
 # │   └─ yes → is there a USB stick in the controller (for a roboRIO: formatted FAT32)?
 # │       ├─ yes → the folder logs on the stick: /u/logs on a roboRIO
 # │       └─ no  → which controller?
@@ -915,7 +917,7 @@ tabulate_gains({name: one.gains for name, one in changes.items()}, first="change
 # Each test ends with 0 V. ([`SysIdRoutine` of robotpy-commands-v2
 # 2026.2.2](https://pypi.org/project/robotpy-commands-v2/2026.2.2/)) In *Coast* mode an elevator
 # then falls. Once the test command has ended, the subsystem's *default command* starts. If it holds
-# a position, it drives to its old target at once. ([WPILib docs: Subsystems, at one
+# a position, the mechanism moves to its old target at once. ([WPILib docs: Subsystems, at one
 # commit](https://github.com/wpilibsuite/frc-docs/blob/011b777ed66fe90e41e2dfdadab4b3625453ac26/source/docs/software/commandbased/subsystems.rst))
 #
 # For each log, also write down the current limit and the neutral mode, **brake or coast**. (For a

@@ -1,5 +1,7 @@
 """Exercise 3: an elevator and an arm of one's own, held up against gravity."""
 
+import math
+
 import pytest
 from answer_grades import grade_answer
 from places import ROOT
@@ -48,6 +50,16 @@ def test_the_mean_of_all_middles_is_named_and_not_taken_for_an_edge(copy, studen
 
     assert "the mean of all middles" in hint
     assert "an edge" not in hint
+
+
+def test_a_cosine_that_multiplies_is_named_where_it_happens_to_equal_a_row(copy):
+    found = OWN.module.draw("ada").found
+    product = found["arm_kG"] * math.cos(math.radians(found["arm_offset"])) ** 2
+
+    hint = grade_answer(copy, student="ada", arm_kG=product)["arm-kg"].hint
+
+    assert "Divide by the cosine" in hint
+    assert "one row of your table" in hint
 
 
 def test_sum_of_both_shares_and_edge_in_place_of_ks_are_named(copy):

@@ -134,7 +134,7 @@ def _explain_percent(value: float, variant: Variant) -> str:
         (-value, "the size is right, the sign is not: above theory is positive, below negative"),
         (
             value - 100.0,
-            ("this is the measured kV in percent of theory. How much more than 100 % is it?"),
+            ("this is the measured kV in percent of theory. Subtract 100 %"),
         ),
         (
             100.0 * value - 100.0,

@@ -24,9 +24,11 @@ def make_key(variant: Variant, *, offset: float) -> AnswerKey:
         for gain in ("kG", "kS")
     }
     true_offset = math.radians(variant.found["arm_offset"])
-    both = variant.found["arm_kG"] * (abs(math.cos(true_offset)) + abs(math.sin(true_offset)))
+    cosine = abs(math.cos(true_offset))
+    both = variant.found["arm_kG"] * (cosine + abs(math.sin(true_offset)))
+    multiplied = variant.found["arm_kG"] * cosine**2
     rarer["arm_kG"] += SLIPS.list_lookalikes(
-        [("sum", both), *(("row", hold.middle) for hold in variant.arm)]
+        [("multiplied", multiplied), ("sum", both)] + [("row", hold.middle) for hold in variant.arm]
     )
     for mine, rows in (("elevator", (variant.elevator,)), ("arm", variant.arm)):
         edges = [("edge", edge) for hold in rows for edge in (hold.lower, hold.upper)]
@@ -85,6 +87,8 @@ def _list_lookalikes(
 
 def find_offset_slip(value: float, variant: Variant) -> WrongNumber | None:
     """The likely cause of a wrong offset [deg]."""
+    if abs(value) == abs(max(variant.arm, key=lambda hold: hold.middle).reading):
+        return SLIPS.name("nearest-row")
     right_if_undone = (
         ("sign", -value),
         ("radians", math.degrees(value)),
@@ -93,14 +97,14 @@ def find_offset_slip(value: float, variant: Variant) -> WrongNumber | None:
         ("vertical", value + 90.0),
         ("vertical", value - 90.0),
         ("half-turn", value + 180.0),
+        ("half-turn", 180.0 - value),
         ("tangent", 90.0 - value),
         ("tangent", -90.0 - value),
     )
     for code, undone in right_if_undone:
         if variant.offset.is_right(wrap_angle(undone)):
             return SLIPS.name(code)
-    nearest = max(variant.arm, key=lambda hold: hold.middle)
-    return SLIPS.name("nearest-row") if abs(value) == abs(nearest.reading) else None
+    return None
 
 
 def wrap_angle(angle: float) -> float:

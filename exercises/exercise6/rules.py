@@ -81,7 +81,9 @@ def _find_lacks(machine: Machine, plan: Plan) -> Iterator[BrokenRule]:
     needs = "kS + kG" if machine.kind == "elevator" else "kS"
     if slow.driven_time < LESS * MOVES:
         says = f"your ramp moves it for {slow.driven_time:.2f} s until {end}; at least {MOVES:g} s"
-        if not slow.ends_at_mark:
+        if slow.ends_at_mark:
+            says += ". Use a slower ramp, or put the mark farther away"
+        else:
             says += f". For the first {slow.still:.2f} s it stands still: until then, "
             says += f"your ramp is below {needs} ({machine.start_voltage:.2f} V)"
         yield BrokenRule(says)
@@ -93,7 +95,7 @@ def _find_lacks(machine: Machine, plan: Plan) -> Iterator[BrokenRule]:
     elif push / machine.ka < LESS * SIGNAL * machine.acceleration_noise:
         times = push / machine.ka / machine.acceleration_noise
         says = f"your step's acceleration is {times:.2f} times its noise; at least {SIGNAL:g}"
-        yield BrokenRule(f"{says} times. You cannot see it in the noise")
+        yield BrokenRule(f"{says} times. Use a larger step")
 
 
 def _explain_slow_ramp(slow: Test, end: str) -> BrokenRule:

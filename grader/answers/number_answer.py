@@ -216,7 +216,7 @@ def _describe_wrong_number(name: str, value: float, slips: tuple[WrongNumber, ..
         )
     if value < 0:
         return (
-            f"{name} cannot be negative. Are all your gains negative? Then velocity or voltage has "
-            "the wrong sign in your data. Else check which rows and columns you fit"
+            f"{name} cannot be negative. Check the signs in your calculation. If every gain of a "
+            "fit is negative, velocity or voltage has the wrong sign in the log"
         )
     return ""

@@ -67,7 +67,7 @@ MISTAKES = (
         "the sign is not"),
     Mistake("percent of theory", ANSWERS,
         change_number("difference", lambda right: right["difference"] + 100.0), "difference",
-        "How much more than 100 %"),
+        "Subtract 100 %"),
     Mistake("a difference from nowhere", ANSWERS,
         change_number("difference", lambda right: right["difference"] + 41.0), "difference",
         "outside the accepted ±1 %"),

@@ -68,7 +68,10 @@ MISTAKES = (
         "from vertical?"),
     Mistake("the offset half a turn off", ANSWERS,
         change_number("arm_offset", lambda right: right["arm_offset"] + 180.0), "arm-offset",
-        "it is 180° off"),
+        "it points the wrong way"),
+    Mistake("one sign wrong in the offset", ANSWERS,
+        change_number("arm_offset", lambda right: 180.0 - right["arm_offset"]), "arm-offset",
+        "it points the wrong way"),
     Mistake("cosine over sine for the tangent", ANSWERS,
         change_number(
             "arm_offset",

@@ -42,6 +42,9 @@ MISTAKES = (
         ), "routine", "no SysIdRoutine is made"),
     Mistake("a ramp in volts", JAVA, replace_text(("Volts.of(0.5).per(Second)", "Volts.of(0.5)")),
         "ramp", "The ramp is in V/s", "M-UNITS"),
+    Mistake("a unit that is not imported", JAVA,
+        replace_text(("import static edu.wpi.first.units.Units.Second;\n", "")), "ramp",
+        "Second is not imported"),
     Mistake("half a volt by dividing whole numbers", JAVA,
         replace_text(("Volts.of(0.5)", "Volts.of(1 / 2)")), "ramp", "1 / 2 is 0"),
     Mistake("a slower ramp, to be on the safe side", PYTHON,
@@ -82,7 +85,7 @@ MISTAKES = (
         replace_text(
             (LEFT, "m_left.set(voltage.in(Volts) / 12.0)"),
             (RIGHT, "m_right.set(voltage.in(Volts) / 12.0)"),
-        ), "open-loop", "setVoltage(voltage), not divided", "M-DUTY"),
+        ), "open-loop", "setVoltage(voltage), unchanged", "M-DUTY"),
     Mistake("a share of the battery, Python", PYTHON,
         replace_text(
             ("self.left.setVoltage(voltage)", "self.left.set(voltage / 12)"),
@@ -182,6 +185,13 @@ MISTAKES = (
     Mistake("a class that is no subsystem", PYTHON,
         replace_text(("class ExampleSubsystem(Subsystem)", "class ExampleSubsystem")), "assembled",
         "not a subsystem"),
+    Mistake("an encoder that counts backward", PYTHON,
+        replace_text(("Encoder(2, 3, reverseDirection=True)", "Encoder(2, 3)")), "units",
+        "the position of right has a sign of its own"),
+    Mistake("a motor that is sent forward voltages only", PYTHON,
+        replace_text(
+            ("        self.left.set", "        if voltage > 0:\n            self.left.set"),
+        ), "drive", "Your code changes the voltage"),
     Mistake("a misspelled method in Java", JAVA,
         replace_text(("m_left.setVoltage", "m_left.setVolatge")), "drive",
         "Did you mean setVoltage?"),

@@ -57,7 +57,7 @@ MISTAKES = (
     Mistake("a step beyond the current limit", ANSWERS, make_wrong_answer("shooter_step", "9"),
         "shooter", "at standstill your step draws", BIG),
     Mistake("a step that drowns in noise", ANSWERS, make_wrong_answer("turret_step", "0.5"),
-        "turret", "times. You cannot see it in the"),
+        "turret", "times. Use a larger step"),
     Mistake("a step that gravity eats", ANSWERS, make_wrong_answer("elevator_step", "0.3"),
         "elevator", "does not move it"),
     Mistake("a timeout that ends it too soon", ANSWERS, make_wrong_answer("shooter_timeout", "2"),

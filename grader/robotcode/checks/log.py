@@ -407,5 +407,5 @@ def _check_signs(there: Logged) -> None:
             if one.scale and one.follows.startswith(signal)
         }
         if len(set(signs.values())) > 1:
-            odd = min(signs, key=lambda key: list(signs.values()).count(signs[key]))
+            odd = min(signs, key=lambda signal: signs[signal])  # a negative one goes backward
             raise fault("odd_sign", signals[odd][0].line, signal=odd, name=name)

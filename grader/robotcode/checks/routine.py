@@ -304,7 +304,8 @@ def _describe_voltage(
 ) -> WrongAnswer:
     """Words for a motor that got another voltage than the test asked for."""
     test, run = next(iter(bad.items()))
-    kinds = {sent.kind for one in runs.values() for sent in one.sent if sent.phase == "drive"}
+    sent = [one for each in runs.values() for one in each.sent if one.phase == "drive"]
+    kinds = {one.kind for one in sent}
     time, asked, got = run.at
     shares = [abs(one.ratio) if one.ratio is not None else math.inf for one in runs.values()]
     same = max(shares) - min(shares) < SAME
@@ -317,7 +318,7 @@ def _describe_voltage(
         kind = "not_in_every_test"
     elif nominal and kinds == {"voltage"}:
         kind = "share_as_volts"
-    elif kinds == {"duty"} and not any(one.method.startswith("setVoltage") for one in run.sent):
+    elif kinds == {"duty"} and not any(one.method.startswith("setVoltage") for one in sent):
         kind = "sends_duty_cycle"
     elif steady and all(one.ratio is None or test.startswith("dyn") for test, one in bad.items()):
         kind = "always_the_same"

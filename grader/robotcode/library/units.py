@@ -92,7 +92,9 @@ class Unit(Fake):
     def mult(self, other: "Unit") -> "Unit":
         return self._join(other, 1, "-", "*")
 
-    def _join(self, other: "Unit", power: int, word: str, mark: str) -> "Unit":
+    def _join(self, other: Any, power: int, word: str, mark: str) -> Any:
+        if isinstance(other, Unknown):
+            return other
         name = f"{self._name}{word}{other._name}"
         symbol = f"{self._symbol}{mark}{other._symbol}"
         dimension = _multiply(self._dimension, other._dimension, power)
