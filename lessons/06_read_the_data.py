@@ -169,8 +169,8 @@ print(f", {slope[later] / slope[early]:.0%} of it")
 #
 # A *fault* is something that makes a log wrong: it *contaminates* the log. The table lists four
 # classic faults, five more that are common on real robots, and four that are easy to see. Exercise
-# 7 and `sysid inspect` use the same names, with a hyphen: `encoder-slip`. Only *velocity filter*
-# and *current limit* are missing there: `sysid effects` lists them.
+# 7 and `sysid inspect` use the same names, with a hyphen: `encoder-slip`. They do not have
+# *velocity filter* and *current limit*: `sysid effects` lists these two.
 #
 # | fault | what happened | what to do |
 # |---|---|---|
@@ -351,8 +351,8 @@ tabulate_fits(gallery, TRUTH)
 # ### How bad are timing gaps?
 #
 # To get the acceleration, SysId divides each change of the velocity by the *mean* time step of the
-# test. So at a gap the acceleration is wrong. A gap is a time step that is more than 1.5 times as
-# long as usual: the usual step is 20 ms, but half of all steps are a bit longer. How wrong is kA?
+# test. So at a gap the acceleration is wrong. The usual step is 20 ms, and half of all steps are a
+# bit longer: these are no gaps. A gap is more than 1.5 times as long as usual. How wrong is kA?
 #
 # <details><summary>For mentors: gaps and kA, with source</summary>
 #
@@ -483,19 +483,19 @@ def chart_trimmed_fit(median: str, threshold: float, end: float) -> Chart:
 
 animate_charts(
     chart_trimmed_fit,
-    choices=(Choice("median", ("1", "5", "15")),),
+    choices=(Choice("median", ("1", "3", "15")),),
     knobs=(
-        Knob("from", "from [m/s]", low=0.0, high=1.0, step=0.2, value=0.0),
+        Knob("threshold", "threshold [m/s]", low=0.0, high=1.0, step=0.2, value=0.0),
         Knob("until", "until [s]", low=3.0, high=6.0, step=0.5, value=6.0),
     ),
 )
 
 # %% [markdown]
-# - The threshold (*from*) drops the noisy standstill, and the samples at the stop. *until* ends the
-#   ramp and cuts off the hard stop with its bounce. The median removes the wild readings. No single
-#   setting repairs all three faults.
-# - **More filtering is not better.** A median of 15 samples flattens the rise, so kA is only half
-#   its true value. A threshold of 1 m/s drops the slow part of the ramp, which shows kS.
+# - The threshold drops the noisy standstill, and the samples at the stop. The slider *until* ends
+#   the ramp and cuts off the hard stop with its bounce. The median removes the wild readings. No
+#   single setting repairs all three faults.
+# - **More filtering is not better.** A median of 15 samples flattens the rise, so kA becomes much
+#   too small. A threshold of 1 m/s drops the slow part of the ramp, which shows kS.
 #
 # ### Do not cut off good samples
 #
@@ -578,7 +578,7 @@ animate_charts(
 passing = [case for case in wrong if case.has_good_r2]
 print(f"{len(passing)} of {len(wrong)} wrong logs have a {SIM} above {GOOD:g}.")
 damage = [case for case in wrong if abs(case.compute_gain_error("kV")) < 0.2]
-print(f"In half of the {len(damage)} wrong logs without a changed unit, the errors are larger than")
+print(f"In {len(damage)} of them, kV is less than 20 % off. In half of these, the errors are above")
 for gain in ("kS", "kV", "kA"):
     half = np.median([abs(case.compute_gain_error(gain)) for case in damage])
     print(f"  {gain}: {100 * half:.1f} %")
@@ -639,8 +639,8 @@ print(f"No check finds these logs: {'; '.join(escaped)}.")
 
 # %% [markdown]
 # It is right that no check reports the clean log. But the other two logs in this line are damaged.
-# Only somebody who knows the robot can find such damage. For example, look for a velocity filter in
-# the settings of your motor controller.
+# The program looks for neither a velocity filter nor such a short slip. So look yourself: compare
+# the velocity with the slope of the position, and read the settings of your motor controller.
 #
 # A sixth check: **fit forward and reverse separately.** Friction may differ between the directions.
 # One kS cannot describe both, and R² does not show it:
@@ -702,9 +702,9 @@ display(ask_question("lesson6.quick"), enable_checkboxes())
 #
 # <details><summary>Answer</summary>
 #
-# a2, b4, c3, d1. Only a log of the applied voltage shows what a current limit did to it. If the log
-# contains the commanded voltage, look at how the velocity rises: under a current limit, it rises in
-# a straight line at first.
+# a2, b4, c3, d1. The voltage shows a current limit only if the log contains the applied voltage. If
+# it contains the commanded voltage, look at how the velocity rises: under a current limit, it rises
+# in a straight line at first.
 # </details>
 #
 # **2.** In the middle of the quasistatic forward test, the mechanism suddenly jumped forward. The

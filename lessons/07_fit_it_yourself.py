@@ -246,8 +246,8 @@ print(f"{intercept:.2f} V at v = 0, {slope:.2f} V per m/s, sum of squares {small
 # %% [markdown]
 # ## 4 The whole fit in five lines
 #
-# Now do the same with three columns. `signals` gives V, v and a of every row of all four tests in
-# which the robot moves:
+# Now do the same with three columns. `signals` takes the rows of all four tests, leaves out those
+# in which the robot stands still, and gives V, v and a:
 
 
 # %%
@@ -517,7 +517,7 @@ animate_charts(
         Choice("trim the step", ("yes", "no")),
         Choice("median", ("1", "3", "5", "9", "15")),
     ),
-    knobs=(Knob("from", "from [m/s]", low=0.05, high=1.55, step=0.75, value=0.05),),
+    knobs=(Knob("threshold", "threshold [m/s]", low=0.05, high=1.55, step=0.75, value=0.05),),
 )
 
 # %% [markdown]
@@ -688,9 +688,8 @@ Table(("noise [m/s]", "kS [V]", "kA [V·s²/m]", "kS + kA·(ramp/kV) [V]"), tupl
 # %% [markdown]
 # ## 9 A filter has a disadvantage
 #
-# Noise makes kA too large, and a median filter removes noise. So should you use a large window?
-#
-# **Predict** for our quiet drivetrain:
+# Noise makes kA too large, and a median filter removes noise. But in section 6, a window of 15
+# samples made kA much too small. **Predict** for a drivetrain with three times as much noise:
 
 # %%
 ask_question("lesson7.filter")
@@ -795,9 +794,9 @@ animate_charts(
 
 # %%
 window = compute_allowed_velocity_error(ks=0.14, kv=lesson_kv)  # a quarter of the top speed
-for name, q in (("default in SysId's code", 1.5), ("SysId's window", window)):
+for name, q in (("SysId's code starts with", 1.5), ("SysId's window fills in", window)):
     kp = design_velocity_loop(kv=lesson_kv, ka=lesson_ka, velocity_error=q, volts=7.0, delay=0.0).kp
-    print(f"{name}: q = {q:.2f} m/s, kP = {kp:.2f} V·s/m")
+    print(f"{name} q = {q:.2f} m/s: kP = {kp:.2f} V·s/m")
 
 # %% [markdown]
 # <details><summary>Which q gives 0.62?</summary>

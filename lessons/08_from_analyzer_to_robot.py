@@ -180,8 +180,8 @@ Table(("arguments", "voltage at zero speed [V]", "the carriage"), tuple(rows))
 # ### `calculate`: velocities, not an acceleration
 #
 # In Java, use `calculateWithVelocities(velocity, nextVelocity)`. Its arguments are the velocity now
-# and the velocity in the next loop. Python's `calculate` takes two velocities, too. If you pass an
-# acceleration instead, the voltage is wrong.
+# and the velocity in the next loop. (For an arm, the angle comes first.) Python's `calculate` takes
+# the same arguments. If you pass an acceleration instead, the voltage is wrong.
 #
 # <details><summary>Want to know more? The old call, and the first loop</summary>
 #
@@ -200,7 +200,7 @@ Table(("arguments", "voltage at zero speed [V]", "the carriage"), tuple(rows))
 # | where | kV is volts per | set also |
 # |---|---|---|
 # | Phoenix 6, `Slot0Configs` | *mechanism* rotation/s | `SensorToMechanismRatio`, `GravityType` |
-# | REVLib, `FeedForwardConfig` | your unit/s | both conversion factors; an arm: `kCosRatio` |
+# | REVLib, `FeedForwardConfig` | your unit/s | both conversion factors (an arm: `kCosRatio`, too) |
 # | YAGSL 2026 (a swerve library) | m/s of a wheel | `replaceSwerveModuleFeedforward` |
 #
 # `sysid fit` writes the code for each of them and converts the units. If your log is in meters, add
@@ -572,8 +572,8 @@ tabulate_gains(
 #
 # ### ProfiledPIDController and Motion Magic: the same sum
 #
-# `ProfiledPIDController` makes the profile itself. You only add the feedforward. Then our elevator
-# is about a centimeter ahead, because the feedback uses the setpoint of the next loop.
+# `ProfiledPIDController` makes the profile itself. You only add the feedforward. Its feedback uses
+# the setpoint of the next loop, so our elevator is about a centimeter ahead.
 #
 # <details><summary>The code in Java</summary>
 #
@@ -672,10 +672,10 @@ animate_mechanism(
 )
 
 # %% [markdown]
-# The arm hangs below level. The angle is (missing kG)/kP, or less if friction helps to hold the
-# arm. A larger kP makes this angle smaller, but never zero. The right kG removes the error. So
-# measure **with and without** the piece (or compute the second kG), and switch the gains when a
-# sensor detects the piece.
+# The arm hangs below level. Without friction, the angle is (missing kG)/kP. Here it is smaller,
+# because friction helps to hold the arm. A larger kP makes this angle smaller, but never zero. The
+# right kG removes the error. So measure **with and without** the piece (or compute the second kG),
+# and switch the gains when a sensor detects the piece.
 #
 # With the load, kA and kG grow. kV stays the same, because it comes from the motor's back-EMF (the
 # voltage that a turning motor produces) and the gears. (Section 2 of lesson 2 shows the numbers for

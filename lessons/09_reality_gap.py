@@ -24,7 +24,7 @@
 # - measure the **gap**: how much a simulation with your gains differs from your robot;
 # - plot the remaining error in five ways, and say which effect could cause it;
 # - add an effect to the model, and decide with *other* data whether to keep it;
-# - explain what a slow sensor does to kA;
+# - explain what a missing effect does to kA;
 # - say when your data cannot decide, and which test can;
 # - use `sysid reconcile`, which does all of this, and judge its answer.
 
@@ -106,9 +106,9 @@ print(fill(known, 80, break_on_hyphens=False))
 # | `validation` | the four tests, 2 V step | it decides which effects we **keep** |
 # | `held_out` | other motions | we look at it **once**, at the end |
 #
-# Why three logs? On the data that you fitted, a model with more parameters always looks better. (A
-# *parameter* is a number in the model, such as kS.) Only new data can show whether the model
-# describes the robot, or only this one log.
+# Why three logs? A model with more parameters can fit more of the noise of one log. (A *parameter*
+# is a number in the model, such as kS.) Only new data can show whether the model describes the
+# robot, or only this one log.
 
 # %% [markdown]
 # ## 2 Measure the gap
@@ -232,7 +232,7 @@ animate_charts(
 
 # %% [markdown]
 # The line shows the mean of nearby samples. The percentage above each plot says how much of the
-# (squared) voltage residual beyond noise follows this line. Compare the percentages of each robot.
+# squared residual this line explains; noise does not count. Compare the percentages of each robot.
 # They can be more than 100 % together, because one effect can show in two plots.
 #
 # Which robot has which effect?
@@ -270,7 +270,8 @@ display(*(ask_question(f"lesson9.{robot}") for robot in "abcd"))
 #    the parameters of the effect are fitted again. This takes one to three seconds.
 # 3. **Compare** the gaps of the *validation* log: press *Take back*, and try the other effects in
 #    the same line of the list below. Keep the one with the smallest gap. If none helps, take the
-#    plot with the next percentage. If most of the gap shows in *no* plot, try every line.
+#    plot with the next percentage. If the title says that most of the gap shows in *no* plot, try
+#    every line.
 # 4. **Look again.** Repeat this until the gap of the validation log is about 1, or until no other
 #    effect makes it smaller.
 # 5. **Check.** If you have several effects, choose each in the menu, and press *Take back*. Does
@@ -296,8 +297,8 @@ search
 #
 # **What the bars show:**
 #
-# - One more parameter hardly ever makes the gap on the *log* larger. If you judge by this gap,
-#   every effect looks like an improvement.
+# - An effect that the robot does not have can make the gap on the *log* smaller: it fits some of
+#   the noise. (The gap can also grow: the fit uses velocity and position, the gap only velocity.)
 # - The gap on the *validation* log is measured with a model that was fitted to the log alone. It
 #   shows which models are really better.
 #
@@ -354,8 +355,8 @@ Table(
 # ## 6 When your data cannot decide
 #
 # The drivetrain of another team *does* have a current limit: its motors cannot push with more than
-# a certain force. (The model limits the volts above the back-EMF instead.) The team records a
-# gentle log with a 2.5 V step. Later it records a 6 V step.
+# a certain force. The volts above the back-EMF make the force, so the model limits these volts. The
+# team records a gentle log with a 2.5 V step. Later it records a 6 V step.
 #
 # In the next picture you choose the limit in the model. Above each plot is the gap of that log.
 #
@@ -409,8 +410,8 @@ animate_charts(
 #
 # `sim.reconcile` does what you did, with the same fit and the same gap, and with all effects that
 # it knows: fit, simulate, try every effect, keep the effect that the *validation* confirms, and
-# repeat until no further effect helps. In the next table, the last column shows the gap on the
-# held-out log without and with each effect.
+# repeat until no further effect helps. The last column of the next table has two gaps of the
+# held-out log: that of the model without this one effect, and that of the whole model.
 
 # %%
 story = reconcile(log, validation=validation, held_out=held_out, type="simple")
@@ -546,6 +547,8 @@ else:
 #   double volts = m_motor.getMotorVoltage().getValueAsDouble();
 #   m_sim.setInputVoltage(Math.signum(volts) * Math.max(Math.abs(volts) - kS, 0.0));
 #   m_sim.update(0.02);
+#   // in turns of the motor: with gears, multiply by the gear ratio
+#   m_motor.getSimState().setRotorVelocity(m_sim.getAngularVelocityRPM() / 60.0);
 # }
 # ```
 #
@@ -607,8 +610,8 @@ display(ask_question("lesson9.quick"), enable_checkboxes())
 #
 # <details><summary>Answer</summary>
 #
-# No. It fitted the noise of one log. The gap on the fitted log nearly always falls, so that proves
-# nothing.
+# No. It fitted the noise of one log. A smaller gap on the fitted log proves nothing, because the
+# model was fitted to this log.
 # </details>
 #
 # **4.** Reconcile says "battery-sag or drag". Your log has only one step voltage. What do you do?

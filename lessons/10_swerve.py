@@ -329,8 +329,9 @@ Table(
 #
 # ### The log shows the lever
 #
-# You can check the length of the lever without a tape measure. The speed of a wheel is lever · ω,
-# where ω is the robot's rate in rad/s. So the ratio of the two kV is the lever:
+# You can check the length of the lever without a tape measure. At the same voltage, a wheel is
+# equally fast in both tests. This speed is lever · ω, where ω is the robot's rate in rad/s. So the
+# ratio of the two kV is the lever:
 
 # %%
 quotient = turning.gains["kV"] / straight.gains["kV"]
@@ -636,7 +637,8 @@ Table(
 #    sysid fit turning.wpilog --voltage V --position P --velocity W
 #    ```
 #
-#    Add `--straight straight.wpilog --mass 60 --lever 0.424`, and it prints the moment of inertia.
+#    Add `--straight straight.wpilog --mass 60 --lever 0.424`, with your own mass and lever, and it
+#    prints the moment of inertia.
 #    (CTRE logs the straight drive in motor rotations. `sysid fit` converts them with the lever.)
 #
 # 6. **Push** against a wall, once.

@@ -241,6 +241,16 @@ def test_a_kp_per_meter_in_the_motor_controller_is_named(checked, kind):
     assert (found.status, found.misconception) == ("failed", "M-UNITS")
 
 
+@pytest.mark.parametrize(("factor", "code"), [("/ 0.0254", "M-UNITS"), ("/ 0.3048 * 12", "M-DUTY")])
+def test_feet_that_are_taken_for_inches_are_told_from_a_duty_cycle(checked, factor, code):
+    student = of(shown_in="Feet", used_in="Meters")
+    shown = OWN.module.draw(student).shown["kV"]
+    holder = f"static class CharacterizationConstants {{ static double kV = {shown} {factor}; }}"
+    found = checked(f"class A {{ {holder} }}", student=student)["kv"]
+
+    assert (found.status, found.misconception) == ("failed", code)
+
+
 LATER = "config.Slot0.kV = 3;"
 TALON = "TalonFXConfiguration config = new TalonFXConfiguration(); "
 SPARK = "SparkMaxConfig config = new SparkMaxConfig(); "

@@ -196,6 +196,7 @@ def test_half_a_sample_off_is_forgiven_where_damage_is_short():
         ("brownout sign-flip", "with 2 faults in it"),
         ("brownout 1.2", "with one time in it"),
         ("brownout rerun trim", "with 2 actions"),
+        ("brownout 1200 to 1660 ms", "ms"),
         ("clean + brownout", "and a fault"),
         (" + ", "0 faults"),
         (" + ".join(LINE.FAULTS), "13 faults"),

@@ -32,6 +32,7 @@ def test_right_lines_are_reported_and_used():
         ({"columns": lambda volts, v, _: [v, volts]}, "Gap 2: it stops with an error"),
         ({"columns": lambda volts, v, _: [v, volts, 1]}, "A column needs a number for each row"),
         ({"columns": lambda *_: nothing}, "Gap 2: it stops with an error: name 'nothing'"),  # noqa: F821 - meant
+        ({"columns": lambda volts, v, _: [v, volts, Math.signum(v)]}, "NumPy: np.pi,"),  # noqa: F821 - Java's
         ({"gains": lambda *_: {"kS": ..., "kV": ..., "kA": ...}}, "Gap 3: still empty"),
         (
             {"gains": lambda alpha, beta, gamma: {"kS": -gamma, "kV": alpha, "kA": beta}},

@@ -1,5 +1,6 @@
 """Practice: five steps on one mechanism, with a robot of one's own or without."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -45,6 +46,17 @@ def test_the_kp_of_a_position_loop_is_named(solved, tmp_path):
 
     assert found.status == "failed"
     assert "the kP of a position loop" in found.hint
+
+
+def test_gains_per_rotation_of_wheel_or_motor_are_named(solved, tmp_path):
+    measured = OWN.module.measure_bench(OWN.module.draw("ann"))
+    turn = math.pi * measured.parts.diameter
+    for what, factor in (("wheel", turn), ("motor", turn / measured.parts.ratio)):
+        gains = {name: f"{measured.fit.gains[name] * factor:.5g}" for name in ("kV", "kA")}
+        found = grade_answer(tmp_path, solved, **gains)
+
+        for check in ("gains-kv", "gains-ka"):
+            assert found[check].hint.startswith(f"this is per rotation of the {what}")
 
 
 def robot(folder, *, noise=0.0):

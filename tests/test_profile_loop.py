@@ -107,6 +107,12 @@ def test_from_rest_the_first_loop_has_no_ks():
     )
 
 
+def test_the_feedforward_has_the_name_that_python_gives_it():
+    ff = ElevatorFeedforward(0.25, 2.0, 4.5, 0.2)
+
+    assert ff.calculate(0.1, 0.2) == ff.calculateWithVelocities(0.1, 0.2)
+
+
 def test_the_feedback_is_wpilibs():
     wpi = pytest.importorskip("wpimath.controller", reason="needs the extra robot")
     mine, theirs = PIDController(3.0, 0.7, 0.05), wpi.PIDController(3.0, 0.7, 0.05)

@@ -50,6 +50,12 @@ def test_wrong_formula_gets_advice_and_is_replaced_by_the_right_one(wrong, says)
     assert getattr(mine, name) is getattr(swerve_gaps, f"compute_{name}")
 
 
+def test_a_rounded_pi_is_right():
+    mine = written(radius=lambda turned, lever, turns: turned * lever / (2 * 3.14 * turns))
+
+    assert mine.report.startswith("Formula 1: right.")
+
+
 def test_the_grip_of_the_bench_follows_from_its_slip_current():
     """What turns the gears, kS/R, is no push: without it the grip is the one that was built in."""
     motor = SWERVE.motor

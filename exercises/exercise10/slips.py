@@ -1,11 +1,13 @@
 """What may have gone wrong with a number on its way from the analyzer into the code."""
 
+import re
 from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 
 from grader.answers.wrong_number import Slips, WrongNumber
 
-from .key import FULL, SLOT0, Variant, near
+from .key import FULL, LENGTHS, SLOT0, Variant, near
 
 ROUNDED = 0.10  # [share] what rounding to one digit may take away
 MINUTE = 60.0
@@ -52,6 +54,14 @@ def _list_rotations(gain: str, variant: Variant) -> Ways:
     ]
 
 
+def _is_mistaken(value: float, gain: str, variant: Variant, text: str) -> bool:
+    """Whether a number is converted from another unit of length than the analyzer's."""
+    if variant.shown_in not in LENGTHS or re.search(r"\b12\b", text):  # 12 V, or 12 inches?
+        return False
+    others = {*LENGTHS} - {variant.shown_in, variant.used_in}
+    return any(near(value, replace(variant, shown_in=one).needed(gain)) for one in others)
+
+
 def _find_known(value: float, gain: str, variant: Variant) -> WrongNumber | None:
     """The slip behind a gain of the feedforward, if its number tells."""
     shown, times = variant.shown[gain], variant.times
@@ -77,6 +87,8 @@ def find_constant_slip(value: float, gain: str, variant: Variant, *, text: str) 
     """Why a constant is neither the analyzer's number nor the one the robot needs."""
     if value == 0 and "/" in text:
         return name_slip("integer", gain, variant)
+    if _is_mistaken(value, gain, variant, text):
+        return name_slip("mistaken", gain, variant)
     sizes = (variant.shown[gain], variant.needed(gain))
     rounded = any(near(value, size, share=ROUNDED) for size in sizes)
     found = _find_known(value, gain, variant)

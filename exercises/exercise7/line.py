@@ -129,6 +129,8 @@ def _parse_claim(text: str) -> Claim:
     times = [float(number.replace(",", ".")) for number in NUMBER.findall(left)]
     unknown = [word for word in re.findall(r"[^\W\d_]+", left) if word not in FILLERS]
     shown = f'"{shorten(text)}"'
+    if re.search(r"\d\s*m(illi)?s", left):
+        raise WrongAnswer(shown, hint="Write the times in seconds: 1.20 to 1.66.")
     if unknown:
         hint = (
             f"What is wrong? {_list_words()} Where? One of: {', '.join(PLACES)}. What to do? "

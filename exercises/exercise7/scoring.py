@@ -86,9 +86,9 @@ def _judge_claim(claim: Claim | None, damaged: Damaged, case: Case) -> tuple[flo
     if claim.action in list_actions(damaged.fault):
         share += ACTION
     elif claim.action:
-        says.append(
-            f"{ACTIONS[claim.action]}: not here. What would prevent it from happening again?"
-        )
+        partly = "trim" in list_actions(damaged.fault)
+        asks = "Is the rest of the test good" if partly else "Will the next recording have it, too"
+        says.append(f"{ACTIONS[claim.action]}: not here. {asks}?")
     else:
         says.append("What should you do? Add one of: rerun, trim, filter, fix-config.")
     return share, " ".join(says)

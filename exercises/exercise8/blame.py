@@ -25,6 +25,9 @@ EVEN = (
     "Two readings have no middle one, so a window of 2 is their mean, and half of a wrong reading "
     "stays. What is the smallest window with a middle?"
 )
+MUCH = (
+    "You cut away too much of more than one test: compare your times with the length of each test."
+)
 HIGH = "Your threshold drops good samples, in which the mechanism moves."
 LOW = (
     "You keep samples from before the mechanism moves: there, the voltage causes neither "
@@ -42,7 +45,8 @@ def blame(gain: str, variant: Variant, preparation: Preparation) -> Said:
     limit = HELPS * _compute_error(gain, variant, preparation)
     helped = [one for one in errors if one[0] < limit]
     if not helped:
-        return ("Several things are wrong: start with the hard stops.", "")
+        several = ("Several things are wrong: start with the hard stops.", "")
+        return (MUCH, "M-TRIM-PRETTY") if limit == float("inf") else several
     return min(helped, key=lambda one: one[0])[1]
 
 

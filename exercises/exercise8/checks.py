@@ -115,7 +115,7 @@ def _require_stops_cut(answers: Answers) -> None:
     windows = _read_preparation(answers).keep
     for test, (_, end) in answers.variant.reference.keep.items():
         if windows.get(test, (0.0, math.inf))[1] > end + LATE:
-            raise NotReachedError("counts after you cut the ends of tests that do not look right")
+            raise NotReachedError("checked after you cut off the two ends at which it hits a stop")
 
 
 def _find_luck(answers: Answers) -> WrongAnswer | None:
@@ -142,13 +142,9 @@ def _judge_gain(name: str, answers: Answers) -> None:
     try:
         found = fit_prepared(variant.log, preparation)
     except Refusal:
-        raise WrongAnswer(
-            "no fit: too little is left of your log",
-            hint="You cut away too much: a part of a test is too short, or the threshold is too "
-            "high. Compare your threshold with the largest velocity of each quasistatic test, and "
-            "your times with the length of each test",
-            misconception="M-TRIM-PRETTY",
-        ) from None
+        says, code = blame(name, variant, preparation)
+        seen = "no fit: too little is left of your log"
+        raise WrongAnswer(seen, hint=says, misconception=code) from None
     value, asked = found.gains[name], variant.asked[name]
     score = judge_gain(value, asked)
     luck = _find_luck(answers)

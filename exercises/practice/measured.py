@@ -97,10 +97,26 @@ def _make_measured(found: Fit, units: str, parts: Parts | None, why: str) -> Mea
     if "velocity" in loops:
         asked["kP"] = AskedNumber("kP", loops["velocity"].kp, f"V·s/{symbol}", KP)
     other = (Lookalike(loops["position"].kp, POSITION),) if "position" in loops else ()
-    scene = Scene(angular=units != "Meters", lookalikes={"kP": other})
+    lookalikes = {"kP": other}
+    if parts is not None and parts.diameter:
+        turn = math.pi * parts.diameter  # [m]
+        turns = (("wheel", turn), ("motor", turn / parts.ratio))
+        for name in ("kV", "kA"):
+            lookalikes[name] = tuple(
+                Lookalike(found.gains[name] * way, _explain_rotation(what)) for what, way in turns
+            )
+    scene = Scene(angular=units != "Meters", lookalikes=lookalikes)
     if parts is not None:
         scene = replace(scene, ratio=parts.ratio, motors=parts.motors)
     return Measured(found, AnswerKey(asked, scene), units, parts, why)
+
+
+def _explain_rotation(what: str) -> WrongNumber:
+    says = (
+        f"this is per rotation of the {what}, not per meter. In one rotation, a wheel or drum goes "
+        "π times its diameter"
+    )
+    return WrongNumber(f"per-{what}", says, "M-UNITS")
 
 
 def _read_parts(given: Mapping[str, object], units: str) -> Parts:

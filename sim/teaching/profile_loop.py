@@ -131,6 +131,8 @@ class ElevatorFeedforward:
         needed = (following - kept * current) / per_volt
         return self.kS * _sign(current) + self.kG + needed
 
+    calculate = calculateWithVelocities  # WPILib's name in Python
+
 
 @dataclass
 class PIDController:

@@ -59,7 +59,7 @@ MISTAKES = (
     make_wrong_choice("KC1_answer", "The battery browned", "In a brownout the voltage would drop"),
     make_wrong_choice("KC1_answer", "The log has a gap", "time stamps"),
     make_wrong_choice("KC1_answer", "The mechanism hit", "stays there"),
-    make_wrong_choice("KC1_reason", "Almost nothing", "squares the errors", "M-NOISE-AVERAGES"),
+    make_wrong_choice("KC1_reason", "Almost nothing", "squares the errors"),
     make_wrong_choice("KC1_reason", "The simulated velocity R² falls", "stays above 0.9", "M-R2"),
     make_wrong_choice(
         "KC1_reason", "Nothing, once", "SysId cannot use a log without that run", "M-REVERSE-WASTE"
