@@ -142,7 +142,7 @@ def test_growing_log_is_fitted_again_from_its_finished_tests(tmp_path, drive):
         server.session.renew("robot", drive, finished)
         closed = ask_json(server, "live")[1]["logs"]
 
-    assert none == {"follows": False}
+    assert none == {"follows": False, "logs": []}
     assert [(logs[0]["revision"], runs) for logs, runs, _ in answers] == [(1, 3), (2, 4)]
     expected = fit(log).in_log_units().gains
     assert {one["name"]: one["value"] for one in answers[1][2]} == dict(expected)

@@ -193,12 +193,6 @@ def test_missing_volts_are_the_volts_of_the_friction_that_is_hidden():
     assert np.median(lacks[fast]) == pytest.approx(-lean, rel=0.05)
 
 
-@pytest.mark.parametrize("gaps", [{}, {"a": {}}, {"a": {"log": 1.0}, "b": {"other": 1.0}}])
-def test_gaps_of_different_logs_are_refused(gaps):
-    with pytest.raises(BadRequest, match="a gap for each log"):
-        plot_gap_bars(gaps)
-
-
 def test_each_picture_has_words_and_a_table():
     log = hiding("drag")
     for picture in (

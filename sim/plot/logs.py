@@ -1,13 +1,12 @@
 """Voltage and velocity of a log over time."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from sim.core.errors import BadRequest
-from sim.core.log import DIRECTIONS, Array, Log, Run
+from sim.core.log import DIRECTIONS, FOUR_TESTS, Array, Log, Run
 from sim.core.units import Unit, find_unit
 from sim.inspect.fault import Damage
 from sim.plot.decimate import decimate_curve
@@ -16,7 +15,6 @@ from sim.plot.picture import (
     INK,
     LINES,
     MARKERS,
-    Dash,
     Picture,
     add_legend,
     make_panels,
@@ -30,19 +28,6 @@ KINDS = ("quasistatic", "dynamic")
 APART = 0.15  # [share of a panel] distance of markers
 MOST = 1000  # samples of a curve drawn at most: a panel has fewer pixels
 BACKGROUND = "#F9EEF5"  # of a damaged part; curves drawn over it stay legible
-
-
-@dataclass(frozen=True)
-class _Pen:
-    """Color, line, marker and width of a test's curve."""
-
-    color: str
-    line: Dash
-    marker: str
-    width: float
-
-
-_PENS = tuple(_Pen(COLORS[i], LINES[i], MARKERS[i], 1.4) for i in range(len(DIRECTIONS)))
 
 
 def plot_time_series(
@@ -66,10 +51,9 @@ def plot_time_series(
     per = find_unit(log.units)
     runs = _take_first_runs(log)
     figure, (upper, lower) = make_panels(2, 2, height=4.4, shared=True)
-    labels = tuple(f"log, {way}" for way in DIRECTIONS)
     drawn: dict[int, list[tuple[Axes, Array]]] = {}
     for kind, *pair in zip(KINDS, upper, lower, strict=True):
-        drawn |= _draw(runs, kind, pair, per=per, pens=_PENS, labels=labels)
+        drawn |= _draw(runs, kind, pair, per=per)
         pair[0].set_title(f"{kind} tests", fontsize=10, color=INK)
         pair[1].set_xlabel("time since the test began [s]", color=INK)
     upper[0].set_ylabel("voltage [V]", color=INK)
@@ -95,7 +79,7 @@ def _mark_damage(
         return f"The picture does not show {damage.fault} in {where.test or 'the whole log'}."
     run = log.runs[where.run]
     start, end = where.start - run.time[0], where.end - run.time[0]
-    color = _PENS[DIRECTIONS.index(run.direction)].color
+    color = COLORS[DIRECTIONS.index(run.direction)]
     for axes, _ in drawn[where.run]:
         axes.axvspan(
             start, end, facecolor=BACKGROUND, edgecolor=color, hatch="///", zorder=1,
@@ -110,8 +94,7 @@ def _take_first_runs(log: Log) -> dict[int, Run]:
     for index, run in enumerate(log.runs):
         if len(run):
             found.setdefault(run.test, index)
-    tests = [f"{kind}-{way}" for kind in KINDS for way in DIRECTIONS]
-    first = {found[test]: log.runs[found[test]] for test in tests if test in found}
+    first = {found[test]: log.runs[found[test]] for test in FOUR_TESTS if test in found}
     if not first:
         raise BadRequest(
             "this log has none of SysId's four tests",
@@ -122,33 +105,27 @@ def _take_first_runs(log: Log) -> dict[int, Run]:
 
 
 def _draw(
-    runs: Mapping[int, Run],
-    kind: str,
-    axes: "Sequence[Axes]",
-    *,
-    per: Unit,
-    pens: Sequence[_Pen],
-    labels: Sequence[str],
+    runs: Mapping[int, Run], kind: str, axes: "Sequence[Axes]", *, per: Unit
 ) -> dict[int, list[tuple["Axes", Array]]]:
     """Draw both directions of a kind of test into two axes: voltage above, velocity below."""
     drawn: dict[int, list[tuple[Axes, Array]]] = {}
     for index, run in runs.items():
         if run.kind != kind:
             continue
-        pen = pens[DIRECTIONS.index(run.direction)]
+        way = DIRECTIONS.index(run.direction)
         drawn[index] = list(zip(axes, (run.voltage, run.velocity / per.si), strict=True))
         for panel, signal in drawn[index]:
             kept = decimate_curve(signal, most=MOST)
             panel.plot(
                 run.time[kept] - run.time[0],
                 signal[kept],
-                color=pen.color,
-                linestyle=pen.line,
-                linewidth=pen.width,
-                marker=pen.marker,
+                color=COLORS[way],
+                linestyle=LINES[way],
+                linewidth=1.4,
+                marker=MARKERS[way],
                 markersize=4.0,
                 markevery=APART if kept.size > 1 else 1,
-                label=labels[DIRECTIONS.index(run.direction)],
+                label=f"log, {run.direction}",
             )
     return drawn
 

@@ -47,7 +47,6 @@ CURVE = 500  # samples drawn of a run at most
 FINE = 16  # bins, above which they are drawn small
 FEWEST = 5  # samples needed for the mean of a bin
 LEAST = 0.1  # [1] of the squared residual: less than this beyond the noise is noise, too
-NUMBERS = {4: "Four", 5: "Five"}  # number of views: four without battery voltage
 DRAWN_QUANTILE = 0.98  # [1] of the absolute residuals inside the axis, despite outliers
 SPEED, SINCE, POSITION, BATTERY, DIRECTION = (
     "speed", "time since the voltage jumped", "position", "battery voltage", "direction",
@@ -166,7 +165,7 @@ def make_residual_views(
     simulated, gains = simulated or simulate_velocity(log, model), model.gains
     counts = compared or [np.ones(len(run), dtype=bool) for run in log.runs]
     volts = compute_missing_volts(log, simulated, gains)
-    columns: dict[str, list[Array]] = {name: [] for name in _COLUMNS}
+    rows = []
     for run, velocity, missing, counted in zip(log.runs, simulated, volts, counts, strict=True):
         ahead = np.sign(np.where(velocity == 0.0, run.voltage, velocity))
         inside = counted & (ahead != 0.0) & np.isfinite(missing)
@@ -176,9 +175,8 @@ def make_residual_views(
             np.abs(velocity), since, ahead, upward, np.sign(run.voltage), missing, bus,
             run.position, _measure_residual_noise(run, gains),
         )  # fmt: skip
-        for name, values in zip(columns, samples, strict=True):
-            columns[name].append(values[inside])
-    joined = {name: np.concatenate(values) for name, values in columns.items()}
+        rows.append(np.stack(samples)[:, inside])
+    joined = dict(zip(_COLUMNS, np.hstack(rows), strict=True))
     if not joined["missing"].size:
         raise BadRequest(
             "there is too little to compare, or the simulated motion grew without limit",
@@ -302,7 +300,7 @@ def plot_voltage_residual(
     typical = float(np.sqrt(np.mean(missing**2)))
     shares = ", ".join(f"{name} {_format_percent(view.explains)}" for name, view in found.items())
     alt = (
-        f"{NUMBERS[len(found)]} views of the voltage residual, which is {to_text(typical)} V "
+        f"{len(found)} views of the voltage residual, which is {to_text(typical)} V "
         "typically. Each sample is a pale dot. A line connects the means of nearby samples, with "
         f"their errors. The means explain this share of the squared residual: {shares}. "
         f"{headline} The last plot shows the measured and the simulated velocity of one run."

@@ -42,13 +42,11 @@ class _Ramps:
 
     Args:
         way: ``forward`` or ``reverse``.
-        runs: number of runs.
         velocity: (n,) [unit/s].
         voltage: (n,) [V].
     """
 
     way: str
-    runs: int
     velocity: Array
     voltage: Array
 
@@ -99,7 +97,7 @@ def _join_ramps(runs: Sequence[Run], per: Unit) -> list[_Ramps]:
         if these:
             velocity = np.concatenate([run.velocity for run in these]) / per.si
             voltage = np.concatenate([run.voltage for run in these])
-            found.append(_Ramps(way, len(these), velocity, voltage))
+            found.append(_Ramps(way, velocity, voltage))
     return found
 
 
@@ -132,7 +130,7 @@ def _select_shown(ramps: Sequence[_Ramps], axes: "Axes") -> list[_Ramps]:
     for one in ramps:
         seen = (one.velocity >= left) & (one.velocity <= right)
         seen &= (one.voltage >= bottom) & (one.voltage <= top)
-        shown.append(_Ramps(one.way, one.runs, one.velocity[seen], one.voltage[seen]))
+        shown.append(_Ramps(one.way, one.velocity[seen], one.voltage[seen]))
     return shown
 
 
@@ -166,15 +164,10 @@ def _draw(
         )
 
 
-def _is_moving(one: _Ramps, *, top: float) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
-    """Whether each sample (n,) moves in the direction of its test; an elevator falls at first."""
-    sign = 1.0 if one.way == "forward" else -1.0
-    return np.asarray(sign * one.velocity > MOVING * top)
-
-
 def _measure_rms_from_line(one: _Ramps, *, top: float) -> float | None:
     """RMS distance [V] of moving samples from their best straight line; None if undefined."""
-    moving = _is_moving(one, top=top)
+    sign = 1.0 if one.way == "forward" else -1.0
+    moving = sign * one.velocity > MOVING * top  # an elevator falls at first
     velocity, voltage = one.velocity[moving], one.voltage[moving]
     if velocity.size < FEWEST or not np.ptp(velocity) > 0.0:
         return None

@@ -226,7 +226,7 @@ def _list_facts(
 ) -> tuple[str, ...]:
     """A line for each effect in the model, each part left out, and each gain set by hand."""
     return (
-        *(f"Effect in the model: {part.effect.replace('-', ' ')}" for part in found.parts),
+        *(f"Effect in the model: {part.effect}" for part in found.parts),
         *(f"Left out: {part}" for part in left_out),
         *(f"Moved by hand, not measured: {gain}" for gain in moved),
     )

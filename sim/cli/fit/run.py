@@ -137,13 +137,11 @@ class _FitOutput:
 
     def print_result(self) -> None:
         """Print the fit on the terminal."""
-        title = ", ".join(map(str, self.files))
         from sim.report.fit_terminal import show_fit  # noqa: PLC0415 - JSON needs no terminal
 
-        preset = PRESETS[self.preset]
         show_fit(
-            self.found, preset=preset, title=title, log=self.log, tried=self.tried,
-            notes=self.notes,
+            self.found, preset=PRESETS[self.preset], title=", ".join(map(str, self.files)),
+            log=self.log, tried=self.tried, notes=self.notes,
         )  # fmt: skip
 
 

@@ -135,16 +135,8 @@ def name_log(one: OpenLog) -> dict[str, Any]:
 def _describe_live(session: Session) -> dict[str, Any]:
     """The status of the source that is followed, and its growing logs with their revisions."""
     live = session.live
-    if live is None:
-        return {"follows": False}
     logs = [name_log(one) | {"revision": one.revision} for one in session.logs if one.revision]
-    return {
-        "follows": True,
-        "status": live.status,
-        "counts": dict(live.counts),
-        "next": live.advice,
-        "logs": logs,
-    }
+    return {"follows": live is not None, "logs": logs} | (asdict(live) if live else {})
 
 
 def pack_samples(log: Log) -> bytes:
@@ -179,11 +171,7 @@ def describe_faults(found: Inspection, one: OpenLog) -> dict[str, Any]:
             fault["advice"] = damage.advice.on_page
         fault["evidence"] = _without_path(fault["evidence"], one)
         fault["sureness"] = name_confidence(fault["confidence"])
-    return {
-        "faults": data["faults"],
-        "doubts": _describe_doubts(found.doubts, one),
-        "clean": data["clean"],
-    }
+    return data | {"doubts": _describe_doubts(found.doubts, one)}
 
 
 def describe_fit(

@@ -25,6 +25,7 @@ from sim.reconcile.story_text import (
     list_remarks,
     write_headline,
 )
+from sim.support.printable import finite_or_none
 
 DROPOUT = "voltage-dropout"  # an inspection reports many short dropouts as one interval
 PLACES = 5  # places listed where the base model's residual is largest
@@ -144,9 +145,7 @@ def describe_story(story: Story, said: Collection[str] = ()) -> dict[str, Any]:
         {
             "name": name,
             "text": format_gap(chapter.gap, story),
-            "gap": chapter.gap / story.noise_floor
-            if math.isfinite(chapter.gap) and story.noise_floor > 0.0
-            else None,
+            "gap": finite_or_none(chapter.gap / (story.noise_floor or math.nan)),
         }
         for name, chapter in zip(names, story.chapters, strict=True)
     ]

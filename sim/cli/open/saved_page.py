@@ -92,18 +92,14 @@ def _describe_choices(
     """What the user has chosen on the page, as the page keeps it."""
     named = (chosen or {}).get("effects", "").split(",")
     effects = None if chosen is None else list(filter(None, named))
-    left_out = [
-        {
-            "test": part.test,
-            "start": max(part.start, float(run.time[0])),
-            "end": min(part.end, float(run.time[-1])),
-        }
+    spans = {  # two sides of a drivetrain have the same tests
+        (run.test, float(time[0]), float(time[-1])): None
         for part in reading.left_out
         for run in one.combine_runs(reading).runs
-        if run.test == part.test
-    ]
+        if (time := run.time[part.find(run)]).size
+    }
     return {
-        "leftOut": left_out,
+        "leftOut": [{"test": test, "start": start, "end": end} for test, start, end in spans],
         "moved": page_data.read_moved_gains(chosen or {}),
         **({} if story is None else {"settings": {}, "effects": effects}),
     }

@@ -174,11 +174,8 @@ class PageRequest(BaseHTTPRequestHandler):
                 "this page shows the data alone", advice="Open the log with sysid open FILE."
             )
         reading = Reading.from_query(query)
-        search = (
-            self._start_search(one, query)
-            if what == "reconcile" or query.get("effects") or query.get("story")
-            else None
-        )
+        wanted = what == "reconcile" or query.get("effects") or query.get("story")
+        search = self._start_search(one, query) if wanted else None
         if what == "samples":
             content = page_data.pack_samples(one.combine_runs(reading))
             self._send(content, "application/octet-stream")

@@ -23,7 +23,7 @@ export async function followLive() {
   }
 }
 
-function showLive({ status, counts, next }) {
+function showLive({ status, counts, advice }) {
   at("live").hidden = false;
   at("empty").querySelector(".or").hidden = at("empty").querySelector(".primary").hidden = true;
   at("empty-title").textContent = "Waiting for the first test.";
@@ -34,6 +34,6 @@ function showLive({ status, counts, next }) {
   }, `${test}${count > 1 ? ` (${count})` : ""}`));
   at("live-tests").replaceChildren(...words);
   const said = at("live-next");
-  if (said.dataset.said !== next) said.replaceChildren(...prose(next)); // only when it has changed
-  said.dataset.said = next;
+  if (said.dataset.said !== advice) said.replaceChildren(...prose(advice)); // only when it has changed
+  said.dataset.said = advice;
 }
