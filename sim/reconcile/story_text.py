@@ -38,7 +38,8 @@ def write_headline(story: Story) -> str:
 def _write_verdict(story: Story) -> str:
     found = [one for one in story.findings if one.kind == FAULT]
     remains = story.remainder and story.verdict != NOTHING_MISSING
-    suspected = [one for one in found if one.size == MINOR and remains]
+    added = {one.added for one in story.chapters[1:]}
+    suspected = [one for one in found if one.size == MINOR and remains and one.effect not in added]
     faults = [one for one in found if one not in suspected]
     majors = [one for one in story.findings if one.kind != FAULT and one.size == MAJOR]
     damaged = _describe_damage(faults, also="also " if majors else "")
@@ -182,8 +183,7 @@ def explain_unapplied_effects(story: Story) -> str:
     if {one.added for one in story.chapters[1:]} <= SENSOR_LAGS:
         return (
             "The fit of the gains accounts for this delay of the sensor already, which the base "
-            "model of the search does not. So the fit's gains hold, and its error is small without "
-            "the effect."
+            "model of the search does not. So the search has found nothing that the fit lacks."
         )
     share = 1.0 - MAJOR_UNEXPLAINED
     return f"The effects narrow the gap by less than {share:.0%}, so they are not applied unasked."
@@ -268,8 +268,11 @@ def _write_gaps(story: Story) -> str:
     added = [*list_effect_names(story, MAJOR), *list_effect_names(story, MINOR)]
     if len(story.chapters) == 1 or not added:
         return _write_error(story)
-    all_ = {1: added[0], 2: "both"}.get(len(added), "all of them")
-    with_ = f"With {all_} added, the simulation error"
+    named = {1: added[0], 2: "both"}.get(len(added), "all of them")
+    every = [one.added for one in story.chapters[1:]]
+    if not set(every) <= set(added):
+        named = join_names(every)
+    with_ = f"With {named} added, the simulation error"
     if len(added) > 1 and list_effect_names(story, MINOR):
         with_ = "With all found effects added, the simulation error"
     return f"{with_} drops from {before} to {after} times the sensor noise{_in_speed(story)}."

@@ -108,7 +108,7 @@ def describe_log(one: OpenLog, reading: Reading) -> dict[str, Any]:
     ]
     return {
         "type": log.type or "simple",
-        "units": {"name": unit.name, "symbol": unit.symbol, "si": unit.si},
+        "units": {"name": unit.name, "symbol": unit.symbol, "si": unit.si, "angular": unit.angular},
         "mechanism": log.mechanism,
         "runs": runs,
         "samples": sum(map(len, log.runs)),

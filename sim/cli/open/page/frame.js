@@ -4,6 +4,7 @@ import { draw, drawLine, fillBox } from "./drawing.js";
 import { roundTicks, short } from "./ticks.js";
 
 const WHOLE = 0.6; // [share of the visible part of a run] a longer fault is marked above the run alone
+const CLOSE = 10; // [px] numbers of a scale that are nearer overlap
 const APART = 22; // [px] least distance of two lines of a grid
 export const TOP = 44, AXIS = 24; // [px] height above the panels, and of the times below them
 
@@ -63,11 +64,13 @@ export function drawGrid(chart, to, name) {
   const across = (style, value) => drawLine(to, style, chart.left, Math.round(y(value)) + 0.5, chart.right, Math.round(y(value)) + 0.5);
   to.textBaseline = "middle";
   to.textAlign = "right";
-  let count = Math.max(2, Math.floor((bottom - top) / apart));
+  let [count, free] = [Math.max(2, Math.floor((bottom - top) / apart)), Infinity]; // free: where the next number may stand, above the one before
   while (roundTicks(low, high, count).length < 2) count++; // zero alone is no scale
   for (const tick of roundTicks(low, high, count)) {
     across({ color: rule, width: Math.abs(tick) < 1e-9 * (high - low) ? 1.6 : 0.8 }, tick);
     to.fillStyle = quiet;
+    if (y(tick) > free) continue;
+    free = y(tick) - CLOSE;
     to.fillText(short(tick), chart.left - 7, Math.round(y(tick)) + 0.5);
   }
   if (dashed) across({ color: quiet, dash: [5, 4] }, dashed(chart));

@@ -91,9 +91,8 @@ function nameReport() {
 /** Robot code with the gains; those that the user moved replace those of the fit. */
 async function showCode() {
   const log = shownLog();
-  const [language, season] = [at("language").value, at("season").value];
   const asked = showCode.asked = {}; // an answer that a later question overtakes is not shown
-  const query = { ...movedQuery(log), language, season, radius: at("radius").value.replace(",", ".") };
+  const query = { ...movedQuery(log), language: at("language").value, season: at("season").value, radius: at("radius").value.replace(",", ".") };
   at("code-text").textContent = "Writing…";
   at("copy").disabled = true;
   const [text, problem] = await askLog(log.id, "code", query).then(({ code }) => [code], (refusal) => [sentence(refusal), refusal]);

@@ -29,6 +29,9 @@ export function shownLog() {
   return logs.get(state.active);
 }
 
+/** Whether another log, once read, has positions of the same kind: lengths, or angles. */
+export const isAlike = (one, log) => one.runs && log?.runs && one.summary.units.angular === log.summary.units.angular;
+
 /** Show a log. */
 export function activate(id) {
   state.active = id;
@@ -117,7 +120,7 @@ export async function choose(log, what, value) {
 export async function offerChoice(log, problem = null) {
   if (problem && problem.kind !== "MissingSignal" && !log.choice) return false;
   const entries = log.choice?.entries ?? await askLog(log.id, "entries").catch(() => []);
-  if (!entries.length) return false;
+  if (entries.every((one) => one.text)) return false; // no log, but some other text
   const why = !problem ? "Choose them again." : log.choice ? sentence(problem) : `${problem.what}.`;
   log.choice = { entries, why, chosen: { ...log.query }, columns: problem?.asks === "columns" || (log.choice?.columns ?? Boolean(log.query.time)) };
   changed(log, "log");

@@ -21,7 +21,8 @@ const SHOW = {
     showTabs();
     if (shownLog()?.runs && !state.view.raw) showStory(); // it lists the other logs
   },
-  faults: showFaults, fit: showFit, doubts: showDoubts, story: showStory, busy: showBusy,
+  faults: showFaults, fit: showFit, doubts: showDoubts, story: showStory,
+  busy: () => at("loading").classList.toggle("busy", Boolean(shownLog()?.busy)),
 };
 onChange((what) => SHOW[what]());
 
@@ -36,11 +37,7 @@ function showLog() {
   if (!log?.runs) return showReading(log);
   showStage();
   if (!state.view.raw) for (const show of [showFaults, showFit, showStory]) show();
-  showBusy();
-}
-
-function showBusy() {
-  at("loading").classList.toggle("busy", Boolean(shownLog()?.busy));
+  SHOW.busy();
 }
 
 at("file").addEventListener("change", (event) => {

@@ -17,7 +17,5 @@ export function writeSpans({ before, span, between, after }, { name, runs }, spa
 /** Start and end in seconds since the test began, rounded outward to contain both samples. */
 function secondsOf({ time }, [first, last]) {
   const since = (sample) => FINEST * (time[sample] - time[0]);
-  const begin = Math.floor(since(first) + 0.01) / FINEST;
-  const end = Math.ceil(since(last) - 0.01) / FINEST;
-  return [begin.toFixed(2), end.toFixed(2)];
+  return [Math.floor(since(first) + 0.01), Math.ceil(since(last) - 0.01)].map((one) => (one / FINEST).toFixed(2));
 }

@@ -4,7 +4,7 @@ import { askLog, saved } from "./api.js";
 import { Chart } from "./chart.js";
 import { button, figure, make } from "./elements.js";
 import { nameOfRun } from "./frame.js";
-import { leaveOut, logs, shownLog, state, takeEntry } from "./logs.js";
+import { isAlike, leaveOut, logs, shownLog, state, takeEntry } from "./logs.js";
 import { at, copy, guarded, say } from "./page.js";
 import { writeSpans } from "./spans.js";
 
@@ -108,7 +108,7 @@ export function showOthers() {
   const log = shownLog();
   if (!log?.runs) return;
   const laid = [];
-  const others = [...logs.values()].filter((one) => one.others && one !== log && one.runs);
+  const others = [...logs.values()].filter((one) => one.others && one !== log && isAlike(one, log));
   for (const [k, other] of others.entries()) {
     const used = new Set();
     for (const [run, mine] of log.runs.entries()) {

@@ -1,7 +1,7 @@
 // The tabs of the open logs.
 
 import { button, drawing, make } from "./elements.js";
-import { activate, forget, logs, state } from "./logs.js";
+import { activate, forget, isAlike, logs, shownLog, state } from "./logs.js";
 import { at } from "./page.js";
 import { showOthers } from "./stage.js";
 
@@ -18,8 +18,8 @@ function makeTab(log) {
   return make("div", `tab${now ? " now" : ""}`,
     button("name", log.name, () => activate(log.id), now ? { "aria-current": "true" } : {}),
     log.choice && make("span", "badge", "choose signals"),
-    !now && log.runs && button("over", drawing("0 0 16 16", LAID_OVER), lay, {
-      title: "Lay over", "aria-pressed": String(log.others), "aria-label": `Lay ${log.name} over the log that is seen`,
+    !now && isAlike(log, shownLog()) && button("over", [drawing("0 0 16 16", LAID_OVER), make("span", "", "lay over")], lay, {
+      "aria-pressed": String(log.others), "aria-label": `Lay ${log.name} over the log that is seen`,
     }),
     button("close", "×", () => forget(log.id), { "aria-label": `Close ${log.name}` }));
 }
