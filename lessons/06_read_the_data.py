@@ -74,7 +74,7 @@ sound = simulate(ROBOT, ROUTINE, rng=np.random.default_rng(6))
 
 TAU = TRUTH["kA"] / TRUTH["kV"]
 print(f"The truth: kS {TRUTH['kS']:.3f} V, kV {TRUTH['kV']:.3f} V·s/m, kA {TRUTH['kA']:.3f} V·s²/m")
-print(f"kA/kV is {1000 * TAU:.0f} ms: so long after a step, it has nearly 2/3 of its final speed.")
+print(f"kA/kV is {1000 * TAU:.0f} ms. After this time, a step has nearly 2/3 of its final speed.")
 
 # %% [markdown]
 # ## 2 The model: what a good log looks like
@@ -281,9 +281,8 @@ animate_logs(
     {name: (gallery[name], sound) for name in LIARS},
     tests={"ramp": RAMP, "step": STEP},
     label="fault",
-    alt="A robot drives, and an outline shows where its log says that it is. While the encoder "
-    "slips, the outline falls behind, and stays behind. A stuck sensor stops the outline for a "
-    "moment. With a wrong unit, its speed is wrong all the time.",
+    alt="A robot drives, and an outline shows where its log says that it is. During the fault, the "
+    "two speeds differ.",
 )
 
 # %% [markdown]
@@ -352,7 +351,7 @@ tabulate_fits(gallery, TRUTH)
 #
 # To get the acceleration, SysId divides each change of the velocity by the *mean* time step of the
 # test. So at a gap the acceleration is wrong. The usual step is 20 ms, and half of all steps are a
-# bit longer: these are no gaps. A gap is more than 1.5 times as long as usual. How wrong is kA?
+# bit longer. Only a step that is more than 1.5 times as long as usual is a gap. How wrong is kA?
 #
 # <details><summary>For mentors: gaps and kA, with source</summary>
 #
@@ -717,8 +716,8 @@ display(ask_question("lesson6.quick"), enable_checkboxes())
 # mechanism did *not* jump. The position comes from the same encoder: it cannot show this.) The few
 # samples of the jump matter a lot, because a fit squares the errors: an error that is three times
 # as large counts nine times as much. So kS is too small or negative, kA is too large, kV hardly
-# changes, and the simulated velocity R² stays above 0.9. Find the log "sudden jump" in the table of
-# section 5. Fix the mechanism and run again. A median filter or trimming helps less.
+# changes, and the simulated velocity R² stays above 0.9. Find the log "sudden jump" in section 5
+# (choose *reveal*). Fix the mechanism and run again. A median filter or trimming helps less.
 # </details>
 #
 # **3.** "All our R² are above 0.97, so the gains are fine." What do you ask?
@@ -726,7 +725,7 @@ display(ask_question("lesson6.quick"), enable_checkboxes())
 # <details><summary>Answer</summary>
 #
 # Which R²? Are kV and kA close to the values you expect from motors, gears and mass? Does the log
-# hold the applied voltage? Did anybody look at the plots? In our table, nearly all wrong logs have
+# hold the applied voltage? Did anybody look at the plots? In section 5, nearly all wrong logs have
 # a simulated velocity R² above 0.9.
 # </details>
 #

@@ -561,8 +561,7 @@ animate_model(
     recipe.gains,
     tests={"step": ("dynamic-forward", 1.0), "ramp": ("quasistatic-forward", 3.5)},
     alt="The solid robot is the log, and the dashed robot is the simulation with the gains of "
-    "SysId's method. The two stay together: the typical error is about 0.02 m/s. With a kA that is "
-    "half as large, only the first tenths of a second of the step differ.",
+    "SysId's method. The two stay together: the typical error is about 0.02 m/s.",
 )
 
 # %% [markdown]

@@ -325,7 +325,7 @@ for name in ("log", "held_out"):
 # You never fitted these motions. If an effect makes the gap smaller here, too, it is in the robot.
 # A model that is better on the log, but not here, describes the log and not the robot.
 #
-# ### A slow sensor makes the robot look heavy
+# ### What the missing effects did to kA
 
 # %%
 steps = {"velocity alone": velocity_alone, **search.steps}
@@ -410,8 +410,8 @@ animate_charts(
 #
 # `sim.reconcile` does what you did, with the same fit and the same gap, and with all effects that
 # it knows: fit, simulate, try every effect, keep the effect that the *validation* confirms, and
-# repeat until no further effect helps. The last column of the next table has two gaps of the
-# held-out log: that of the model without this one effect, and that of the whole model.
+# repeat until no further effect helps. The last column of the next table shows the gap of
+# the held-out log twice: without this one effect, and with all effects.
 
 # %%
 story = reconcile(log, validation=validation, held_out=held_out, type="simple")

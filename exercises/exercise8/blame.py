@@ -1,6 +1,5 @@
 """The part of a preparation that spoils a gain most: the one whose repair helps most."""
 
-from collections.abc import Iterator
 from dataclasses import replace
 
 from sim.core.errors import Refusal
@@ -10,6 +9,8 @@ from .drawn import Variant
 from .preparation import Preparation, fit_prepared
 
 HELPS = 0.9  # [times the error] what leaves more than that is not to blame
+
+PARTS = ("median", "threshold", *FOUR_TESTS)
 
 Said = tuple[str, str]  # what to say, and the misconception's code, or empty
 
@@ -37,17 +38,23 @@ LOW = (
 
 
 def blame(gain: str, variant: Variant, preparation: Preparation) -> Said:
-    """Feedback about a wrong gain; empty if no single part explains it."""
-    errors = [
-        (_compute_error(gain, variant, repaired), says)
-        for repaired, says in _list_repairs(variant.reference, preparation)
-    ]
+    """Feedback about a wrong gain: the part whose repair helps most, or that alone harms most."""
+    reference = variant.reference
+    errors = {
+        part: _compute_error(gain, variant, _copy_part(part, reference, preparation))
+        for part in PARTS
+    }
     limit = HELPS * _compute_error(gain, variant, preparation)
-    helped = [one for one in errors if one[0] < limit]
-    if not helped:
-        several = ("Several things are wrong: start with the hard stops.", "")
-        return (MUCH, "M-TRIM-PRETTY") if limit == float("inf") else several
-    return min(helped, key=lambda one: one[0])[1]
+    best = min(PARTS, key=errors.__getitem__)
+    if errors[best] < limit:
+        return _explain_part(best, reference, preparation)
+    if limit == float("inf"):
+        return MUCH, "M-TRIM-PRETTY"
+    alone = {part: _copy_part(part, preparation, reference) for part in PARTS}
+    wrong = [part for part in PARTS if alone[part] != reference]
+    worst = max(wrong, key=lambda part: _compute_error(gain, variant, alone[part]))
+    says, code = _explain_part(worst, reference, preparation)
+    return f"Several things are wrong. Begin with this one. {says}", code
 
 
 def _compute_error(gain: str, variant: Variant, preparation: Preparation) -> float:
@@ -59,17 +66,24 @@ def _compute_error(gain: str, variant: Variant, preparation: Preparation) -> flo
     return abs(found - variant.asked[gain].expected)
 
 
-def _list_repairs(reference: Preparation, given: Preparation) -> Iterator[tuple[Preparation, Said]]:
-    """The preparation with one part of it repaired, and what was wrong with that part."""
-    yield replace(given, median=reference.median), _explain_median(reference, given)
-    yield replace(given, threshold=reference.threshold), _explain_threshold(reference, given)
-    for test in FOUR_TESTS:
-        keep = dict(given.keep)
-        if test in reference.keep:
-            keep[test] = reference.keep[test]
-        else:
-            keep.pop(test, None)
-        yield replace(given, keep=keep), _explain_window(test, reference, given)
+def _copy_part(part: str, source: Preparation, target: Preparation) -> Preparation:
+    """The target with one part of the source: a setting, or the window of a test."""
+    if part == "median":
+        return replace(target, median=source.median)
+    if part == "threshold":
+        return replace(target, threshold=source.threshold)
+    keep = {test: window for test, window in target.keep.items() if test != part}
+    if part in source.keep:
+        keep[part] = source.keep[part]
+    return replace(target, keep=keep)
+
+
+def _explain_part(part: str, reference: Preparation, given: Preparation) -> Said:
+    if part == "median":
+        return _explain_median(reference, given)
+    if part == "threshold":
+        return _explain_threshold(reference, given)
+    return _explain_window(part, reference, given)
 
 
 def _explain_median(reference: Preparation, given: Preparation) -> Said:
