@@ -87,6 +87,7 @@ def _list_whole_slips(variant: Variant, name: str) -> Iterator[tuple[float, Wron
     yield volts / 12, SLIPS.name("duty")
     yield volts * 1000, SLIPS.name("milli")
     if at.acceleration:
+        yield volts - 2.0 * sum(variant.terms(name)[:2]), SLIPS.name("v-sign")  # sgn(v) follows v
         crossed = variant.terms(name)[0] + gains["kV"] * at.acceleration + gains["kA"] * at.velocity
         yield crossed, SLIPS.name("crossed")
     for other in MOMENTS:
