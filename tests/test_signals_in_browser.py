@@ -104,7 +104,7 @@ def test_one_cursor_shows_all_values_at_a_time(viewer):
     page.get_by_role("button", name="Show run 2, dynamic-forward").click()
     page.mouse.move(*place_of(page, 2, 1.0, panel="position"))
     rows = page.locator("#readout > div").all_inner_texts()
-    values = dict(one.split("\n") for one in rows)
+    values = {name.partition(",")[0]: value for name, value in (one.split("\n") for one in rows)}
     run = log.runs[2]
     sample = int(np.argmin(np.abs(run.time - run.time[0] - float(values["time in the test"][:-2]))))
 
