@@ -19,7 +19,7 @@ class SpanText:
     """
 
     before: str = ""
-    span: str = "{test}, {begin} to {end}"
+    span: str = "{test}, {begin} to {end} s after its start"
     between: str = "\n"
     after: str = ""
     hint: str = ""

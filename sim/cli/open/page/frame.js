@@ -4,7 +4,7 @@ import { draw, drawLine, fillBox } from "./drawing.js";
 import { roundTicks, short } from "./ticks.js";
 
 const WHOLE = 0.6; // [share of the visible part of a run] a longer fault is marked above the run alone
-const CLOSE = 10; // [px] numbers of a scale that are nearer overlap
+const CLOSE = 12; // [px] numbers of a scale that are nearer overlap
 const APART = 22; // [px] least distance of two lines of a grid
 export const TOP = 44, AXIS = 24; // [px] height above the panels, and of the times below them
 
@@ -88,7 +88,7 @@ export function drawOthers(chart, to) {
   for (const { color, run, time, velocity } of chart.others) {
     const stride = Math.max(1, Math.floor(time.length / 4000));
     const [begins, end] = chart.timeline.spanOf(run); // a longer run of another log is cut off
-    draw(to, { color, width: 1.3, alpha: 0.75 }, () => {
+    draw(to, { color, width: 1.8 }, () => {
       for (let k = 0; k < time.length && begins + time[k] - time[0] <= end; k += stride) {
         to.lineTo(chart.xOf(begins + time[k] - time[0]), y(velocity[k]));
       }

@@ -67,7 +67,7 @@ function leaveButton(log, one, kind) {
 function leftOutLines(log) {
   const parts = [...new Set(log.runs.map(({ part }) => part))].filter(Boolean);
   const of = parts.length ? ` of ${parts.join(" and ")}` : "";
-  return log.leftOut.map((part) => make("li", "busy", `Left out: ${part.test}${of}, ${part.start.toFixed(2)} to ${part.end.toFixed(2)}\u00a0s of the log `,
+  return log.leftOut.map((part) => make("li", "busy", `Left out: ${part.test}${of}, ${part.start.toFixed(2)} to ${part.end.toFixed(2)}\u00a0s of the log · `,
     button("link leave", "Take in again", () => leaveOut(log, log.leftOut.filter((one) => one !== part)))));
 }
 
