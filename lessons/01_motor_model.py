@@ -508,9 +508,8 @@ animate_mechanism(
     Scene(since, tuple(spin_up(kind, since) for kind in KINDS)),
     panels=(Panel("velocity", "share of its final speed [%]", low=0.0, high=105.0, scale=100.0),),
     slow=12.0,
-    alt="Four wheels show how four mechanisms speed up after a step of 4 V. The shooter is the "
-    f"last to reach its final speed: its τ is {1000 * tau('shooter'):.0f} ms. The other three "
-    "need less than a quarter of a second.",
+    alt="Four wheels show how four mechanisms speed up after a step of 4 V. Each reaches its final "
+    "speed at another time.",
 )
 
 # %%

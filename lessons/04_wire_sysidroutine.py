@@ -221,8 +221,8 @@ animate_mechanism(
         Knob("step", "step [V]", low=0.5, high=7.0, step=0.5, value=7.0),
     ),
     panels=(Panel("voltage", "voltage [V]", high=12.0), Panel("velocity", "speed [m/s]")),
-    alt="A robot drives for 10 s. With the default ramp of 1 V/s it goes about 20 m, with the "
-    "default step of 7 V more than 25 m.",
+    alt="A robot drives for 10 s. You choose the ramp and the step, and see its voltage, its speed "
+    "and how far it goes.",
 )
 
 # %% [markdown]

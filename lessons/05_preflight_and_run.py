@@ -249,7 +249,8 @@ animate_mechanism(
 )
 
 # %% [markdown]
-# (This is simplified: here the wheels do not slip when the motors brake.)
+# (This is simplified: our simulated wheels never slip, neither in a step nor when the motors
+# brake.)
 
 # %%
 went = drive_test(ROBOT, routine, test=RAMP, floor=Floor(wall=WALL, tape=7.0))

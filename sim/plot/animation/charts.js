@@ -44,8 +44,7 @@ export function addKnobs(owner, change) {
     const label = create(knobs, "label");
     create(label, "span", { textContent: knob.label });
     const { low: min, high: max, step } = knob;
-    const slider = create(label, "input", { type: "range", min, max, step, value: knob.value });
-    slider.setAttribute("aria-label", knob.label);
+    const slider = create(label, "input", { type: "range", min, max, step, value: knob.value, ariaLabel: knob.label });
     const digits = `${step}`.split(".")[1]?.length ?? 0;
     const shown = create(label, "output", { textContent: rounded(knob.value, digits) });
     slider.addEventListener("input", () => {
@@ -92,6 +91,7 @@ export class Charts {
   constructor(figure, data) {
     Object.assign(this, { figure, data, pictures: 0 });
     addKnobs(this, () => this.show());
+    this.figure.addEventListener("keydown", (event) => event.stopPropagation()); // so that the notebook does not handle the key
     this.body = create(figure, "div", { className: "motion-charts" });
     new ResizeObserver(() => this.show()).observe(figure);
   }
