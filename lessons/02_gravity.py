@@ -369,7 +369,7 @@ animate_charts(lambda: chart_hold_angles(measured, kg=arm.gains["kG"], ks=arm.ga
 
 
 # %%
-def askew_chart(offset: float) -> Chart:
+def chart_offset(offset: float) -> Chart:
     """The readings of the encoder that is askew, and the cosine with an offset of your choice."""
     readings = np.linspace(-120.0, 120.0, 49)
     middle = arm.gains["kG"] * np.cos(np.radians(readings + offset))
@@ -388,7 +388,7 @@ def askew_chart(offset: float) -> Chart:
 TILT = 25.0  # [deg] our encoder shows this much too much
 table = [(angle + TILT, low, high) for angle, low, high in measured]
 animate_charts(
-    askew_chart,
+    chart_offset,
     knobs=(Knob("offset", "offset [deg]", low=-60.0, high=60.0, step=2.0, value=0.0),),
 )
 
