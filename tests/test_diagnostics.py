@@ -98,7 +98,6 @@ PLANTED = {
         lambda: each(drawn("elevator"), lambda run: scaled(run, 1.25, only_velocity=True)),
         "1.248 times",
     ),
-    "too-fast": (lambda: replace(drawn("shooter"), units="meters"), "probably not in meters"),
 }
 
 

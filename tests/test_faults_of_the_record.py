@@ -104,3 +104,11 @@ def test_motion_against_the_voltage_by_weight_is_no_sign_error():
     log = replace(log, runs=tuple(sinks if run is forward else run for run in log.runs))
 
     assert found("sign-flip", log) == []
+
+
+def test_a_turning_flywheel_whose_log_says_meters_is_a_wrong_unit():
+    found_once = found("unit-error", replace(recorded("shooter"), units="meters"))
+
+    assert found_once
+    assert "nothing on an FRC robot" in found_once[0].evidence
+    assert found("unit-error", recorded("shooter")) == []

@@ -209,12 +209,19 @@ def test_the_learners_own_gains_are_tried_and_reported_without_a_warning():
     assert warn_of_bad_suggestions(found(), tried) == ()
 
 
-def test_the_measured_delay_is_used_with_the_default_preset_only():
+def test_gains_are_designed_for_the_measured_delay_with_the_default_preset_only():
     late = found(velocity_delay=0.14, position_delay=0.02)
 
     assert late.choose_feedback_delay(PRESETS["default"], loop="velocity") == 0.14
     assert late.choose_feedback_delay(PRESETS["default"], loop="position") == 0.02
     assert late.choose_feedback_delay(PRESETS["venom"], loop="velocity") == 5e-3
+
+
+def test_gains_of_a_motor_controller_are_simulated_with_the_delay_of_the_log():
+    tried = try_feedback_gains(found(velocity_delay=0.14), PRESETS["venom"])
+
+    delays = {one.loop: one.delay for one in tried}
+    assert delays == {"velocity": 0.14, "position": PRESETS["venom"].delay}
 
 
 @settings(max_examples=30)  # each tries up to ten loops

@@ -58,7 +58,7 @@ class FeedbackTrial:
         loop: ``velocity`` or ``position``.
         gains: in the output units of the preset.
         preset: the motor controller.
-        delay: [s] delay of its measurement.
+        delay: [s] delay of its measurement: the log's, or the motor controller's if larger.
         response: the step response, in the fit's unit.
         verdict: the verdict on that response.
     """
@@ -110,7 +110,9 @@ def _try_loop(
     gains_of_plant = {**found.gains, "kS": max(found.gains["kS"], 0.0)}  # no negative friction
     plant = Plant(found.type, gains_of_plant, angle=find_unit(found.units).si)
     target = plant.choose_target_step(loop)
-    delay = found.choose_feedback_delay(preset, loop=loop)
+    # A sensor that is late in the log is as late for the motor controller.
+    measured = found.velocity_delay if loop == "velocity" else found.position_delay
+    delay = max(found.choose_feedback_delay(preset, loop=loop), measured)
     if not target > 0.0:
         return None
     response = simulate_step_response(

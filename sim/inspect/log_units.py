@@ -19,6 +19,7 @@ FEWEST = 20  # [samples] the voltage of shorter logs is not checked
 SLOWEST_LOOP = 1.0  # [s] between samples; larger times are probably not in seconds
 NEAR = 0.05  # [share] largest difference from a known factor; slip and filters change it less
 DRIVES = ("drive", "swerve")  # in the name of a mechanism; SysId's own tool writes Drivetrain
+FASTEST_OF_ALL = 60.0  # [m/s] nothing on a robot is faster
 FASTEST, SLOWEST = 9.0, 1.2  # [m/s] of a drive at 12 V: two-speed gearboxes have about 2 to 7
 FAR = 2.5  # [1] least factor of a wrong unit
 SCALE = 0.05  # [share] of kV with which it can still be used
@@ -88,7 +89,7 @@ def find_unit_errors(features: LogFeatures) -> Iterator[UnitError]:
                 run=index,
                 grave=True,
             )
-    yield from _check_drive_speed(features)
+    yield from _check_speed(features)
 
 
 def doubt_units(log: Log) -> tuple[Doubt, ...]:
@@ -149,25 +150,30 @@ def _check_voltage(log: Log) -> UnitError | None:
     )
 
 
-def _check_drive_speed(features: LogFeatures) -> Iterator[UnitError]:
-    """A drivetrain that is faster or slower than any: position and velocity have a wrong unit."""
+def _check_speed(features: LogFeatures) -> Iterator[UnitError]:
+    """A mechanism that is faster than any, or a drivetrain that is slower: a wrong unit."""
     per, name = find_unit(features.log.units), features.log.mechanism
-    if per.angular or not any(word in name.lower() for word in DRIVES):
+    if per.angular:
         return
+    drives = any(word in name.lower() for word in DRIVES)
+    slowest, fastest = (SLOWEST, FASTEST) if drives else (0.0, FASTEST_OF_ALL)
     speeds = [
         BATTERY * run.top_speed / float(np.abs(run.voltage).max())
         for run in features.log.runs
         if run.test in FOUR_TESTS and run.top_speed and run.voltage.any()
     ]
     speed = float(np.median(speeds)) if speeds else 0.0
-    if not speed or SLOWEST <= speed <= FASTEST or _explain_ratio(features.usual_distance_ratio):
+    if not speed or slowest <= speed <= fastest or _explain_ratio(features.usual_distance_ratio):
         return
-    bound = f"faster than {FASTEST:g}" if speed > FASTEST else f"slower than {SLOWEST:g}"
+    bound = f"faster than {fastest:g}" if speed > fastest else f"slower than {slowest:g}"
     yield UnitError(
-        f"With {BATTERY:g} V this drivetrain would move at about {speed:.2g} m/s, and no FRC robot "
+        f"With {BATTERY:g} V this {'drivetrain' if drives else 'mechanism'} would move at about "
+        f"{speed:.2g} m/s, and {'no FRC robot' if drives else 'nothing on an FRC robot'} "
         f"is {bound} m/s: position and velocity are not in meters, or their factor is wrong.",
         "Push the robot forward by exactly 1 m and see by how much the logged position changes. "
-        "Then set gear ratio and wheel circumference so that it is 1.",
+        "Then set gear ratio and wheel circumference so that it is 1."
+        if drives
+        else Action("angle-units"),
         confidence=0.9,
     )
 

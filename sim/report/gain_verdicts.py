@@ -92,14 +92,14 @@ def _format_error(name: str, value: float, error: float) -> str:
         if value <= 0.0:
             return "not above zero"
         share = error / value
-        return "± less than 0.1 %" if share < 0.001 else f"± {_format_one_digit(100.0 * share)} %"  # noqa: PLR2004 - as it says
+        return "± less than 0.1 %" if share < 0.001 else f"± {_format_two_digits(100.0 * share)} %"  # noqa: PLR2004 - as it says
     unit = "rad" if name == "offset_rad" else "V"
-    return f"± less than 0.001 {unit}" if error < 0.001 else f"± {_format_one_digit(error)} {unit}"  # noqa: PLR2004 - the same
+    return f"± less than 0.001 {unit}" if error < 0.001 else f"± {_format_two_digits(error)} {unit}"  # noqa: PLR2004 - the same
 
 
-def _format_one_digit(number: float) -> str:
-    """A number rounded to one digit, without an exponent: 40, 3, 0.02."""
-    return f"{float(f'{number:.1g}'):g}"
+def _format_two_digits(number: float) -> str:
+    """A number rounded to two digits, as the gains show it, without an exponent: 40, 3.1, 0.015."""
+    return f"{float(f'{number:.2g}'):g}"
 
 
 def _advise_test(name: str, log: Log) -> str:

@@ -16,7 +16,6 @@ from sim.inspect.diagnostics.motion import (
     check_too_little_motion,
 )
 from sim.inspect.diagnostics.sensor import (
-    check_plausible_speed,
     check_rest_noise,
     check_velocity_lag,
 )
@@ -26,7 +25,6 @@ from sim.inspect.log_units import doubt_scale
 CHECKS = (
     check_velocity_lag,
     doubt_scale,
-    check_plausible_speed,
     check_rest_noise,
     check_directions,
     check_r2_hides_misfit,

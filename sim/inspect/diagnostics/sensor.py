@@ -4,9 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from sim.core.advice import Action
 from sim.core.doubt import Doubt
-from sim.core.units import BATTERY, find_unit
 from sim.fit.sysid_rows import estimate_noise_floor
 from sim.inspect.log_features import MIN_SAMPLES, LogFeatures
 from sim.inspect.log_units import FAR
@@ -19,7 +17,6 @@ FILTERS = {  # [s] WPILib's figures for the delay of a velocity
 }
 ALIKE = 0.15  # [share] largest difference of a delay from one of them
 PASSES = 0.1  # [share of a ramp's rows] that may be at rest and count as motion
-FASTEST = 60.0  # [m/s] nothing on a robot is faster
 
 
 def check_velocity_lag(features: LogFeatures) -> Iterator[Doubt]:
@@ -41,20 +38,6 @@ def check_velocity_lag(features: LogFeatures) -> Iterator[Doubt]:
         "takes this delay into account. WPILib's SysId does not: its kA is wrong, and the "
         "measurement delay that you enter there changes only the feedback gains. Shorten the "
         "filter of the motor controller.",
-    )
-
-
-def check_plausible_speed(features: LogFeatures) -> Iterator[Doubt]:
-    """Warnings about speeds that no robot reaches."""
-    per = find_unit(features.log.units)
-    if features.baseline is None or per.angular or BATTERY / features.baseline.kv <= FASTEST:
-        return
-    yield Doubt(
-        "too-fast",
-        f"At {BATTERY:g} V the mechanism would move at "
-        f"{BATTERY / features.baseline.kv:.3g} m/s, so its "
-        f"position is probably not in {per.name}.",
-        action=Action("angle-units"),
     )
 
 
