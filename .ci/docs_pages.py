@@ -26,7 +26,7 @@ from pygments.util import ClassNotFound
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
-from grader.edition import BODY, convert_notebook, execute_notebook, make_accessible  # noqa: E402 - this folder's
+from grader.classroom.edition import BODY, convert_notebook, execute_notebook, make_accessible  # noqa: E402 - this folder's
 from grader.student_data.fingerprint import fingerprint_folders  # noqa: E402 - the same
 from sim.core.errors import BadRequest  # noqa: E402 - the same
 from sim.support.atomic_file import write_atomically  # noqa: E402 - the same

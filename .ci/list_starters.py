@@ -15,8 +15,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
-from grader.exercise import Exercise, list_exercises  # noqa: E402 - the course in this folder
-from grader.package_files import STARTERS, digest_starter  # noqa: E402 - the same
+from grader.course.package_files import STARTERS, digest_starter  # noqa: E402 - the same
+from grader.exercise.exercise import Exercise, list_exercises  # noqa: E402 - the course in this folder
 
 LIST = ROOT / STARTERS
 HEAD = "# Digests of the starters as authored. Written by: python .ci/list_starters.py\n"

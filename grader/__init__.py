@@ -8,16 +8,16 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from grader.lesson_questions import ask_question, enable_checkboxes
-    from grader.notebook import ExerciseQuestions, submit
+    from grader.notebook.lesson_questions import ask_question, enable_checkboxes
+    from grader.notebook.submit import ExerciseQuestions, submit
 
 __all__ = ["ExerciseQuestions", "ask_question", "enable_checkboxes", "submit"]
 
 _WHERE = {
-    "submit": "notebook",
-    "ExerciseQuestions": "notebook",
-    "ask_question": "lesson_questions",
-    "enable_checkboxes": "lesson_questions",
+    "submit": "notebook.submit",
+    "ExerciseQuestions": "notebook.submit",
+    "ask_question": "notebook.lesson_questions",
+    "enable_checkboxes": "notebook.lesson_questions",
 }
 
 

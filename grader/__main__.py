@@ -19,7 +19,7 @@ from importlib.metadata import PackageNotFoundError, distribution
 from importlib.util import find_spec
 from pathlib import Path
 
-from grader.exec_process import INTERRUPTED, run_process
+from grader.setup.exec_process import INTERRUPTED, run_process
 
 OLDEST, NEWEST = (3, 11), (3, 14)  # the newest for which every package has a wheel
 OURS = "sysid-course"

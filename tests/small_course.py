@@ -2,7 +2,7 @@
 
 CHECKS = '''
 """An exercise to test the examiner with."""
-from grader.check import WrongAnswer, check
+from grader.checks.check import WrongAnswer, check
 from grader.answers.submission import read_answers
 FILES = ("answers.toml",)
 

@@ -8,9 +8,9 @@ from open_page import drive_log, served, slipped_log, write_log
 from test_class_exports import student
 from test_open_in_browser import DESKTOP, PHONE, drop, opened, write_strange
 
+from grader.classroom.edition import build_pages
 from grader.classroom.result_pages import write_pages
 from grader.classroom.results import ClassResults
-from grader.edition import build_pages
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate

@@ -10,8 +10,8 @@ from grader.answers.asked_number import BANDS, FAST_KA, ask_gains
 from grader.answers.number_answer import judge_number, read_answer_number
 from grader.answers.quantity import NotAUnitError, read_number, read_unit
 from grader.answers.wrong_number import AnswerKey, Lookalike, Scene, WrongNumber
-from grader.check import WrongAnswer
-from grader.misconception import MISCONCEPTIONS
+from grader.checks.check import WrongAnswer
+from grader.checks.misconception import MISCONCEPTIONS
 
 TURN = 2 * math.pi
 GAINS = {"kS": 0.15, "kV": 2.4, "kA": 0.3}

@@ -17,12 +17,12 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from small_course import HALF, RIGHT, lay_out, put
 
-from grader.check import Result, Status
+from grader.checks.check import Result, Status
 from grader.classroom.grading import GradedStudent, GradingJob, grade_student
 from grader.classroom.submissions import find_submissions, read_submission
 from grader.cli import run_command
-from grader.exercise import Grade, find_exercise, list_exercises
-from grader.package_files import read_listed_files
+from grader.course.package_files import read_listed_files
+from grader.exercise.exercise import Grade, find_exercise, list_exercises
 
 STARTER = "size = 0\nmore = 1\n"
 JAVA_STARTER = "public class ExampleSubsystem {}\n"

@@ -12,8 +12,8 @@ from small_course import lay_out
 from grader.answers.answer_names import find_similar_name, find_unknown_names
 from grader.cli import grade as command
 from grader.cli import run_command
-from grader.exercise import find_exercise, list_exercises
-from grader.notebook import submit
+from grader.exercise.exercise import find_exercise, list_exercises
+from grader.notebook.submit import submit
 
 ANSWERED_IN_TOML = [one for one in list_exercises(ROOT) if one.files == ("answers.toml",)]
 GAINS = ("kS", "kV", "kA")

@@ -13,12 +13,12 @@ from pathlib import Path
 import pytest
 import yaml
 
-from grader.autograder.submitter import find_submitter
+from grader.classroom.autograder.submitter import find_submitter
+from grader.classroom.release import pack_course_folder
 from grader.cli import run_command
-from grader.course_check import prepare_solved
-from grader.exercise import find_exercise
-from grader.package_files import select_package_files
-from grader.release import pack_course_folder
+from grader.course.package_files import select_package_files
+from grader.exercise.course_check import prepare_solved
+from grader.exercise.exercise import find_exercise
 from grader.student_data.variant import use_class_secret
 from sim.core.errors import BadRequest
 

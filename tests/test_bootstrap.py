@@ -14,7 +14,8 @@ from places import ROOT
 
 from grader import __main__ as bootstrap
 
-STANDALONE = ("__init__.py", "__main__.py", "exec_process.py")  # all that runs before the install
+# All that runs before the installation.
+STANDALONE = ("__init__.py", "__main__.py", "setup/__init__.py", "setup/exec_process.py")
 OLD = (3, 8)
 
 
@@ -185,8 +186,8 @@ def test_missing_packages_are_those_that_the_project_requires(monkeypatch, comma
 def test_python_without_packages_reaches_the_installation(tmp_path, reads):
     """A real process without any package: it starts, sees what is missing, and makes a place."""
     clone = tmp_path / "clone"
-    (clone / "grader").mkdir(parents=True)
     for name in STANDALONE:
+        (clone / "grader" / name).parent.mkdir(parents=True, exist_ok=True)
         (clone / "grader" / name).write_bytes((ROOT / "grader" / name).read_bytes())
     (clone / "pyproject.toml").write_bytes((ROOT / "pyproject.toml").read_bytes())
     (clone / ".venv").mkdir()

@@ -2,7 +2,7 @@
 
 import pytest
 
-from grader.check import NotReachedError, Status, WrongAnswer, check, run_checks
+from grader.checks.check import NotReachedError, Status, WrongAnswer, check, run_checks
 
 
 @check(points=1)

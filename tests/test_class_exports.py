@@ -13,13 +13,13 @@ from xml.etree import ElementTree as ET
 import pytest
 from page_flaws import page_flaws
 
-from grader.check import Check, Result, Status
+from grader.checks.check import Check, Result, Status
 from grader.classroom.exports import list_exports
 from grader.classroom.grading import MISSING, GradedStudent, skip_student
 from grader.classroom.item_analysis import analyze_items, count_misconceptions, summarize_exercises
 from grader.classroom.result_pages import summarize_class, write_pages
 from grader.classroom.results import ClassResults
-from grader.exercise import Exercise, Grade
+from grader.exercise.exercise import Exercise, Grade
 from sim.core.errors import BadRequest
 
 NASTY = ("=1+1", 'O\'Neil, "Ann"', "José\u0301", "@SUM(A1)", "<script>alert(1)")

@@ -19,14 +19,14 @@ from grader.classroom.roster import read_class_roster
 from grader.classroom.store import ResultStore
 from grader.classroom.submissions import find_submissions, read_submission
 from grader.cli import run_command
-from grader.exercise import list_exercises
+from grader.exercise.exercise import list_exercises
 from sim.core.errors import BadRequest
 
 BOOM = 'size = "boom"\n'  # the small course's check breaks on it
 WAITS = '''
 """An exercise whose check takes its time."""
 import time
-from grader.check import check
+from grader.checks.check import check
 from grader.answers.submission import read_answers
 FILES = ("answers.toml",)
 

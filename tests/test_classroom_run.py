@@ -11,11 +11,11 @@ import grader.isolation
 from grader.classroom.class_grading import GradedClass
 from grader.classroom.submissions import find_submissions
 from grader.cli import run_command
-from grader.exercise import Exercise, list_exercises
+from grader.exercise.exercise import Exercise, list_exercises
 
 CHECKS = '''
 """An exercise that says whether it was asked to run what it was given."""
-from grader.check import check
+from grader.checks.check import check
 from grader.answers.submission import read_answers
 FILES = ("answers.toml",)
 

@@ -9,7 +9,7 @@ mechanism[, name]), where null is allowed for log and name.
 import pytest
 from places import ROOT
 
-from grader.exercise import Exercise
+from grader.exercise.exercise import Exercise
 
 EXERCISE4 = Exercise("exercise4", ROOT / "exercises" / "exercise4")
 EXERCISE5 = Exercise("exercise5", ROOT / "exercises" / "exercise5")

@@ -7,7 +7,7 @@ import sys
 import pytest
 from places import ROOT
 
-from grader.exercise import list_exercises
+from grader.exercise.exercise import list_exercises
 from sim.bench.mechanisms import MECHANISMS
 from sim.inspect.faults import FAULTS
 from sim.physics.effects import EFFECTS

@@ -12,7 +12,7 @@ from places import ROOT
 
 from grader import submit
 from grader.cli import run_command
-from grader.exercise import list_exercises
+from grader.exercise.exercise import list_exercises
 
 EXERCISES = {one.name: one for one in list_exercises(ROOT)}
 PAGE = "<!DOCTYPE html><html lang='en'><head><title>t</title></head><body>{}</body></html>"
@@ -199,7 +199,7 @@ def test_words_wait_for_no_drawing_library(course):
     right = key("exercise3", "me")
     write(course["exercise3"], **(right | {"elevator_kG": 0.0}))
     code = (
-        "import sys; from pathlib import Path; from grader.exercise import find_exercise\n"
+        "import sys; from pathlib import Path; from grader.exercise.exercise import find_exercise\n"
         "one = find_exercise('3', Path.cwd()); grade = one.grade(None, student='me')\n"
         "found = one.find_consequence(grade)\n"
         "print('matplotlib' in sys.modules, 'sinks' in found.words)"

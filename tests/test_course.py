@@ -12,7 +12,14 @@ from places import ROOT
 from small_course import HALF, RIGHT, answer
 
 from grader.cli import run_command
-from grader.course import PLACE, Progress, Standing, find_course, load_progress, update_progress
+from grader.course.progress import (
+    PLACE,
+    Progress,
+    Standing,
+    find_course,
+    load_progress,
+    update_progress,
+)
 from grader.student_data.variant import derive_student_seed, make_student_rng
 from sim.core.errors import BadRequest
 from sim.support.atomic_file import make_private_folder, write_atomically
@@ -87,7 +94,7 @@ def test_progress_is_read_back_as_it_was_written(tmp_path_factory, standings):
 NOTES = """
 import sys
 from pathlib import Path
-from grader.course import update_progress
+from grader.course.progress import update_progress
 number = int(sys.argv[1])
 name = f"exercise{number}"
 for _ in range(5):

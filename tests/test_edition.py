@@ -5,8 +5,8 @@ import re
 import nbformat
 import pytest
 
+from grader.classroom.edition import SLIDES, build_pages, convert_notebook
 from grader.cli import run_command
-from grader.edition import SLIDES, build_pages, convert_notebook
 from sim.core.errors import BadRequest
 
 MARKDOWN, CODE = nbformat.v4.new_markdown_cell, nbformat.v4.new_code_cell
@@ -18,7 +18,7 @@ CELLS = (
     CODE("from sim.plot import Table\nprint('1 < 2')\nTable(('gain',), ((0.25,),))"),
     MARKDOWN("**Predict:**"),
     CODE(
-        "from grader.lesson_questions import ChoiceQuestion, NumberQuestion\n"
+        "from grader.notebook.lesson_questions import ChoiceQuestion, NumberQuestion\n"
         "display(ChoiceQuestion('Which way?', ['up & left', 'down'], right='down'),"
         "NumberQuestion('How far?', 7.5, 'm'))",
         metadata=FOLDED,

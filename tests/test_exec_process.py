@@ -8,7 +8,7 @@ import time
 
 import pytest
 
-from grader.exec_process import run_process
+from grader.setup.exec_process import run_process
 
 
 @pytest.mark.parametrize("code", [0, 1, 2, 77])
@@ -32,7 +32,7 @@ def test_program_runs_in_the_given_folder_with_the_given_arguments(tmp_path):
 def test_ending_the_process_ends_the_one_that_it_started(root):
     child = "import os, time; print(os.getpid(), flush=True); time.sleep(60)"
     outer = (
-        "import sys; from grader.exec_process import run_process; "
+        "import sys; from grader.setup.exec_process import run_process; "
         "sys.exit(run_process([sys.executable, '-c', {!r}]))"
     )
     ours = subprocess.Popen(

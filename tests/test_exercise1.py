@@ -4,7 +4,7 @@ import pytest
 from answer_grades import grade_answer
 from places import ROOT
 
-from grader.exercise import Exercise
+from grader.exercise.exercise import Exercise
 
 OWN = Exercise("exercise1", ROOT / "exercises" / "exercise1")
 CLASS = [f"student {number}" for number in range(50)]

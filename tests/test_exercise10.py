@@ -8,7 +8,7 @@ import pytest
 from gain_styles import BODY, IMPORTS, PYTHON_BODY, PYTHON_STYLES, STYLES
 from places import ROOT
 
-from grader.exercise import Exercise
+from grader.exercise.exercise import Exercise
 from grader.robotcode.running import run_gains
 
 OWN = Exercise("exercise10", ROOT / "exercises" / "exercise10")

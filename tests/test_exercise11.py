@@ -12,9 +12,9 @@ from answer_grades import grade_answer
 from places import ROOT
 
 from grader.answers.answer_key import load_answer_key
+from grader.checks.misconception import MISCONCEPTIONS
 from grader.cli import run_command
-from grader.exercise import Exercise
-from grader.misconception import MISCONCEPTIONS
+from grader.exercise.exercise import Exercise
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from places import ROOT
 
-from grader.exercise import Exercise
+from grader.exercise.exercise import Exercise
 from sim.bench.mechanisms import MECHANISMS
 from sim.core.units import find_unit
 from sim.physics.effects import find_effect

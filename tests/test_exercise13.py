@@ -8,7 +8,7 @@ import pytest
 from answer_grades import grade_answer
 from places import ROOT
 
-from grader.exercise import Exercise
+from grader.exercise.exercise import Exercise
 from sim.bench.slip import compute_slip_voltage
 from sim.fit import fit
 from sim.inspect.detect_faults import inspect

@@ -11,8 +11,8 @@ from answer_grades import grade_answer
 from places import ROOT
 
 from grader.answers.answer_key import load_answer_key
-from grader.check import WrongAnswer
-from grader.exercise import Exercise
+from grader.checks.check import WrongAnswer
+from grader.exercise.exercise import Exercise
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate

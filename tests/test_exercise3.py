@@ -6,7 +6,7 @@ import pytest
 from answer_grades import grade_answer
 from places import ROOT
 
-from grader.exercise import Exercise
+from grader.exercise.exercise import Exercise
 
 OWN = Exercise("exercise3", ROOT / "exercises" / "exercise3")
 WORDS = {

@@ -12,7 +12,7 @@ from places import ROOT
 from robot_corpus import whole_corpus
 
 from grader.cli import run_command
-from grader.exercise import Exercise
+from grader.exercise.exercise import Exercise
 from grader.robotcode.checks.causes import FAULTS
 
 JAVA, PYTHON = "ExampleSubsystem.java", "example_subsystem.py"

@@ -5,7 +5,7 @@ from functools import cache
 import pytest
 from places import ROOT
 
-from grader.exercise import Exercise
+from grader.exercise.exercise import Exercise
 
 pytestmark = pytest.mark.slow
 

@@ -13,7 +13,7 @@ from places import ROOT
 
 from grader.answers.answer_key import load_answer_key
 from grader.cli import run_command
-from grader.exercise import Exercise
+from grader.exercise.exercise import Exercise
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.core.units import find_unit

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 from places import ROOT
 
-from grader.check import WrongAnswer
-from grader.exercise import Exercise
+from grader.checks.check import WrongAnswer
+from grader.exercise.exercise import Exercise
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate

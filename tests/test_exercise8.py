@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from places import ROOT
 
-from grader.check import WrongAnswer
-from grader.exercise import Exercise
+from grader.checks.check import WrongAnswer
+from grader.exercise.exercise import Exercise
 from sim.core.log import FOUR_TESTS
 from sim.core.units import find_unit
 from sim.fit import fit

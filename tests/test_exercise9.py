@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from places import ROOT
 
-from grader.exercise import Exercise, load_module
+from grader.exercise.exercise import Exercise, load_module
 
 OWN = Exercise("exercise9", ROOT / "exercises" / "exercise9")
 

@@ -5,8 +5,8 @@ import re
 import pytest
 from places import ROOT
 
-from grader.course_check import list_mistakes, prepare_solved
-from grader.exercise import find_exercise
+from grader.exercise.course_check import list_mistakes, prepare_solved
+from grader.exercise.exercise import find_exercise
 
 ANSWERS = {  # exercise -> the numbers that are right for a variant
     "exercise1": lambda variant: [variant.asked(name).expected for name in variant.moments],

@@ -7,7 +7,7 @@ import pytest
 from places import ROOT
 
 from grader.cli import run_command
-from grader.course_check import (
+from grader.exercise.course_check import (
     STUDENTS,
     find_draw_flaws,
     find_mistake_flaws,
@@ -16,8 +16,8 @@ from grader.course_check import (
     list_graded_mistakes,
     prepare_solved,
 )
-from grader.exercise import list_exercises
-from grader.starter import remove_answers
+from grader.exercise.exercise import list_exercises
+from grader.exercise.starter import remove_answers
 
 pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("robot_code_once")]
 

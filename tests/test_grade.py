@@ -10,9 +10,9 @@ from places import ROOT
 from small_course import HALF, RIGHT, answer
 
 from grader.cli import run_command
-from grader.course import Standing
-from grader.exercise import find_exercise
-from grader.report import SPOKEN, find_next_step, format_checks
+from grader.course.progress import Standing
+from grader.exercise.exercise import find_exercise
+from grader.feedback.report import SPOKEN, find_next_step, format_checks
 
 
 @pytest.mark.parametrize(

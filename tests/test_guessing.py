@@ -6,8 +6,8 @@ from statistics import mean
 
 import pytest
 
-from grader.course import find_course
-from grader.exercise import list_exercises
+from grader.course.progress import find_course
+from grader.exercise.exercise import list_exercises
 
 pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("robot_code_once")]
 

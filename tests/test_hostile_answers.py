@@ -9,8 +9,8 @@ import pytest
 from places import ROOT
 
 from grader.answers.submission import read_answers
-from grader.course_check import prepare_solved
-from grader.exercise import list_exercises
+from grader.exercise.course_check import prepare_solved
+from grader.exercise.exercise import list_exercises
 from sim.core.errors import UnreadableFile
 
 pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("robot_code_once")]

@@ -10,9 +10,9 @@ from grader.classroom.identity import check_identities
 from grader.classroom.secret import identify_secret, seal_identity
 from grader.classroom.submissions import find_submissions
 from grader.cli import run_command
-from grader.course import load_progress
-from grader.exercise import list_exercises
-from grader.notebook import submit
+from grader.course.progress import load_progress
+from grader.exercise.exercise import list_exercises
+from grader.notebook.submit import submit
 from sim.core.errors import BadRequest
 
 SECRET = b"0123456789abcdef-east"

@@ -13,8 +13,8 @@ from urllib.request import urlopen
 import pytest
 from wheel import build_wheel
 
-from grader.course_check import solve
-from grader.exercise import find_exercise
+from grader.exercise.course_check import solve
+from grader.exercise.exercise import find_exercise
 
 pytestmark = pytest.mark.slow
 

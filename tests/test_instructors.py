@@ -6,10 +6,10 @@ import shlex
 import click
 import pytest
 
+from grader.checks.misconception import MISCONCEPTIONS
 from grader.cli import grade
-from grader.course import find_course
-from grader.exercise import list_exercises
-from grader.misconception import MISCONCEPTIONS
+from grader.course.progress import find_course
+from grader.exercise.exercise import list_exercises
 from sim.cli import sysid
 
 COMMANDS = {"grade": grade, "sysid": sysid}

@@ -22,8 +22,8 @@ import pytest
 from places import ROOT
 from wheel import LEFT_OUT, build_wheel
 
-from grader.course_check import list_mistakes, solve
-from grader.exercise import find_exercise, list_exercises
+from grader.exercise.course_check import list_mistakes, solve
+from grader.exercise.exercise import find_exercise, list_exercises
 from grader.student_data.variant import use_class_secret
 from sim.support.student_names import make_folder_name
 

@@ -28,9 +28,9 @@ from tornado.httpclient import HTTPRequest
 from tornado.websocket import websocket_connect
 
 from grader.cli import run_command
-from grader.course import find_course
-from grader.course_check import solve
-from grader.exercise import find_exercise
+from grader.course.progress import find_course
+from grader.exercise.course_check import solve
+from grader.exercise.exercise import find_exercise
 from sim.support.student_names import make_folder_name
 
 pytestmark = pytest.mark.slow

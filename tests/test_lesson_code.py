@@ -11,8 +11,8 @@ import pytest
 
 import sim
 from grader import ask_question, enable_checkboxes
-from grader.check import WrongAnswer
-from grader.lesson_questions import ChoiceQuestion, NumberQuestion
+from grader.checks.check import WrongAnswer
+from grader.notebook.lesson_questions import ChoiceQuestion, NumberQuestion
 from grader.robotcode.checks.log import check_logged, check_units
 from grader.robotcode.checks.routine import check_assembled, check_driven, check_open_loop
 from grader.robotcode.running import run_routine

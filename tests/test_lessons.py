@@ -22,7 +22,7 @@ from places import ROOT
 
 import grader
 import sim
-from grader.edition import PAGE, SLIDES, VIEW, convert_notebook, execute_notebook
+from grader.classroom.edition import PAGE, SLIDES, VIEW, convert_notebook, execute_notebook
 from grader.robotcode.library import revlib
 from sim.bench.simulate import simulate
 from sim.fit import fit

@@ -28,7 +28,7 @@ from lab import (
 from matplotlib.image import imread
 from places import ROOT
 
-from grader.exercise import list_exercises
+from grader.exercise.exercise import list_exercises
 from sim.physics.effects import EFFECTS
 
 TEXTS = (

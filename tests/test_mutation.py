@@ -11,7 +11,7 @@ from java_compiler import JavaProgram, compile_java
 from mutation import robot_code
 from mutation.report import legal_variants, survey
 
-from grader.exercise import find_exercise
+from grader.exercise.exercise import find_exercise
 from grader.robotcode.java.program import Program
 from grader.robotcode.java.steps import allow_deep_calls
 from sim.core.errors import UnreadableFile

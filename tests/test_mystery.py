@@ -7,7 +7,7 @@ import pytest
 from places import ROOT
 
 from grader.cli import run_command
-from grader.mystery import (
+from grader.exercise.mystery import (
     HIGHEST,
     MysteryState,
     draw_mystery,

@@ -12,10 +12,10 @@ from small_course import HALF, RIGHT, answer, lay_out
 
 from grader import ExerciseQuestions, submit
 from grader.cli import run_command
-from grader.course import load_progress
-from grader.exercise import find_exercise
-from grader.notebook import write_answers
-from grader.report import COLORS
+from grader.course.progress import load_progress
+from grader.exercise.exercise import find_exercise
+from grader.feedback.report import COLORS
+from grader.notebook.submit import write_answers
 from sim.core.errors import BadRequest
 
 STARTER = '# Measure it.\nsize = ""  # in units\ncolor = "" # a word\n'

@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 
 from grader.cli import run_command
-from grader.exercise import find_exercise
-from grader.package_files import find_imported_modules, select_package_files, strip_notebook
+from grader.course.package_files import find_imported_modules, select_package_files, strip_notebook
+from grader.exercise.exercise import find_exercise
 from sim.core.errors import BadRequest
 
 pytestmark = pytest.mark.slow
@@ -212,7 +212,7 @@ def test_a_file_that_holds_the_secret_is_refused(course, capsys, reads):
 
 def test_modules_imported_by_imported_modules_are_found(tmp_path):
     for name, text in {
-        "checks.py": "from .a import x\nimport os\nfrom grader import check\n",
+        "checks.py": "from .a import x\nimport os\nfrom grader.checks import check\n",
         "a.py": "def f():\n    from . import b\n",
         "b.py": "from .a import f\nfrom .gone import g\n",
         "c.py": "",

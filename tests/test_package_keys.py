@@ -14,10 +14,10 @@ from test_release import lay_out, read
 
 from grader.answers.answer_key import load_answer_key
 from grader.classroom.bundle import pack_course
-from grader.course_check import solve
-from grader.exercise import Exercise, list_exercises
-from grader.package_files import select_package_files
-from grader.release import StudentPackage, make_student_package, pack_course_folder
+from grader.classroom.release import StudentPackage, make_student_package, pack_course_folder
+from grader.course.package_files import select_package_files
+from grader.exercise.course_check import solve
+from grader.exercise.exercise import Exercise, list_exercises
 from grader.student_data.variant import use_class_secret
 
 pytestmark = pytest.mark.slow
@@ -33,7 +33,7 @@ SOLVER = """
 # Answers everything from what a package's own modules hold: options with shares, tables of answers.
 import importlib, json, sys
 from pathlib import Path
-from grader.exercise import list_exercises
+from grader.exercise.exercise import list_exercises
 
 ABOUT = ("right", "correct", "decision", "always", "answer", "solution", "expected")
 

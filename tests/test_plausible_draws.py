@@ -8,8 +8,8 @@ import os
 import pytest
 from places import ROOT
 
-from grader.course_check import find_solution_flaws, prepare_solved
-from grader.exercise import Exercise, find_exercise
+from grader.exercise.course_check import find_solution_flaws, prepare_solved
+from grader.exercise.exercise import Exercise, find_exercise
 
 pytestmark = pytest.mark.slow
 

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from places import ROOT
 
-from grader.course_check import prepare_solved
-from grader.exercise import Exercise, load_module
-from grader.mistake import make_wrong_answer, scale_numbers
+from grader.exercise.course_check import prepare_solved
+from grader.exercise.exercise import Exercise, load_module
+from grader.exercise.mistake import make_wrong_answer, scale_numbers
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate

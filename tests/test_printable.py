@@ -8,10 +8,10 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from small_course import answer
 
-from grader.check import Result, Status
+from grader.checks.check import Result, Status
 from grader.cli import run_command
-from grader.notebook import submit
-from grader.report import compose_feedback
+from grader.feedback.report import compose_feedback
+from grader.notebook.submit import submit
 from sim.support.printable import DIRECTIONS, make_printable
 
 COMMANDS = re.compile(

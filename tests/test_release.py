@@ -7,11 +7,11 @@ import zipfile
 import pytest
 
 from grader.classroom.bundle import pack_course
+from grader.classroom.release import StudentPackage, make_student_package, pack_course_folder
 from grader.cli import run_command
-from grader.course import find_course
-from grader.exercise import find_exercise
-from grader.package_files import select_package_files
-from grader.release import StudentPackage, make_student_package, pack_course_folder
+from grader.course.package_files import select_package_files
+from grader.course.progress import find_course
+from grader.exercise.exercise import find_exercise
 from grader.student_data.variant import use_class_secret
 from sim.core.errors import BadRequest
 

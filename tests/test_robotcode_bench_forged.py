@@ -5,7 +5,7 @@ import json
 import pytest
 from robot_mistakes import MOUNTS, RIGHT, ROOT, changed, ran
 
-from grader.exercise import Exercise
+from grader.exercise.exercise import Exercise
 from grader.isolation import sandbox_parent
 from grader.robotcode import python
 from grader.robotcode.bench.facts import Outcome, to_json

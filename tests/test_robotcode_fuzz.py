@@ -10,8 +10,8 @@ import pytest
 from places import ROOT
 from robotcode_mutants import mutant, sources
 
-from grader.check import Status, run_checks
-from grader.exercise import find_exercise
+from grader.checks.check import Status, run_checks
+from grader.exercise.exercise import find_exercise
 from grader.robotcode.running import run_buttons, run_gains, run_routine
 from sim.core.errors import Refusal
 

@@ -11,11 +11,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from grader import course_folder, exec_process
-from grader import start as starting
 from grader.cli import run_command
-from grader.course import load_progress
-from grader.course_folder import find_course_source, unpack_course
+from grader.course import course_folder
+from grader.course.course_folder import find_course_source, unpack_course
+from grader.course.progress import load_progress
+from grader.setup import exec_process
+from grader.setup import start as starting
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
@@ -28,7 +29,7 @@ from sim.inspect.log_features import LogFeatures
 
 MAKER = '''
 """An exercise with data of its own."""
-from grader.check import check
+from grader.checks.check import check
 FILES = ("answers.toml",)
 
 def make_files(student):
@@ -423,7 +424,7 @@ def test_the_command_refuses_in_one_line(tmp_path, monkeypatch, capsys):
 
 def test_start_outside_of_a_course_says_how_to_make_one(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("grader.course.__file__", str(tmp_path / "grader" / "course.py"))
+    monkeypatch.setattr("grader.course.progress.__file__", str(tmp_path / "grader" / "course.py"))
 
     assert run_command(["exercise4"]) == 2
     assert "grade start my-course" in capsys.readouterr().err

@@ -66,7 +66,7 @@ def test_only_catalogues_import_our_modules_by_name():
     [
         'import_module("sim.bench.mechanisms")',
         'importlib.import_module("sim.plot.story")',
-        '__import__("grader.check")',
+        '__import__("grader.checks.check")',
         'import_module(f"sim.{name}")',
         "from importlib import import_module as load",
     ],

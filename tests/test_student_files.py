@@ -3,8 +3,13 @@
 import pytest
 
 from grader.answers.choice_answer import check_choice, read_choice
-from grader.check import WrongAnswer
-from grader.mistake import change_number, exchange_numbers, make_wrong_answer, scale_numbers
+from grader.checks.check import WrongAnswer
+from grader.exercise.mistake import (
+    change_number,
+    exchange_numbers,
+    make_wrong_answer,
+    scale_numbers,
+)
 from grader.student_data.student_files import write_student_files
 from sim.core.errors import BadRequest
 from sim.support.student_names import make_folder_name

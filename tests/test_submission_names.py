@@ -11,7 +11,7 @@ from grader.classroom.roster import read_class_roster
 from grader.classroom.submission_names import Identities, SubmissionName, parse_name
 from grader.classroom.submissions import find_stray_files, find_submissions
 from grader.cli import run_command
-from grader.exercise import list_exercises
+from grader.exercise.exercise import list_exercises
 from sim.core.errors import BadRequest
 
 CANVAS = """\

@@ -12,9 +12,9 @@ from functools import cache
 import pytest
 from places import ROOT
 
-from grader.course_check import list_mistakes
-from grader.exercise import list_exercises
-from grader.misconception import MISCONCEPTIONS
+from grader.checks.misconception import MISCONCEPTIONS
+from grader.exercise.course_check import list_mistakes
+from grader.exercise.exercise import list_exercises
 from sim.inspect.faults import FAULTS
 from sim.physics.effects import EFFECTS
 

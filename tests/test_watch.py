@@ -14,10 +14,10 @@ from hypothesis import strategies as st
 from small_course import HALF, RIGHT, answer
 from sysid_process import START, run_sysid
 
-from grader import doctor
 from grader.cli import run_command
-from grader.exercise import list_exercises
-from grader.watch import watch_exercise
+from grader.exercise.exercise import list_exercises
+from grader.exercise.watch import watch_exercise
+from grader.setup import doctor
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
@@ -396,7 +396,7 @@ def saves(course, *texts):
 def test_file_is_graded_at_each_save_until_all_is_right(course, monkeypatch, capsys):
     monkeypatch.setattr("time.sleep", saves(course, "", "", HALF, "size = [\n", RIGHT))
     monkeypatch.setattr(
-        "grader.watch.watch_exercise.__kwdefaults__", {"wait": __import__("time").sleep}
+        "grader.exercise.watch.watch_exercise.__kwdefaults__", {"wait": __import__("time").sleep}
     )
 
     assert run_command(["watch"]) == 0

@@ -11,14 +11,14 @@ from grader.classroom.class_grading import GradedClass, grade_class, plan_gradin
 from grader.classroom.store import ResultStore
 from grader.classroom.submissions import find_submissions
 from grader.cli import run_command
-from grader.exercise import list_exercises
+from grader.exercise.exercise import list_exercises
 
 pytestmark = pytest.mark.slow
 
 DOES = '''
 """An exercise whose check does what the answer asks for."""
 import os, time
-from grader.check import check
+from grader.checks.check import check
 from grader.answers.submission import read_answers
 FILES = ("answers.toml",)
 

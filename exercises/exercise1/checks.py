@@ -7,8 +7,8 @@ from functools import partial
 from grader.answers.number_answer import read_answer_number
 from grader.answers.quantity import NotAUnitError, read_unit
 from grader.answers.submission import StudentAnswers
-from grader.check import WrongAnswer, check, make_check
-from grader.consequence import Consequence
+from grader.checks.check import WrongAnswer, check, make_check
+from grader.checks.consequence import Consequence
 from grader.student_data.student_files import Made
 
 from .budget import MOMENTS, Variant

@@ -10,8 +10,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from grader.answers.number_answer import read_answer_number
-from grader.check import WrongAnswer
-from grader.consequence import Consequence, show_motions
+from grader.checks.check import WrongAnswer
+from grader.checks.consequence import Consequence, show_motions
 from sim.feedback.response import MovingPlant, Plant
 
 from .budget import MOMENTS, Variant

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from functools import wraps
 from pathlib import Path
 
-from grader.check import Check, NotReachedError, WrongAnswer, check
-from grader.consequence import Consequence
+from grader.checks.check import Check, NotReachedError, WrongAnswer, check
+from grader.checks.consequence import Consequence
 from grader.robotcode.bench.gains_run import GainConstant, Gains
 from grader.robotcode.checks.causes import check_compiles, check_stop
 from grader.robotcode.running import Runs, judge_runs, run_gains

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from grader.answers.wrong_number import WrongNumber
-from grader.check import NotReachedError, WrongAnswer
+from grader.checks.check import NotReachedError, WrongAnswer
 from grader.robotcode.bench.gains_run import CLASSES, CLOSED_LOOP, GainFacts, Gains
 from grader.robotcode.checks.causes import check_compiles, check_stop
 from grader.robotcode.library.world import PERIOD

@@ -2,8 +2,8 @@
 
 import math
 
-from grader.check import NotReachedError, WrongAnswer
-from grader.consequence import Consequence, follow_profiles
+from grader.checks.check import NotReachedError, WrongAnswer
+from grader.checks.consequence import Consequence, follow_profiles
 from grader.robotcode.bench.gains_run import Gains
 from sim.feedback import Plant
 from sim.feedback.following import INFINITE, follow_profile

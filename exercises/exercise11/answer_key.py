@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from grader.answers.choice_answer import check_choice, read_choice
 from grader.answers.number_answer import judge_number, read_answer_number
 from grader.answers.wrong_number import AnswerKey
-from grader.check import NotReachedError, WrongAnswer, shorten
+from grader.checks.check import NotReachedError, WrongAnswer, shorten
 
 from .drawn import Variant, draw
 from .question import judge_choice

@@ -5,7 +5,7 @@ from typing import Any
 
 from grader.answers.answer_key import load_answer_key
 from grader.answers.submission import StudentAnswers
-from grader.check import make_check
+from grader.checks.check import make_check
 from grader.student_data.student_files import Made
 
 FILES = ("answers.toml",)

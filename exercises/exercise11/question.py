@@ -4,7 +4,7 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from grader.check import WrongAnswer, shorten
+from grader.checks.check import WrongAnswer, shorten
 
 LETTERS = "abcdefghijklmnop"
 SHORTEST = 4  # [characters] of an option's beginning that may stand for it

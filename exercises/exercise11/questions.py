@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.texts import read_texts
+from grader.checks.texts import read_texts
 
 from .question import Option, Question
 

@@ -11,8 +11,8 @@ import numpy as np
 from grader.answers.asked_number import AskedNumber, Band
 from grader.answers.number_answer import read_answer_number
 from grader.answers.submission import StudentAnswers
-from grader.check import NotReachedError, WrongAnswer, check
-from grader.mystery import Mystery
+from grader.checks.check import NotReachedError, WrongAnswer, check
+from grader.exercise.mystery import Mystery
 from grader.student_data.student_files import Made, format_log
 from sim.core.units import find_unit
 from sim.estimation.likelihood import Estimate

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from grader.answers.asked_number import AskedNumber, Band
 from grader.answers.number_answer import read_answer_number
-from grader.check import WrongAnswer, shorten
+from grader.checks.check import WrongAnswer, shorten
 from sim.core.units import Unit
 from sim.physics.effect import Parameter
 from sim.physics.effects import EFFECTS, find_effect

@@ -10,9 +10,9 @@ import argparse
 import sys
 from pathlib import Path
 
-from grader.check import WrongAnswer
-from grader.course import find_course, load_progress
-from grader.exercise import Exercise, find_exercise
+from grader.checks.check import WrongAnswer
+from grader.course.progress import find_course, load_progress
+from grader.exercise.exercise import Exercise, find_exercise
 from sim.core.errors import Refusal
 from sim.plot.effect_search import EffectSearch
 

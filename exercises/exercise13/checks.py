@@ -11,7 +11,7 @@ from grader.answers.choice_answer import check_choice
 from grader.answers.number_answer import judge_number, make_number_check, read_answer_number
 from grader.answers.submission import StudentAnswers
 from grader.answers.wrong_number import ALIKE, AnswerKey, Scene
-from grader.check import Check, WrongAnswer, check, make_check
+from grader.checks.check import Check, WrongAnswer, check, make_check
 from grader.student_data.student_files import Made
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate

@@ -4,7 +4,7 @@ A class's package lacks this module: see ``grader.answers.answer_key``.
 """
 
 from grader.answers.choice_answer import read_choices
-from grader.check import WrongAnswer
+from grader.checks.check import WrongAnswer
 
 from .team import Variant
 

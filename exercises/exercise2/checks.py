@@ -8,7 +8,7 @@ from grader.answers.choice_answer import check_choice
 from grader.answers.number_answer import LARGEST, judge_number, read_answer_number
 from grader.answers.submission import StudentAnswers
 from grader.answers.wrong_number import AnswerKey, Scene
-from grader.check import WrongAnswer, check
+from grader.checks.check import WrongAnswer, check
 from grader.student_data.student_files import Made
 
 from .drawn import draw

@@ -7,8 +7,8 @@ from grader.answers.answer_key import load_answer_key
 from grader.answers.number_answer import HALF, make_number_check, read_answer_number
 from grader.answers.submission import StudentAnswers
 from grader.answers.wrong_number import AnswerKey
-from grader.check import Check, WrongAnswer, check, make_check
-from grader.consequence import Consequence
+from grader.checks.check import Check, WrongAnswer, check, make_check
+from grader.checks.consequence import Consequence
 from grader.student_data.student_files import Made
 
 from .drawn import draw

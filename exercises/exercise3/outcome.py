@@ -8,7 +8,7 @@ import math
 from collections.abc import Iterator, Mapping
 
 from grader.answers.number_answer import read_wrong_numbers
-from grader.consequence import Consequence, follow_profiles
+from grader.checks.consequence import Consequence, follow_profiles
 from sim.feedback import Plant
 from sim.feedback.following import FollowedProfile, follow_profile
 from sim.feedback.profile import make_return_profile

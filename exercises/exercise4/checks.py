@@ -4,7 +4,7 @@ from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
-from grader.check import check
+from grader.checks.check import check
 from grader.robotcode.bench.facts import RoutineFacts
 from grader.robotcode.bench.simulation import Mount
 from grader.robotcode.checks.log import check_logged, check_units

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from pathlib import Path
 
-from grader.check import NotReachedError, WrongAnswer, check
+from grader.checks.check import NotReachedError, WrongAnswer, check
 from grader.robotcode.bench.button_run import ButtonFacts, Press
 from grader.robotcode.bench.facts import TESTS
 from grader.robotcode.checks.causes import ask_for_files, check_compiles, check_stop, list_tests

@@ -2,7 +2,7 @@
 
 import re
 
-from grader.check import WrongAnswer
+from grader.checks.check import WrongAnswer
 from grader.robotcode.bench.button_run import Press
 
 NAMES = {"quasistatic": r"quasi.?static", "dynamic": r"dynamic"}

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 from grader.answers.choice_answer import check_choice, read_choices
-from grader.check import WrongAnswer
+from grader.checks.check import WrongAnswer
 
 from .morning import FOLDERS, SEEN, WHY, draw_morning
 

@@ -12,8 +12,8 @@ from grader.answers.asked_number import AskedNumber, Band
 from grader.answers.choice_answer import normalize_choice
 from grader.answers.number_answer import read_answer_number
 from grader.answers.submission import StudentAnswers
-from grader.check import NotReachedError, WrongAnswer, check, make_check
-from grader.consequence import Consequence
+from grader.checks.check import NotReachedError, WrongAnswer, check, make_check
+from grader.checks.consequence import Consequence
 from grader.student_data.student_files import Made
 
 from .drawn import draw

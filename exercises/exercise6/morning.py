@@ -4,8 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from grader.checks.texts import read_texts
 from grader.student_data.variant import choose, make_student_rng
-from grader.texts import read_texts
 
 _TEXTS = read_texts(Path(__file__).with_name("answer_key.toml"))
 SEEN: Mapping[str, dict[str, list[str]]] = _TEXTS["seen"]  # item -> decision -> what may be seen

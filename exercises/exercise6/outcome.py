@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
-from grader.consequence import Consequence, show_motions
+from grader.checks.consequence import Consequence, show_motions
 from sim.feedback.response import MovingPlant, Plant
 
 from .plan import Machine, Plan, Test, dynamic, quasistatic

@@ -5,8 +5,8 @@ from functools import partial
 import numpy as np
 
 from grader.answers.submission import StudentAnswers
-from grader.check import Check, WrongAnswer, make_check
-from grader.mystery import Mystery
+from grader.checks.check import Check, WrongAnswer, make_check
+from grader.exercise.mystery import Mystery
 from grader.student_data.student_files import Made, format_log
 
 from .drawn import LEVELS, LOGS, draw, draw_case

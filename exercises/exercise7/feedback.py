@@ -5,7 +5,7 @@ Nothing here names what it really is.
 
 from pathlib import Path
 
-from grader.texts import read_texts
+from grader.checks.texts import read_texts
 
 _TEXTS = read_texts(Path(__file__).with_name("faults.toml"))
 ACTIONS: dict[str, str] = _TEXTS["actions"]  # action -> what it is for

@@ -9,7 +9,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from grader.check import WrongAnswer, shorten
+from grader.checks.check import WrongAnswer, shorten
 from sim.core.log import Log
 from sim.core.vocabulary import FOUR_TESTS
 

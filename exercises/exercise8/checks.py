@@ -6,7 +6,7 @@ from functools import partial
 from pathlib import Path
 
 from grader.answers.submission import NamedAnswers, read_answers
-from grader.check import NotReachedError, WrongAnswer, check, make_check
+from grader.checks.check import NotReachedError, WrongAnswer, check, make_check
 from grader.student_data.student_files import Made, format_log
 from sim.core.errors import Refusal
 from sim.core.log import FOUR_TESTS

@@ -8,7 +8,7 @@ import numpy as np
 
 from grader.answers.asked_number import AskedNumber, Band
 from grader.answers.number_answer import HALF, read_answer_number
-from grader.check import WrongAnswer
+from grader.checks.check import WrongAnswer
 from sim.core.errors import Refusal
 from sim.core.log import FOUR_TESTS, Log, Run
 from sim.fit import Fit, fit

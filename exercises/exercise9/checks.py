@@ -12,8 +12,8 @@ from grader.answers.asked_number import AskedNumber, Band, ask_gains
 from grader.answers.number_answer import judge_number, read_answer_number
 from grader.answers.submission import NamedAnswers, read_answers
 from grader.answers.wrong_number import AnswerKey
-from grader.check import WrongAnswer, check, make_check
-from grader.consequence import Consequence
+from grader.checks.check import WrongAnswer, check, make_check
+from grader.checks.consequence import Consequence
 from grader.student_data.student_files import Made, format_log
 from grader.student_data.variant import cache_draws, choose, draw_until, make_student_rng
 from sim.bench.mechanism import Mechanism

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 from grader.answers.asked_number import AskedNumber
 from grader.answers.number_answer import read_wrong_numbers
-from grader.consequence import Consequence, follow_profiles
+from grader.checks.consequence import Consequence, follow_profiles
 from sim.feedback import Plant
 from sim.feedback.following import follow_profile
 from sim.feedback.profile import make_brisk_profile

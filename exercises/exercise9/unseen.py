@@ -16,7 +16,7 @@ from grader.answers.asked_number import AskedNumber, ask_gains
 from grader.answers.number_answer import UNIT_ASSUMED, diagnose_number, judge_number
 from grader.answers.submission import read_text
 from grader.answers.wrong_number import AnswerKey
-from grader.check import NotReachedError, NotRunError, WrongAnswer
+from grader.checks.check import NotReachedError, NotRunError, WrongAnswer
 from grader.isolation import CallResult, FunctionCall, Limits, SandboxOutcome, run_functions
 from grader.student_data.variant import (
     cache_draws,

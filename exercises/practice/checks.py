@@ -16,9 +16,9 @@ from grader.answers.asked_number import AskedNumber, Band
 from grader.answers.choice_answer import read_choice
 from grader.answers.number_answer import judge_number, read_answer_number
 from grader.answers.submission import NamedAnswers, StudentAnswers, read_answers, read_text
-from grader.check import Check, NotReachedError, WrongAnswer, check, make_check
-from grader.course import find_course
-from grader.exercise import Exercise, find_checks
+from grader.checks.check import Check, NotReachedError, WrongAnswer, check, make_check
+from grader.course.progress import find_course
+from grader.exercise.exercise import Exercise, find_checks
 from grader.robotcode.bench.facts import RoutineFacts
 from grader.student_data.student_files import Made, format_log
 from grader.student_data.variant import cache_draws, choose

@@ -10,7 +10,7 @@ from grader.answers.asked_number import AskedNumber, Band, ask_gains
 from grader.answers.choice_answer import normalize_choice
 from grader.answers.number_answer import read_answer_number
 from grader.answers.wrong_number import AnswerKey, Lookalike, Scene, WrongNumber
-from grader.check import NotReachedError, WrongAnswer, shorten
+from grader.checks.check import NotReachedError, WrongAnswer, shorten
 from sim.core.errors import Refusal
 from sim.core.units import find_unit
 from sim.fit import Fit, fit

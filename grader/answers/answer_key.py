@@ -9,7 +9,7 @@ and those that only it imports. What has to be computed from a student's own num
 from importlib import import_module
 from types import ModuleType
 
-from grader.check import NotReachedError
+from grader.checks.check import NotReachedError
 
 FILE_NAME = "answer_key.py"
 AT_HOME = (

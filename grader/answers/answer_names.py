@@ -8,7 +8,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from difflib import SequenceMatcher
 
-from grader.check import shorten
+from grader.checks.check import shorten
 from sim.support.printable import list_first
 
 ALIKE = 0.6  # [share] how alike two names are for one to be proposed for the other

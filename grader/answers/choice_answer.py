@@ -3,7 +3,7 @@
 import re
 from collections.abc import Callable, Mapping, Sequence
 
-from grader.check import WrongAnswer, shorten
+from grader.checks.check import WrongAnswer, shorten
 
 
 def normalize_choice(text: str) -> str:

@@ -11,7 +11,7 @@ from typing import Any
 from grader.answers.asked_number import AskedNumber
 from grader.answers.quantity import NotAUnitError, read_number, read_unit
 from grader.answers.wrong_number import MANY, AnswerKey, WrongNumber, explain_wrong_number
-from grader.check import Check, WrongAnswer, make_check, shorten
+from grader.checks.check import Check, WrongAnswer, make_check, shorten
 
 LARGEST = 1e300  # beyond it a number is infinite, or soon will be
 HALF = 0.5  # [share] of the points inside the wider band

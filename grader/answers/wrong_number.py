@@ -11,7 +11,7 @@ from itertools import combinations
 from pathlib import Path
 
 from grader.answers.asked_number import AskedNumber
-from grader.texts import read_texts
+from grader.checks.texts import read_texts
 
 MANY = 3  # more suspects than this tell the learner nothing
 NOTICED = 1.2  # a gear ratio nearer to 1 would explain any number that is a little off

@@ -24,8 +24,13 @@ from pathlib import Path, PurePosixPath
 from grader.answers.answer_key import FILE_NAME as KEY
 from grader.answers.submission import LARGEST
 from grader.classroom.submitted_files import MAX_TOTAL, SubmittedFile, format_file_name
-from grader.exercise import Exercise
-from grader.package_files import IGNORED, digest_starter, find_imported_modules, read_listed_files
+from grader.course.package_files import (
+    IGNORED,
+    digest_starter,
+    find_imported_modules,
+    read_listed_files,
+)
+from grader.exercise.exercise import Exercise
 from grader.student_data.class_package import PLACE as ISSUED
 from sim.support.printable import list_first
 

@@ -10,7 +10,7 @@ from grader.classroom.bundle import pack_course
 from grader.classroom.grading import GradedStudent, GradingJob, skip_student
 from grader.classroom.store import ResultStore, digest_job
 from grader.classroom.workers import grade_within_limits
-from grader.exercise import Exercise
+from grader.exercise.exercise import Exercise
 from grader.student_data.fingerprint import fingerprint_folders
 from sim.support.work.executor import collect_results
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from grader.classroom.answer_files import Submission
 from grader.classroom.bundle import CourseBundle, unpack_course
-from grader.exercise import Exercise, Grade
+from grader.exercise.exercise import Exercise, Grade
 from grader.student_data.variant import use_class_secret
 from sim.support.printable import list_first
 

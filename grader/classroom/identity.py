@@ -8,8 +8,8 @@ from types import MappingProxyType
 
 from grader.classroom.answer_files import PROGRESS, Submission
 from grader.classroom.secret import seal_identity
-from grader.course import NOBODY
-from grader.exercise import Exercise
+from grader.course.progress import NOBODY
+from grader.exercise.exercise import Exercise
 from grader.student_data.class_package import PLACE, parse_class_package
 from sim.core.errors import BadRequest, Refusal
 from sim.support.printable import list_first

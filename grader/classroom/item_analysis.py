@@ -6,9 +6,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from statistics import correlation, fmean, median
 
-from grader.check import Result
+from grader.checks.check import Result
 from grader.classroom.grading import MISSING, GradedStudent
-from grader.exercise import Grade
+from grader.exercise.exercise import Grade
 
 MOST = 3  # wrong answers listed of one question
 FEWEST = 5  # [students] below, how a question tells them apart is chance

@@ -15,10 +15,10 @@ from dataclasses import dataclass
 from itertools import combinations
 from pathlib import Path
 
-from grader.check import Result
+from grader.checks.check import Result
 from grader.classroom.answer_files import Submission
 from grader.classroom.grading import GradedStudent
-from grader.exercise import Exercise
+from grader.exercise.exercise import Exercise
 from sim.core.errors import BadRequest
 from sim.support.student_names import make_folder_name
 

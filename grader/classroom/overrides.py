@@ -13,9 +13,9 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from grader.check import Status
+from grader.checks.check import Status
 from grader.classroom.grading import GradedStudent
-from grader.exercise import Exercise, Grade
+from grader.exercise.exercise import Exercise, Grade
 from sim.core.errors import BadRequest, Refusal, refusals_at
 from sim.support.student_names import normalize_name
 from sim.support.student_table import read_student_table

@@ -5,6 +5,7 @@ from pathlib import Path
 from statistics import median
 from typing import Any
 
+from grader.checks.misconception import MISCONCEPTIONS
 from grader.classroom.atomic_files import write_private_file
 from grader.classroom.grading import MISSING, GradedStudent
 from grader.classroom.item_analysis import (
@@ -20,8 +21,7 @@ from grader.classroom.results import (
     find_total,
     has_handed_in,
 )
-from grader.misconception import MISCONCEPTIONS
-from grader.report import format_points, render_checks
+from grader.feedback.report import format_points, render_checks
 from sim.support.student_names import make_folder_name
 
 FOLDER = Path(__file__).parent

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from grader.classroom.answer_files import Submission
 from grader.classroom.grading import MISSING, NOTHING, GradedStudent, skip_student
 from grader.classroom.roster import Roster
-from grader.exercise import Exercise
+from grader.exercise.exercise import Exercise
 from sim.support.printable import list_first
 from sim.support.student_names import normalize_name
 

@@ -9,11 +9,11 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from grader.check import Result, Status
+from grader.checks.check import Result, Status
 from grader.classroom.answer_files import Submission
 from grader.classroom.atomic_files import write_private_file
 from grader.classroom.grading import GradedStudent
-from grader.exercise import Grade
+from grader.exercise.exercise import Grade
 from sim.support.os_errors import refuse_os_errors
 from sim.support.student_names import make_folder_name
 

@@ -13,7 +13,7 @@ from pathlib import Path, PurePath
 from grader.classroom.answer_files import AnswerSelector, Submission
 from grader.classroom.submission_names import Identities, SubmissionName, parse_name
 from grader.classroom.submitted_files import UNREADABLE, format_file_name, list_submitted_files
-from grader.exercise import Exercise
+from grader.exercise.exercise import Exercise
 from sim.core.errors import BadRequest, Refusal
 from sim.support.student_names import check_student_name
 

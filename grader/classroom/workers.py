@@ -7,7 +7,7 @@ replaced, and the exercise is reported as not graded.
 from dataclasses import replace
 
 from grader.classroom.grading import GradedStudent, GradingJob, grade_student
-from grader.exercise import Grade
+from grader.exercise.exercise import Grade
 from sim.support.work.child import ChildEnded, run_in_child
 
 SECONDS = 50.0  # [s] for one exercise of one student; an honest one takes 0.1 to 4 s

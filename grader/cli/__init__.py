@@ -16,7 +16,7 @@ import click
 from click.shell_completion import CompletionItem
 
 from grader.cli.course_here import PATH, PLAIN, STUDENT, find_course_here
-from grader.terminal import print_error, print_lines
+from grader.feedback.terminal import print_error, print_lines
 from sim.core.errors import BadRequest
 from sim.support import command_line
 from sim.support.command_line import COULD_NOT, DONE, NOT_RIGHT
@@ -25,9 +25,9 @@ from sim.support.extras import format_install_command
 from sim.support.lazy_package import lazy_modules
 
 if TYPE_CHECKING:
-    from grader.consequence import Consequence
-    from grader.exercise import Exercise
-    from grader.learner import Learner
+    from grader.checks.consequence import Consequence
+    from grader.course.learner import Learner
+    from grader.exercise.exercise import Exercise
 
 __getattr__ = lazy_modules(__name__)
 
@@ -122,7 +122,7 @@ def complete_exercise(
     context: click.Context, _parameter: click.Parameter, begun: str
 ) -> list[CompletionItem]:
     """Exercise names of the current course, and command names where one may stand."""
-    from grader.course import find_course  # noqa: PLC0415 - --help has to start at once
+    from grader.course.progress import find_course  # noqa: PLC0415 - --help has to start at once
 
     try:
         folder = find_course(Path.cwd()) / "exercises"
@@ -156,7 +156,7 @@ def exercise(
     plain: bool,
 ) -> int:
     """Grade an exercise, or show your progress."""
-    from grader.exercise import find_exercise  # noqa: PLC0415 - --help has to start at once
+    from grader.exercise.exercise import find_exercise  # noqa: PLC0415 - --help has to start at once
 
     learner = locate_learner(student)
     if exercise is not None:
@@ -171,7 +171,7 @@ def exercise(
         option = "json" if as_json else "hint" if hint else f"picture {picture}"
         advice = f"Say which: grade exercise4 --{option}"
         raise BadRequest("no exercise was named", advice=advice)
-    from grader.report import format_overview  # noqa: PLC0415 - the same
+    from grader.feedback.report import format_overview  # noqa: PLC0415 - the same
 
     print_lines(format_overview(learner, plain=plain))
     show_next_step(learner)
@@ -180,8 +180,8 @@ def exercise(
 
 def show_next_step(learner: "Learner") -> None:
     """End with the one thing to do next."""
-    from grader.learner import find_learner  # noqa: PLC0415 - --help has to start at once
-    from grader.report import format_next_step  # noqa: PLC0415 - the same
+    from grader.course.learner import find_learner  # noqa: PLC0415 - --help has to start at once
+    from grader.feedback.report import format_next_step  # noqa: PLC0415 - the same
 
     now = find_learner(learner.course, student=learner.name, say=print_error)
     print_lines([(), *format_next_step(now)])
@@ -198,12 +198,12 @@ def start(folder: Path | None, student: str | None, *, no_lab: bool) -> int:
 
     For example: grade start my-course
     """
-    from grader.course import Progress, update_progress  # noqa: PLC0415 - --help has to start at once
-    from grader.start import start as begin  # noqa: PLC0415 - the same
+    from grader.course.progress import Progress, update_progress  # noqa: PLC0415 - --help has to start at once
+    from grader.setup.start import start as begin  # noqa: PLC0415 - the same
     from grader.student_data.class_package import read_class_package  # noqa: PLC0415 - the same
 
     if folder is not None:
-        from grader.course_folder import unpack_course  # noqa: PLC0415 - the same
+        from grader.course.course_folder import unpack_course  # noqa: PLC0415 - the same
 
         if unpack_course(folder):
             _print_message(f"lessons and exercises are in {folder}. Grade inside it: cd {folder}")
@@ -244,7 +244,7 @@ def locate_learner(student: str | None, *, inside: Path | None = None) -> "Learn
     Raises:
         BadRequest: there is no course here, or the name is none.
     """
-    from grader.learner import find_learner  # noqa: PLC0415 - --help must not wait
+    from grader.course.learner import find_learner  # noqa: PLC0415 - --help must not wait
 
     return find_learner(find_course_here(inside), student=student, say=print_error)
 
@@ -259,7 +259,7 @@ def grade_file(
     picture: Path | None = None,
 ) -> int:
     """Grade an answer, note the score, and show the result; the exit code."""
-    from grader.report import format_grade, format_receipt, grade_to_json  # noqa: PLC0415 - --help has to start at once
+    from grader.feedback.report import format_grade, format_receipt, grade_to_json  # noqa: PLC0415 - --help has to start at once
     from grader.student_data.draw_cache import enable_draw_cache  # noqa: PLC0415 - the same
 
     if refusal := learner.find_refusal(one):
@@ -299,8 +299,8 @@ def _draw_consequence(then: "Consequence | None", picture: Path) -> None:
 
 
 def _show_hint(one: "Exercise", learner: "Learner") -> int:
-    from grader.course import update_progress  # noqa: PLC0415 - --help has to start at once
-    from grader.report import format_hints  # noqa: PLC0415 - the same
+    from grader.course.progress import update_progress  # noqa: PLC0415 - --help has to start at once
+    from grader.feedback.report import format_hints  # noqa: PLC0415 - the same
 
     shown, who = learner.standings[one.name].hints, learner.name
     print_lines(format_hints(one, shown=shown))

@@ -3,8 +3,8 @@
 import click
 
 from grader.cli.course_here import choose_exercises, find_course_here
-from grader.course_check import find_flaws, list_mistakes
-from grader.terminal import print_lines, style_line, wrap_text
+from grader.exercise.course_check import find_flaws, list_mistakes
+from grader.feedback.terminal import print_lines, style_line, wrap_text
 from sim.support.command_line import DONE, NOT_RIGHT
 
 

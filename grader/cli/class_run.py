@@ -22,10 +22,10 @@ from grader.classroom.secret import describe_numbers
 from grader.classroom.store import ResultStore
 from grader.classroom.submissions import find_stray_files, find_submissions, read_submission
 from grader.cli.course_here import choose_exercises, find_course_here
-from grader.course import NOBODY
-from grader.exercise import Exercise, list_exercises
+from grader.course.progress import NOBODY
+from grader.exercise.exercise import Exercise, list_exercises
+from grader.feedback.terminal import print_error, print_lines, style_line, wrap_text
 from grader.isolation import find_isolation_level
-from grader.terminal import print_error, print_lines, style_line, wrap_text
 from sim.support.command_line import DONE, INTERRUPTED, NOT_RIGHT
 from sim.support.os_errors import refuse_os_errors
 from sim.support.printable import list_first

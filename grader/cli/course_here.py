@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 
 import click
 
-from grader.terminal import print_error
+from grader.feedback.terminal import print_error
 from sim.core.errors import BadRequest
 
 if TYPE_CHECKING:
-    from grader.exercise import Exercise
+    from grader.exercise.exercise import Exercise
 
 PATH = click.Path(path_type=Path)
 STUDENT = click.option(
@@ -33,7 +33,7 @@ def find_course_here(inside: Path | None = None) -> Path:
     Raises:
         BadRequest: there is no course here.
     """
-    from grader.course import describe_other_code, find_course  # noqa: PLC0415 - --help must not wait for it
+    from grader.course.progress import describe_other_code, find_course  # noqa: PLC0415 - --help must not wait for it
 
     course = find_course(inside.resolve() if inside else Path.cwd())
     if said := describe_other_code(course):
@@ -47,7 +47,7 @@ def choose_exercises(only: Sequence[str], course: Path) -> "tuple[Exercise, ...]
     Raises:
         BadRequest: there is no such exercise, or none at all.
     """
-    from grader.exercise import find_exercise, list_exercises  # noqa: PLC0415 - --help must not wait for it
+    from grader.exercise.exercise import find_exercise, list_exercises  # noqa: PLC0415 - --help must not wait for it
 
     names = {find_exercise(one, course).name for one in only}
     asked = tuple(one for one in list_exercises(course) if not only or one.name in names)

@@ -4,9 +4,9 @@ from pathlib import Path
 
 import click
 
-from grader.course import find_course
-from grader.doctor import examine_machine
-from grader.terminal import StyledText, print_lines, wrap_text
+from grader.course.progress import find_course
+from grader.feedback.terminal import StyledText, print_lines, wrap_text
+from grader.setup.doctor import examine_machine
 from sim.support.command_line import DONE, NOT_RIGHT
 
 

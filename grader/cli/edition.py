@@ -4,10 +4,10 @@ from pathlib import Path
 
 import click
 
+from grader.classroom.edition import build_pages
 from grader.cli.course_here import PATH
-from grader.course import find_course
-from grader.edition import build_pages
-from grader.terminal import print_error, print_lines, style_line
+from grader.course.progress import find_course
+from grader.feedback.terminal import print_error, print_lines, style_line
 from sim.support.command_line import DONE
 
 

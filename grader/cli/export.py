@@ -4,13 +4,13 @@ from pathlib import Path
 
 import click
 
-from grader.autograder import AutograderContents, make_workflow, pack_gradescope
 from grader.classroom.atomic_files import write_private_file
+from grader.classroom.autograder import AutograderContents, make_workflow, pack_gradescope
 from grader.classroom.roster import read_class_roster
 from grader.cli.course_here import ONLY, PATH, choose_exercises, find_course_here
 from grader.cli.release import choose_files, refuse_secret_inside
-from grader.exercise import Exercise
-from grader.terminal import print_error, print_lines, style_line
+from grader.exercise.exercise import Exercise
+from grader.feedback.terminal import print_error, print_lines, style_line
 from sim.support.command_line import DONE
 from sim.support.secret import find_secret
 
@@ -107,6 +107,8 @@ def jupyterhub(output: Path) -> int:
     The folder around that of the file has to hold roster.csv and packages. Run jupyterhub next to
     the file, as root on Linux.
     """
-    write_private_file(output, (Path(__file__).parents[1] / "jupyterhub_config.py").read_bytes())
+    write_private_file(
+        output, (Path(__file__).parents[1] / "setup" / "jupyterhub_config.py").read_bytes()
+    )
     print_lines([style_line(f"{output}: run jupyterhub in this folder, as root")])
     return DONE

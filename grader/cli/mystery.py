@@ -6,7 +6,7 @@ import click
 
 from grader.cli import locate_learner
 from grader.cli.course_here import PLAIN, STUDENT
-from grader.mystery import (
+from grader.exercise.mystery import (
     HIGHEST,
     Mystery,
     MysteryState,
@@ -17,8 +17,8 @@ from grader.mystery import (
     open_mystery,
     save_state,
 )
-from grader.report import format_checks
-from grader.terminal import Line, print_lines, style_line, wrap_text
+from grader.feedback.report import format_checks
+from grader.feedback.terminal import Line, print_lines, style_line, wrap_text
 from sim.core.errors import BadRequest
 from sim.support.command_line import DONE, NOT_RIGHT
 

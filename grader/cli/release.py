@@ -7,12 +7,12 @@ import click
 
 from grader.classroom.atomic_files import write_private_file
 from grader.classroom.bundle import pack_course
+from grader.classroom.release import StudentPackage, make_student_package, pack_course_folder
 from grader.classroom.roster import read_class_roster
 from grader.classroom.secret import identify_secret
 from grader.cli.course_here import PATH, find_course_here
-from grader.package_files import select_package_files
-from grader.release import StudentPackage, make_student_package, pack_course_folder
-from grader.terminal import print_error, print_lines, style_line
+from grader.course.package_files import select_package_files
+from grader.feedback.terminal import print_error, print_lines, style_line
 from sim.core.errors import BadRequest
 from sim.support.command_line import DONE
 from sim.support.printable import list_first

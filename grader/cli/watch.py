@@ -4,9 +4,9 @@ import click
 
 from grader.cli import complete_exercise, grade_file, locate_learner, show_next_step
 from grader.cli.course_here import PLAIN, STUDENT
-from grader.exercise import find_exercise
-from grader.terminal import print_lines, style_line
-from grader.watch import watch_exercise
+from grader.exercise.exercise import find_exercise
+from grader.exercise.watch import watch_exercise
+from grader.feedback.terminal import print_lines, style_line
 from sim.core.errors import Refusal
 from sim.support.command_line import COULD_NOT, DONE, print_error
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from grader.answers.submission import read_text
-from grader.check import NotReachedError, NotRunError, WrongAnswer
+from grader.checks.check import NotReachedError, NotRunError, WrongAnswer
 from grader.robotcode.bench import find_bench
 from grader.robotcode.bench.simulation import Mount
 from grader.robotcode.library.world import WORLD

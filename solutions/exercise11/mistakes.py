@@ -1,6 +1,6 @@
 """Wrong answers to exercise 11, and what a learner must be told about each."""
 
-from grader.mistake import Mistake, change_number, make_wrong_answer
+from grader.exercise.mistake import Mistake, change_number, make_wrong_answer
 
 ANSWERS = "answers.toml"
 

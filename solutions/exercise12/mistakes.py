@@ -3,7 +3,7 @@
 import re
 from collections.abc import Callable
 
-from grader.mistake import Mistake, make_wrong_answer
+from grader.exercise.mistake import Mistake, make_wrong_answer
 
 ANSWERS = "answers.toml"
 LINE = re.compile(r"^(?P<name>[a-z-]+\.\w+) = (?P<value>[-+.\de]+)$", re.MULTILINE)

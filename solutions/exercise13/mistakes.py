@@ -2,7 +2,7 @@
 
 import math
 
-from grader.mistake import (
+from grader.exercise.mistake import (
     Mistake,
     Numbers,
     change_number,

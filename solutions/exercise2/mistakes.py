@@ -4,7 +4,7 @@ import math
 import re
 from collections.abc import Callable
 
-from grader.mistake import Mistake, change_number, make_wrong_answer, scale_numbers
+from grader.exercise.mistake import Mistake, change_number, make_wrong_answer, scale_numbers
 
 ANSWERS = "answers.toml"
 

@@ -2,7 +2,7 @@
 
 import math
 
-from grader.mistake import Mistake, Numbers, change_number, exchange_numbers, replace_text
+from grader.exercise.mistake import Mistake, Numbers, change_number, exchange_numbers, replace_text
 
 ANSWERS = "answers.toml"
 

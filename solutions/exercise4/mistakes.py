@@ -1,6 +1,6 @@
 """Wrong answers to exercise 4, and what a learner must be told about each."""
 
-from grader.mistake import Mistake, replace_text
+from grader.exercise.mistake import Mistake, replace_text
 
 JAVA, PYTHON = "ExampleSubsystem.java", "example_subsystem.py"
 

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Callable
 
-from grader.mistake import Mistake, replace_text
+from grader.exercise.mistake import Mistake, replace_text
 
 JAVA, PYTHON = "RobotContainer.java", "robotcontainer.py"
 

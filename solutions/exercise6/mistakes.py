@@ -3,7 +3,7 @@
 import re
 from collections.abc import Callable
 
-from grader.mistake import (
+from grader.exercise.mistake import (
     Mistake,
     change_number,
     exchange_numbers,

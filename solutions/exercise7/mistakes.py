@@ -6,7 +6,7 @@ Most change the first log, which has one fault in a part of one test.
 import re
 from collections.abc import Callable
 
-from grader.mistake import Mistake, make_wrong_answer
+from grader.exercise.mistake import Mistake, make_wrong_answer
 
 ANSWERS = "answers.toml"
 FIRST = re.compile(

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from grader.mistake import Mistake, make_wrong_answer, scale_numbers
+from grader.exercise.mistake import Mistake, make_wrong_answer, scale_numbers
 
 ANSWERS = "answers.toml"
 RAMPS = ("quasistatic_forward", "quasistatic_reverse")

@@ -1,6 +1,12 @@
 """Wrong answers to the practice, and what a learner must be told about each."""
 
-from grader.mistake import Mistake, change_number, make_wrong_answer, replace_text, scale_numbers
+from grader.exercise.mistake import (
+    Mistake,
+    change_number,
+    make_wrong_answer,
+    replace_text,
+    scale_numbers,
+)
 
 ANSWERS = "answers.toml"
 

@@ -5,8 +5,8 @@ import re
 import tomllib
 from pathlib import Path
 
-from grader.course import find_course
-from grader.starter import ANSWER
+from grader.course.progress import find_course
+from grader.exercise.starter import ANSWER
 from sim.fit import fit
 from sim.io import read
 

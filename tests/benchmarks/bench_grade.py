@@ -23,9 +23,9 @@ from pathlib import Path
 
 import psutil
 
-from grader.course import load_progress
-from grader.course_check import solve
-from grader.exercise import find_exercise
+from grader.course.progress import load_progress
+from grader.exercise.course_check import solve
+from grader.exercise.exercise import find_exercise
 from sim.support.student_names import make_folder_name
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -14,8 +14,8 @@ from pathlib import Path
 
 import numpy as np
 
-from grader.course_check import list_mistakes, solve
-from grader.exercise import Exercise, find_exercise, list_exercises
+from grader.exercise.course_check import list_mistakes, solve
+from grader.exercise.exercise import Exercise, find_exercise, list_exercises
 from grader.student_data.variant import use_class_secret
 from sim.support.student_names import make_folder_name
 from sim.support.work.executor import run_jobs

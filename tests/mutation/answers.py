@@ -8,9 +8,9 @@ from pathlib import Path
 
 from places import ROOT
 
-from grader.check import Status
-from grader.course_check import prepare_solved
-from grader.exercise import Exercise, Grade
+from grader.checks.check import Status
+from grader.exercise.course_check import prepare_solved
+from grader.exercise.exercise import Exercise, Grade
 from mutation.mutant import Mutant
 from sim.core.errors import Refusal
 

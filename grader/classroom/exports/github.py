@@ -12,8 +12,8 @@ from typing import Any
 from grader.classroom.atomic_files import write_private_file
 from grader.classroom.grading import GradedStudent
 from grader.classroom.results import ClassResults
-from grader.exercise import Grade
-from grader.report import compose_feedback
+from grader.exercise.exercise import Grade
+from grader.feedback.report import compose_feedback
 from sim.support.printable import make_printable
 from sim.support.student_names import make_folder_name
 

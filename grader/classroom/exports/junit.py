@@ -8,12 +8,12 @@ from collections.abc import Sequence
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
-from grader.check import Result
+from grader.checks.check import Result
 from grader.classroom.atomic_files import write_private_file
 from grader.classroom.grading import GradedStudent
 from grader.classroom.results import ClassResults
-from grader.exercise import Grade
-from grader.report import compose_feedback
+from grader.exercise.exercise import Grade
+from grader.feedback.report import compose_feedback
 
 NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 

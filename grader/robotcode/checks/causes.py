@@ -4,9 +4,9 @@ import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from grader.check import NotReachedError, WrongAnswer
+from grader.checks.check import NotReachedError, WrongAnswer
+from grader.checks.texts import read_texts
 from grader.robotcode.bench.facts import TESTS, Outcome, ProgramFacts
-from grader.texts import read_texts
 from sim.support.printable import join_names
 
 FAULTS = read_texts(Path(__file__).with_name("faults.toml"))

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from grader.check import NotReachedError, WrongAnswer
+from grader.checks.check import NotReachedError, WrongAnswer
 from grader.robotcode.bench.facts import DeviceFacts, RoutineFacts, Signal
 from grader.robotcode.checks.causes import (
     ask_for_files,

@@ -5,7 +5,7 @@ import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from grader.check import NotReachedError, WrongAnswer
+from grader.checks.check import NotReachedError, WrongAnswer
 from grader.robotcode.bench.facts import DeviceFacts, Driven, RoutineFacts, Sent, Setting
 from grader.robotcode.checks.causes import (
     ask_for_files,

@@ -53,8 +53,16 @@ from grader.answers.submission import (
     read_answers,
     read_text,
 )
-from grader.check import Check, NotReachedError, NotRunError, Result, Status, run_checks, skip_check
-from grader.consequence import Consequence
+from grader.checks.check import (
+    Check,
+    NotReachedError,
+    NotRunError,
+    Result,
+    Status,
+    run_checks,
+    skip_check,
+)
+from grader.checks.consequence import Consequence
 from grader.student_data.student_files import write_student_files
 from sim.core.errors import BadRequest, Refusal
 from sim.support.os_errors import refuse_os_errors

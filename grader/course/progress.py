@@ -27,7 +27,7 @@ def find_course(start: Path) -> Path:
         BadRequest: there is none, or only a student's own numbers are there; the message says what
             to do.
     """
-    here = Path(__file__).resolve().parent.parent
+    here = Path(__file__).resolve().parents[2]
     for folder in (start, *start.parents, here):
         if (folder / "exercises").is_dir() and (folder / "lessons").is_dir():
             return folder

@@ -26,7 +26,7 @@ from typing import Any
 
 from grader.answers.answer_key import FILE_NAME as KEY
 from grader.answers.submission import explain_restore
-from grader.exercise import Exercise, list_exercises
+from grader.exercise.exercise import Exercise, list_exercises
 from grader.student_data.fingerprint import PACKAGES
 from sim.core.errors import BadRequest
 from sim.support.os_errors import refuse_os_errors

@@ -7,12 +7,12 @@ from dataclasses import asdict
 from pathlib import Path
 
 from grader.answers.submission import read_answers, read_text
-from grader.check import Result, Status
-from grader.course import Progress, Standing
-from grader.exercise import HINTS, Exercise, Grade, list_exercises
-from grader.learner import Learner
-from grader.misconception import MISCONCEPTIONS
-from grader.terminal import Line, StyledText, find_width, style_line, wrap_text
+from grader.checks.check import Result, Status
+from grader.checks.misconception import MISCONCEPTIONS
+from grader.course.learner import Learner
+from grader.course.progress import Progress, Standing
+from grader.exercise.exercise import HINTS, Exercise, Grade, list_exercises
+from grader.feedback.terminal import Line, StyledText, find_width, style_line, wrap_text
 from sim.support.printable import make_printable
 
 MARKS = {

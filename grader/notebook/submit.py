@@ -9,18 +9,18 @@ from typing import Any
 
 from grader.answers.answer_names import find_similar_name
 from grader.answers.submission import read_answers, read_text
-from grader.consequence import Consequence
-from grader.course import find_course
-from grader.exercise import Exercise, Grade, find_exercise
-from grader.learner import find_learner
-from grader.report import (
+from grader.checks.consequence import Consequence
+from grader.course.learner import find_learner
+from grader.course.progress import find_course
+from grader.exercise.exercise import Exercise, Grade, find_exercise
+from grader.feedback.report import (
     format_grade,
     format_points,
     format_receipt,
     judge_grade,
     render_checks,
 )
-from grader.terminal import Line, print_error, style_line
+from grader.feedback.terminal import Line, print_error, style_line
 from sim.core.errors import BadRequest, Refusal
 from sim.support.atomic_file import write_atomically
 from sim.support.printable import make_printable

@@ -4,7 +4,7 @@ import sys
 import time
 from collections.abc import Callable
 
-from grader.exercise import Exercise
+from grader.exercise.exercise import Exercise
 
 PAUSE = 0.4  # [s] between looks; asking the disk works on every file system, being told does not
 CLEAR = "\x1b[2J\x1b[H"  # an empty screen, from its top

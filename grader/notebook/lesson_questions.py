@@ -10,8 +10,8 @@ from typing import Any
 from grader.answers.asked_number import AskedNumber, Band
 from grader.answers.number_answer import judge_number
 from grader.answers.wrong_number import AnswerKey, Scene
-from grader.check import WrongAnswer
-from grader.misconception import MISCONCEPTIONS
+from grader.checks.check import WrongAnswer
+from grader.checks.misconception import MISCONCEPTIONS
 from sim.core.errors import BadRequest
 from sim.teaching.answers import read_answer
 

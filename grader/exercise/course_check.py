@@ -2,7 +2,7 @@
 
 Beside ``exercises/NAME`` is ``solutions/NAME``: the solved files, or ``solve.py`` whose function
 ``solve(exercise, data)`` returns file -> text from a student's own files; and ``mistakes.py`` with
-``MISTAKES`` (``grader.mistake``).
+``MISTAKES`` (``grader.exercise.mistake``).
 """
 
 import fnmatch
@@ -15,10 +15,10 @@ from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 
-from grader.exercise import HINTS, Exercise, Grade, load_module
-from grader.misconception import MISCONCEPTIONS
-from grader.mistake import LINE, Mistake
-from grader.starter import remove_answers
+from grader.checks.misconception import MISCONCEPTIONS
+from grader.exercise.exercise import HINTS, Exercise, Grade, load_module
+from grader.exercise.mistake import LINE, Mistake
+from grader.exercise.starter import remove_answers
 from grader.student_data.variant import use_class_secret
 from sim.support.student_names import make_folder_name
 

@@ -6,12 +6,12 @@ a clone they lie at the top. Both are checked as a class's package is: nobody ge
 
 from pathlib import Path
 
-from grader.package_files import FOLDERS, select_package_files
+from grader.course.package_files import FOLDERS, select_package_files
 from sim.core.errors import BadRequest
 from sim.support.atomic_file import write_atomically
 from sim.support.os_errors import refuse_os_errors
 
-INSTALLATION = Path(__file__).resolve().parents[1]
+INSTALLATION = Path(__file__).resolve().parents[2]
 IN_WHEEL = "sysid_course"
 
 

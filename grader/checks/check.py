@@ -48,7 +48,7 @@ class WrongAnswer(Exception):  # noqa: N818 - a wrong answer is no error of the 
     Args:
         seen: what was given, as the learner wrote it: ``Volts.of(3) (line 12)``.
         hint: the likely cause and the next step; never the answer.
-        misconception: its code, a key of ``grader.misconception.MISCONCEPTIONS``, or empty.
+        misconception: its code, a key of ``grader.checks.misconception.MISCONCEPTIONS``, or empty.
         earned: points all the same, less than the check's full points.
     """
 

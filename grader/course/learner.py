@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from grader.course import Progress, Standing, load_progress, update_progress
-from grader.exercise import Exercise, Grade, list_exercises
+from grader.course.progress import Progress, Standing, load_progress, update_progress
+from grader.exercise.exercise import Exercise, Grade, list_exercises
 from grader.student_data.class_package import explain_no_grading, read_class_package
 from sim.core.errors import BadRequest
 from sim.support.student_names import check_student_name

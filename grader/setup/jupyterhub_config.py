@@ -28,7 +28,7 @@ from jupyterhub.auth import LocalAuthenticator
 import grader
 from grader.classroom.csv_file import write_csv_file
 from grader.classroom.roster import read_class_roster
-from grader.start import QUIET
+from grader.setup.start import QUIET
 from sim.core.errors import Refusal
 from sim.physics.engine import load_engine
 from sim.support.student_names import make_folder_name, normalize_name

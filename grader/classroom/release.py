@@ -16,7 +16,7 @@ import tomlkit
 
 from grader.classroom.bundle import CourseBundle, zip_files
 from grader.classroom.secret import seal_identity
-from grader.exercise import list_exercises
+from grader.exercise.exercise import list_exercises
 from grader.student_data.class_package import PLACE
 from grader.student_data.variant import use_class_secret
 from sim.support.student_names import make_folder_name

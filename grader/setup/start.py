@@ -8,12 +8,12 @@ import sysconfig
 from pathlib import Path
 from urllib.parse import quote
 
-from grader.exec_process import INTERRUPTED, run_process
-from grader.exercise import list_exercises
-from grader.learner import Learner
-from grader.report import find_next_step, format_next_step, format_overview, read_exercises
+from grader.course.learner import Learner
+from grader.exercise.exercise import list_exercises
+from grader.feedback.report import find_next_step, format_next_step, format_overview, read_exercises
+from grader.feedback.terminal import print_lines, style_line
+from grader.setup.exec_process import INTERRUPTED, run_process
 from grader.student_data.draw_cache import enable_draw_cache
-from grader.terminal import print_lines, style_line
 from sim.core.errors import BadRequest
 from sim.physics.engine import load_engine
 from sim.support.command_line import COULD_NOT, DONE

@@ -12,8 +12,8 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from grader.check import Check, run_checks
-from grader.exercise import Exercise, Grade, list_exercises, sum_points
+from grader.checks.check import Check, run_checks
+from grader.exercise.exercise import Exercise, Grade, list_exercises, sum_points
 from sim.core.errors import BadRequest
 from sim.support.atomic_file import write_atomically
 from sim.support.os_errors import refuse_os_errors

@@ -1,0 +1,1 @@
+"""What a check gives: points, the misconception behind a wrong answer, and what it would do."""

@@ -1,0 +1,1 @@
+"""The course on this machine: its folder and files, the learner and their progress."""

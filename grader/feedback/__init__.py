@@ -1,0 +1,1 @@
+"""A grade in words: on the terminal and as a page."""
