@@ -198,6 +198,12 @@ MISTAKES = (
     Mistake("a misspelled method in Python", PYTHON,
         replace_text(("self.left.setVoltage", "self.left.setVolatge")), "drive",
         "Did you mean setVoltage?"),
+    Mistake("a negated voltage in the log", JAVA,
+        replace_text((APPLIED_LEFT, APPLIED_LEFT.replace("m_left", "-m_left"))), "log",
+        "left's voltage is -1 times that of m_left"),
+    Mistake("a voltage without its sign", JAVA,
+        replace_text((APPLIED_LEFT, f"{APPLIED_LEFT[:9]}Math.abs({APPLIED_LEFT[9:]})")), "log",
+        "the voltage of left loses its sign"),
     Mistake("a misspelled signal", JAVA, replace_text(("linearVelocity(", "linearVelocty(")), "log",
         "has no linearVelocty. Did you mean linearVelocity?"),
 )  # fmt: skip

@@ -112,10 +112,10 @@ def _compare_voltage(
             if max(abs(t - v) for t, v in truth) < CLOSE:
                 exact.append(motor)
                 break
-            if max(abs(abs(t) - v) for t, v in truth) < CLOSE:
-                near.setdefault(motor, (1.0, True))
-            elif large and max(large) - min(large) < 0.01 * abs(large[0]):  # of a share
+            if large and max(large) - min(large) < 0.01 * abs(large[0]):  # of a share
                 near.setdefault(motor, (large[-1], False))
+            elif max(abs(abs(t) - v) for t, v in truth) < CLOSE:
+                near.setdefault(motor, (1.0, True))
     made |= {"asked": asked and limited and not exact, "battery": battery}
     owners = tuple(exact or near)
     if not owners:
