@@ -723,7 +723,7 @@ display(ask_question("lesson3.quick"), enable_checkboxes())
 # <details><summary>More, if you like</summary>
 #
 # - Draw the picture of section 3 for a turret: add `"turret": MECHANISMS["turret"]` to `SHOWN`.
-# - Bring `lean` closer to 0. At which `lean` is the error of kA below 10 %?
+# - Bring `LEAN` closer to 0. At which `LEAN` is the error of kA below 10 %?
 # - Plan the ramp of your own robot for the longest hallway of your school. Then measure how long
 #   the hallway is.
 # </details>

@@ -616,9 +616,10 @@ print(f"Their factor is {per_rotation / per_radian:.4f}. 2π is {2 * math.pi:.4f
 #
 # <details><summary>Want to know more? What the loop really does</summary>
 #
-# The test command starts its timer in one loop, and sets the first voltage two loops later. (We saw
+# The test command starts its timer in one loop, and sets the first voltage in the next. (We saw
 # this when we ran the real command in WPILib's simulation.) So the first voltage of a ramp is not
-# zero: with a ramp of 0.5 V/s and loops of 20 ms, the first voltage is 0.02 V.
+# zero: with a ramp of 0.5 V/s and loops of 20 ms, it is 0.01 V. Our simulated robot waits for one
+# more loop: its first voltage is 0.02 V.
 # </details>
 
 # %% [markdown]

@@ -196,11 +196,11 @@ suspects = record_suspects()
 # %% [markdown]
 # The four hidden effects are, in no particular order:
 #
-# - **friction that differs forward and reverse** (*one-way friction*);
 # - **a velocity that is averaged** over the last tenth of a second;
 # - **a weak battery**, and a log of the commanded voltage;
 # - **breakaway friction**: the friction is larger at very low speed (also called *Stribeck*
-#   friction).
+#   friction);
+# - **friction that differs forward and reverse** (*one-way friction*).
 #
 # Choose each robot in turn.
 
@@ -665,8 +665,9 @@ display(ask_question("lesson9.quick"), enable_checkboxes())
 #
 # <details><summary>More, if you like</summary>
 #
-# Change the robot in section 1 so that it hides `drag` and `stribeck`. Both change with speed. Can
-# you separate them with a 1 V step?
+# Hide two effects that both change with speed. In a terminal:
+# `sysid simulate drivetrain --hide drag --hide stribeck --step 1 -o slow.wpilog`. Then
+# `sysid reconcile slow.wpilog`. Do the same with `--step 7`. With which step are the two found?
 # </details>
 #
 # Now you can measure gains, say how far to trust them, and find out what is missing in your model.

@@ -133,7 +133,7 @@ def test_gain_of_a_fit_that_explains_the_voltage_is_recognized(copy):
         result = copy.grade(None, student=student)
         (check,) = (one for one in result.checks if one.id == "ka")
 
-        assert "this is the result with the voltage" in check.hint
+        assert "the result with the voltage" in check.hint
         return
     pytest.fail("no student's log shows the difference")
 

@@ -115,7 +115,7 @@ def test_no_speed_exceeds_what_the_voltage_allows(volts, ks):
     assert np.abs(velocity).max() <= max(0.0, np.abs(volts).max() - ks) / 2.0 + 1e-12
 
 
-def test_a_ramp_starts_after_two_loops_and_has_499_samples_as_wpilibs():
+def test_a_ramp_starts_after_two_loops_and_has_499_samples():
     quiet = replace(MECHANISMS["shooter"], sensor=QUIET)
 
     ramp = simulate(quiet, Routine(ramp=1.0, timeout=10.0), rng=rng()).runs[0]

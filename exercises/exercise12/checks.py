@@ -273,7 +273,10 @@ def _explain_gap(value: float, *, other: float, validation: float) -> WrongAnswe
         validation: this gap of the validation log.
     """
     if _is_same(value, validation):
-        hint = "this is the gap of the validation log. Which log did nobody use to choose effects?"
+        hint = (
+            "this is about the gap of the log or of the validation log. Which log did nobody use "
+            "to fit or to choose effects?"
+        )
         return WrongAnswer(f"{value:g}", hint=hint, misconception="M-HELD-OUT")
     hint = (
         "this is not the gap of your model on the held-out log, in times the noise. Write what "

@@ -18,14 +18,14 @@ HALF = 0.5  # [share] of the points inside the wider band
 LITTLE = 2.0  # [wider bands] a number that is off by more is far outside
 ROUNDED = "Did you round too early?"
 KA_ALONE = (
-    "Your kV is right, so your units are, too. kA comes from the first moments of a dynamic test: "
-    "check that your fit uses all of them, and that the velocity is not smoothed too much"
+    "Your kV is right. kA comes from the first moments of a dynamic test: check that your fit uses "
+    "all of them, and that the velocity is not smoothed too much"
 )
 START_AGAIN = "Check the numbers you started from, and their units"
 CALCULATION = re.compile(r"[-+*/·^]+\s*[\d(]")  # how the rest of a number begins that is a sum
 NO_UNIT = "It has no unit, and it is not in percent: write the number alone."
 UNIT_ASSUMED = " (no unit given, so I assumed "
-OF_BOTH = {"M-GEARING", "M-UNITS"}  # slips that make kV and kA wrong, never kA alone
+OF_BOTH = {"M-GEARING"}  # slips that make kV and kA wrong, never kA alone
 
 
 def read_answer_number(raw: object, asked: AskedNumber) -> float:

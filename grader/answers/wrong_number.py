@@ -156,10 +156,15 @@ def explain_wrong_number(name: str, value: float, key: AnswerKey) -> tuple[Wrong
             found.append(_CANCELED)
     if name in {"kV", "kA"} and value and right(1.0 / value):
         found.append(_UPSIDE_DOWN)
-    for likely in scene.lookalikes.get(name, ()):
+    for likely in () if _is_rounded(value, asked[name]) else scene.lookalikes.get(name, ()):
         if _looks_like(value, likely) and likely.slip not in found:
             found.append(likely.slip)
     return tuple(found) or rarer
+
+
+def _is_rounded(value: float, asked: AskedNumber) -> bool:
+    """Whether a number is the right one, rounded to fewer digits: then no wrong recipe made it."""
+    return round(asked.expected, len(repr(value).partition(".")[2])) == value
 
 
 def _looks_like(value: float, likely: Lookalike) -> bool:

@@ -10,7 +10,8 @@ and further tests, which tell effects apart that the four tests cannot:
 A test starts its timer in one loop of the robot program and applies a voltage from the second loop
 after it on, so the first voltage of a ramp is ``ramp`` times two periods, not zero. It ends after
 ``timeout``, or when the button is released. Source: WPILib 2026.2.2, ``SysIdRoutine``; the number
-of loops is from a run of RobotPy's.
+of loops is from a run of RobotPy's, in which the command is scheduled before the scheduler runs. A
+command that a button starts is scheduled while it runs, and drives one loop earlier.
 """
 
 import math

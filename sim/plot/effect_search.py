@@ -74,6 +74,8 @@ class EffectSearch:
         Raises:
             BadRequest: the effect is unknown or in the model, or the held-out log is open.
         """
+        if not effect:
+            raise BadRequest("no effect is chosen", advice="Choose one from the list.")
         if effect in self.effects:
             raise BadRequest(f"{effect} is in the model already", advice="Add another effect.")
         return self.choose((*self.effects, effect))
@@ -84,9 +86,9 @@ class EffectSearch:
         Raises:
             BadRequest: it is not in the model, or the held-out log is open.
         """
-        effect = effect or (self.effects or ("an effect",))[-1]
+        effect = effect or (self.effects or ("",))[-1]
         if effect not in self.effects:
-            raise BadRequest(f"{effect} is not in the model", advice="Add an effect first.")
+            raise BadRequest("there is no such effect in the model", advice="Add an effect first.")
         return self.choose(tuple(one for one in self.effects if one != effect))
 
     def choose(self, effects: tuple[str, ...]) -> str:
@@ -232,7 +234,7 @@ class EffectSearch:
         menu = ipywidgets.Dropdown(options=sorted(EFFECTS), description="effect", value=None)
         about, shown = ipywidgets.HTML(), ipywidgets.HTML()
         buttons = {
-            "Add and fit": lambda: self.add(menu.value or "no effect"),
+            "Add and fit": lambda: self.add(menu.value or ""),
             # the effect that the menu shows, or else the last one
             "Take back": lambda: self.take_back(menu.value if menu.value in self.effects else ""),
             "Stop, open the held-out log": self.open,

@@ -45,7 +45,8 @@ def fit(time, voltage, position, velocity, test):
 
 
 if __name__ == "__main__":  # your own log, if you start this file yourself
-    log = Path(__file__).parent / "data" / "me" / "log.csv"
+    logs = Path(__file__).parent.glob("data/*/log.csv")
+    log = max(logs, key=lambda path: path.stat().st_mtime)  # the newest
     rows = np.genfromtxt(log, delimiter=",", names=True, dtype=None, encoding="utf-8")
     names = ("time_s", "voltage", "position", "velocity", "test")
     print(fit(*(rows[name] for name in names)))

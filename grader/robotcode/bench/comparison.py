@@ -132,12 +132,14 @@ def _compare_motion(
     if signal == "position":
         pairs = _unwrap(pairs)
     best: tuple[float, str, float, float, bool] = (TRUE, "", 0.0, 0.0, False)
+    errors: dict[str, float] = {}  # of a line through the truth of a motor, the least
     for part in (2, 1) if signal == "velocity" else (1, 2):
         for motor in rows[0].truth:
             name = f"{('', 'position', 'velocity')[part]} {motor}"
             for lag in (0, 1):
                 truth = _pair_with_truth(pairs, rows, motor, part, lag)
                 error, slope, offset = _fit_line(truth)
+                errors[name] = min(error, errors.get(name, error))
                 if error < best[0] * 0.99:
                     best = (error, name, slope, offset, False)
                 error, slope, offset = _fit_line([(abs(t), v) for t, v in truth])
@@ -148,7 +150,9 @@ def _compare_motion(
     _, follows, slope, offset, absolute = best
     if not follows or made["still"]:
         return Signal(**made)
-    owners = (follows.partition(" ")[2],)
+    nearest = best[0] * 1.01  # a follower turns as its leader does
+    alike = [name for name, error in errors.items() if name == follows or error <= nearest]
+    owners = tuple(name.partition(" ")[2] for name in alike)
     return Signal(
         follows=follows, owners=owners, scale=slope, offset=offset, absolute=absolute, **made
     )

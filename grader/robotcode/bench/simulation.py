@@ -162,7 +162,7 @@ class Simulation:
         """The share of the requested voltage that a motor gets at the moment."""
         if not self.hiccup:
             return 1.0
-        leader = self.leaders[id(motor)] or motor
+        leader = self.find_leader(motor) or motor
         duty = leader._command.kind == "duty"
         return (SAGGED / BATTERY if duty else 1.0) * self.get_through(leader)
 

@@ -398,8 +398,16 @@ def _check_alike(signals: Sequence[tuple[str, Signal]]) -> None:
 
 
 def _check_signs(there: Logged) -> None:
-    """Raise ``WrongAnswer`` unless the signals of each motor agree in their sign."""
+    """Raise ``WrongAnswer`` unless the signals of each motor agree in their sign.
+
+    How a follower turns is judged where motors are driven, so only its leader is looked at here.
+    """
+    judged: set[str] = set()
     for name, signals in there.items():
+        owners = {motor for many in signals.values() for one in many for motor in one.owners}
+        if len(owners) > 1 and owners & judged:
+            continue
+        judged |= owners
         signs = {
             signal: math.copysign(1.0, one.scale)
             for signal in NEEDED

@@ -117,13 +117,16 @@ def list_driven(facts: RoutineFacts) -> list[DeviceFacts]:
     """The motors that the test has to move.
 
     While a swerve drive goes straight, a closed loop holds its steering: such a motor gets closed
-    loops in every test and no voltage, and others of the subsystem are driven.
+    loops in every test and no voltage, and others of the subsystem are driven. A motor of which
+    the task says how it is mounted is no such motor.
     """
     motors = list(facts.motors.values())
     kinds = {one.name: {sent.kind for sent in _list_sent(one, facts)} for one in motors}
     if not any(kinds[one.name] & {"voltage", "duty"} for one in motors):
         return motors
-    return [one for one in motors if one.follows or kinds[one.name] != {"closed-loop"}]
+    return [
+        one for one in motors if one.follows or one.mounted or kinds[one.name] != {"closed-loop"}
+    ]
 
 
 def check_driven(facts: RoutineFacts, *, points: float, mirrored: bool) -> str | None:
