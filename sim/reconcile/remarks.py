@@ -45,7 +45,7 @@ def list_remarks(
     ]
     rest = [name for name in structure.effects if name not in {*named, *contradicted}]
     last_shown = select_reported_rounds(rounds, findings)[-1]
-    kept = last_shown.candidate.estimate.structure.effects
+    kept = (reported := last_shown.candidate.estimate.structure).effects
     remarks = []
     if inside := [name for name in rest if name in kept]:
         what = " and ".join(inside)
@@ -63,7 +63,7 @@ def list_remarks(
             "the model leaves it out."
         )
     remarks += [CONTRADICTED.format(name) for name in contradicted]
-    if structure.has_backlash and not reverses_within_run(problem):
+    if reported.has_backlash and not reverses_within_run(problem):
         remarks.append(NO_REVERSAL)
     return tuple(remarks)
 

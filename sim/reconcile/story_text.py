@@ -52,7 +52,9 @@ def _write_verdict(story: Story) -> str:
         missing = join_names([_name_with_rivals(one) for one in majors])
         doubt = "; these logs cannot tell which" if story.verdict == AMBIGUOUS else ""
         guess = "" if all(one.probability >= PROBABLE for one in majors) else "probably "
-        said = [f"The model is {guess}missing {missing}{doubt}.", _write_gaps(story)]
+        lags = {one.effect for one in majors} <= SENSOR_LAGS  # a fit has estimated them, too
+        model = "A model of gains alone" if lags else "The model"
+        said = [f"{model} is {guess}missing {missing}{doubt}.", _write_gaps(story)]
     elif story.verdict == NOTHING_MISSING or not faults:
         return _describe_complete_model(story)
     else:
@@ -158,7 +160,7 @@ def list_gain_doubts(story: Story) -> tuple[Doubt, ...]:
         text = "The model lacks something, so these gains may be off by more than their errors."
         return (Doubt("model-lacks", text, gains=tuple(story.gains)),)
     moved = [name for name, one in story.gains.items() if _differ(one, story.gains_without[name])]
-    if not moved or narrows_gap(story):
+    if not moved or story.gap_after < MAJOR_UNEXPLAINED * story.gap_before:
         return ()
     text = (
         f"The effects change {join_names(moved)} by far more than their errors allow. Before you "

@@ -209,6 +209,7 @@ def describe_fit(
         "doubts": _describe_doubts(found.list_doubts(), one),
         "notes": [] if chosen else list(pooled.notes),
         "tracks": _list_tracks(chosen, log) if chosen else None,
+        "gap": finite_or_none(chosen.gap) if chosen else None,
         "parts": [] if chosen else sorted(part.effect for part in found.parts),
         "lag": found.position_delay if found.position_delay > LAGS else 0.0,
         "window": max(2.0 * (found.velocity_delay - found.position_delay), 0.0),
@@ -258,7 +259,7 @@ def _describe_starts(found: Fit, log: Log, reading: Reading) -> dict[str, Any]:
     """
     pieces = [(k, one) for k, run in enumerate(log.runs) for one in cut_run(run, reading.left_out)]
     rest = replace(log, runs=tuple(piece for _, piece in pieces))
-    top = rest.top_speed / find_unit(log.units).si
+    top = log.top_speed / find_unit(log.units).si  # a share of it stays comparable
     try:
         replays = iter(replay_fit(found, rest))
     except BadRequest:  # the doubts say which gain is below zero

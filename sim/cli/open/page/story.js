@@ -39,7 +39,7 @@ function storyParts(story, log) {
   const rest = [story.caution, ...story.next.map((one) => `Test to run next: ${one}`), ...story.remarks]
     .filter(Boolean).map((words) => make("li", "look", prose(words)));
   const places = story.places.length
-    ? [make("p", "quiet places", "Where the base model is wrong most"), make("ul", "doubts", story.places.map((one) => make("li", "busy", one)))]
+    ? [make("p", "quiet places", "Where the base model is surely wrong, the largest first"), make("ul", "doubts", story.places.map((one) => make("li", "busy", one)))]
     : [];
   const tried = foldedItem("busy", "Tried", `What became of each effect. ${story.tried.join("; ")}.`);
   const models = story.effects.length && log.plain ? [gainsTable(story, log)] : [];

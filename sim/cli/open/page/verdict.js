@@ -80,7 +80,7 @@ export function showDoubts() {
   const word = moved ? "Moved by hand" : fitRefused ? "No gains" : !fit ? "Fitting…" : !faults ? "Checking…" : sure && ["Usable", "Partly usable"].includes(fit.word) ? "Check first" : fit.word;
   const bad = ["Not usable", "Do not use"].includes(word);
   at("word").textContent = word;
-  if (fit) at("verdict").replaceChildren(...prose(moved ? "These gains are not measured, so their errors are not known. Reset them to see the verdict." : fit.verdict));
+  if (fit) at("verdict").replaceChildren(...prose(moved ? "A gain that you moved is not measured. Reset it to see the verdict." : fit.verdict));
   at("verdict-card").classList.toggle("wrong", Boolean(fitRefused) || bad);
   at("verdict-card").classList.toggle("well", word === "Usable");
   at("paste").classList.toggle("primary", !bad);
