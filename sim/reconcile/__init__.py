@@ -117,7 +117,6 @@ def _make_story(
     """
     unit = recordings.unit
     chapters = shown.make_chapters(rounds)
-    log_notes = shown.notes(rounds[-1], chapters[-1].gap)
     residuals = ResidualSummary.summarize(problem, rounds[-1].candidate.estimate)
     findings, judged, refuted = make_findings(
         problem, rounds, recordings.damage.reported, chapters,
@@ -125,6 +124,7 @@ def _make_story(
     )  # fmt: skip
     reported = select_reported_rounds(rounds, findings)
     chapters = chapters[: len(reported)]
+    log_notes = shown.notes(reported[-1], chapters[-1].gap)
     gains = gains_without = fit_without_effects(recordings, problem, rounds[0].candidate.estimate)
     if any(one.kind == "effect" for one in findings):
         gains = estimate_gains(problem, reported[-1].candidate.estimate, unit)

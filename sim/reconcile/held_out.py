@@ -112,7 +112,7 @@ class HeldOutLog:
         return self.problem.velocity_floor / find_unit(self.log.units).si
 
     def find_gap_places(self, base: Chapter) -> tuple[Place, ...]:
-        """Where the base model's velocity is wrong, the most significant place first."""
+        """Where the base model's velocity is wrong, the largest error first."""
         residuals = []
         for record, track in zip(self.problem.records, base.tracks, strict=True):
             run = record.measurements
