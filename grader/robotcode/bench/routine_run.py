@@ -181,7 +181,7 @@ class RoutineBench(Bench):
         found = []
         for one in WORLD.devices:
             motor = isinstance(one, Motor)
-            leader = self.simulation.find_leader(one) if motor else None
+            leader = self.simulation.find_leader(one) if isinstance(one, Motor) else None
             lost = motor and one._leader is not None and leader is None
             turner = self.simulation.turned_by.get(id(one))
             number = find_device_number(one)
