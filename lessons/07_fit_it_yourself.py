@@ -60,6 +60,7 @@ from sim.plot import (
     Table,
     plot_time_series,
     plot_voltage_velocity,
+    tabulate_fits,
     tabulate_gains,
 )
 from sim.plot.animation import Choice, Knob
@@ -643,13 +644,7 @@ suspects = {
     "encoder inverted": apply_mistake(quiet, factor=-1.0),
     "commanded voltage logged, 7 V step": apply_mistake(sag, commanded=True),
 }
-fits = {name: fit(log, method="sysid") for name, log in suspects.items()}
-ratios = {name: [one.gains[gain] / truth[gain] for gain in truth] for name, one in fits.items()}
-scores = {name: [one.acceleration_r2, one.simulated_velocity_r2] for name, one in fits.items()}
-Table(
-    ("log", *(f"{gain} ÷ true" for gain in truth), "acceleration R²", "simulated velocity R²"),
-    tuple((name, *ratios[name], *scores[name]) for name in fits),
-)
+tabulate_fits(suspects, truth)
 
 # %% [markdown]
 # - **A low R² does not mean bad gains.** With faster logging, each computed acceleration is

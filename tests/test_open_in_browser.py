@@ -547,6 +547,8 @@ def test_columns_of_a_table_are_chosen(page, tmp_path):
     text = "\n".join(["Versuch,Zeit,Spannung,Weg,Tempo", *rows[1:]])
     (tmp_path / "tabelle.csv").write_text(text, encoding="utf-8")
     drop(page, tmp_path / "tabelle.csv")
+    missing = page.locator("#missing", has_text="Voltage at the motor; Position; Time, in seconds.")
+    missing.wait_for()
     columns = {"voltage": "Spannung", "position": "Weg", "velocity": "Tempo", "state": "Versuch"}
     choose_signals(page, **columns, time="Zeit")
     page.locator("#gain-kV").wait_for()

@@ -10,7 +10,7 @@ Nothing here needs a screen, and no function keeps state between calls.
 """
 
 from sim.plot.acceleration import plot_acceleration_velocity
-from sim.plot.gain_tables import tabulate_gains
+from sim.plot.gain_tables import tabulate_fits, tabulate_gains
 from sim.plot.gap_bars import plot_gap_bars
 from sim.plot.logs import plot_time_series
 from sim.plot.picture import Picture
@@ -28,5 +28,6 @@ __all__ = [
     "plot_time_series",
     "plot_voltage_residual",
     "plot_voltage_velocity",
+    "tabulate_fits",
     "tabulate_gains",
 ]

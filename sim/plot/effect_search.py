@@ -74,8 +74,6 @@ class EffectSearch:
         Raises:
             BadRequest: the effect is unknown or in the model, or the held-out log is open.
         """
-        if not effect:
-            raise BadRequest("no effect is chosen", advice="Choose one from the list.")
         if effect in self.effects:
             raise BadRequest(f"{effect} is in the model already", advice="Add another effect.")
         return self.choose((*self.effects, effect))
@@ -234,7 +232,7 @@ class EffectSearch:
         menu = ipywidgets.Dropdown(options=sorted(EFFECTS), description="effect", value=None)
         about, shown = ipywidgets.HTML(), ipywidgets.HTML()
         buttons = {
-            "Add and fit": lambda: self.add(menu.value or ""),
+            "Add and fit": lambda: self.add(menu.value) if menu.value else "Choose an effect.",
             # the effect that the menu shows, or else the last one
             "Take back": lambda: self.take_back(menu.value if menu.value in self.effects else ""),
             "Stop, open the held-out log": self.open,

@@ -1,7 +1,9 @@
-"""A table of gains."""
+"""Tables of gains: the true ones, and the fitted ones relative to them."""
 
 from collections.abc import Mapping, Sequence
 
+from sim.core.log import Log
+from sim.fit import fit
 from sim.plot.table import Cell, Table
 
 POWERS = {"kV": "V·s/", "kA": "V·s²/"}
@@ -33,3 +35,19 @@ def tabulate_gains(
         tuple((*row, *cells) for row, *cells in zip(rows, *more.values(), strict=True)),
         caption,
     )
+
+
+def tabulate_fits(logs: Mapping[str, Log], truth: Mapping[str, float]) -> Table:
+    """What SysId's recipe finds in each log: the gains over the true ones, and its two R².
+
+    Args:
+        logs: name -> log.
+        truth: the true gains.
+    """
+    rows: list[tuple[Cell, ...]] = []
+    for name, log in logs.items():
+        found = fit(log, method="sysid")
+        ratios = (found.gains[gain] / truth[gain] for gain in truth)
+        rows.append((name, *ratios, found.acceleration_r2, found.simulated_velocity_r2))
+    header = ("log", *(f"{gain} ÷ true" for gain in truth))
+    return Table((*header, "acceleration R²", "simulated velocity R²"), tuple(rows))

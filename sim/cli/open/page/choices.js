@@ -4,11 +4,10 @@ import { drawing, figure, make } from "./elements.js";
 import { activate, load, shownLog } from "./logs.js";
 import { at, guarded } from "./page.js";
 
-const SLOPE = "The slope of the position";
 const ROLES = [ // role, words, whether its entry holds texts, and what is taken if the log has no such entry
   ["voltage", "Voltage at the motor", false],
   ["position", "Position", false],
-  ["velocity", "Velocity", false, SLOPE],
+  ["velocity", "Velocity", false, "The slope of the position"],
   ["state", "Name of the running test", true],
   ["time", "Time, in seconds", false],
 ];
@@ -61,7 +60,7 @@ function candidate(words, { name, unit, signal, text: isText, values, picture },
 
 function showChosen() {
   const { chosen, columns, entries } = shownLog().choice;
-  const slope = !chosen.velocity && unchosen("velocity") === SLOPE; // needs a position
+  const slope = !chosen.velocity && unchosen("velocity").startsWith("The slope"); // needs a position
   const needed = ["voltage", slope && "position", "state", columns && "time"];
   const missing = ROLES.filter(([one]) => needed.includes(one) && !chosen[one] && unchosen(one).endsWith("choose one"));
   const names = entries.some(({ text }) => text) ? "" : " This file has no names of tests, such as quasistatic-forward: add a column with them.";

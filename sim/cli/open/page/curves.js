@@ -41,7 +41,7 @@ export const VIEWS = {
       voltage: { ...voltage, share: 0.2 },
       velocity: { ...velocity, share: 0.36 },
       position: { title: ({ symbol }) => `position, ${symbol}`, share: 0.24 },
-      step: { title: stepTitle, share: 0.2, range: stepRange, dashed: ({ derived }) => derived.late },
+      step: { title: ({ derived }) => `time step, ms; dashed: 1.5 × the median, ${short(Number(derived.late.toPrecision(3)))} ms`, share: 0.2, range: stepRange, dashed: ({ derived }) => derived.late },
     },
     curves: [
       { panel: "voltage", label: "voltage", unit: ofVoltage, of: recorded("voltage"), color: "volts", width: 1.5, steps: true, dots: true },
@@ -69,11 +69,6 @@ function errorRange({ noise, ranges }, inView) {
   const power = 10 ** Math.floor(Math.log10(most));
   const round = [1, 1.5, 2, 3, 5, 7, 10].map((one) => one * power).find((one) => one >= most);
   return [-round, round];
-}
-
-/** The title of the panel of time steps, which explains the dashed line. */
-function stepTitle({ derived }) {
-  return `time step, ms; dashed: 1.5 × the median, ${short(Number(derived.late.toPrecision(3)))} ms`;
 }
 
 /** The range of the time steps: from zero, and to so many medians. */
