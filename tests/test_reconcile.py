@@ -71,7 +71,8 @@ def test_hidden_effect_is_named_with_its_numbers_and_closes_the_gap(name):
         assert found.value == pytest.approx(truth, abs=near), one.name
     assert story.gap_before > 3.0 * story.noise_floor
     assert story.gap_after < FLOOR * story.noise_floor
-    assert [one.sure for one in story.where] == sorted((o.sure for o in story.where), reverse=True)
+    sizes = [abs(one.error) for one in story.where]
+    assert sizes == sorted(sizes, reverse=True)
     seen = {"gravity-cosine": "direction-position", "drag": "direction-speed"}.get(effect)
     assert seen is None or seen in {one.what for one in story.where}
 

@@ -62,7 +62,7 @@ MISTAKES = (
         size: s + v / size), "forward", "Convert it first", "M-UNITS"),
     Mistake("converted the wrong way", ANSWERS,
         write_term("forward", lambda s, v, _, size: s + v / size**2), "forward",
-        "multiply where you have to divide", "M-UNITS"),
+        "mix up multiplying and dividing", "M-UNITS"),
     Mistake("a speed converted that was right", ANSWERS,
         write_term("accelerating", lambda s, v, a, size: s + v / size + a), "accelerating",
         "the unit of your kV. Did you", "M-UNITS"),

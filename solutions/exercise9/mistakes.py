@@ -139,14 +139,14 @@ MISTAKES = (
         ANSWERS,
         scale_numbers(1.4, "kA"),
         "ka",
-        "Your kV is right, so your units are, too",
+        "Your kV is right",
     ),
     Mistake(
         "the time constant for kA",
         ANSWERS,
         change_number("kA", lambda right: right["kA"] / right["kV"]),
         "ka",
-        "Your kV is right, so your units are, too",
+        "Your kV is right",
     ),
     Mistake(
         "speed for each volt",
@@ -178,7 +178,7 @@ MISTAKES = (
             ("-gamma / beta, -alpha / beta, 1 / beta", "gamma, alpha, beta"),
         ),
         "function",
-        "this is the result with the voltage",
+        "the result with the voltage",
         "M-NOISE-AVERAGES",
     ),
     Mistake(

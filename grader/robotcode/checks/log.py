@@ -404,7 +404,8 @@ def _check_signs(there: Logged) -> None:
     """
     judged: set[str] = set()
     for name, signals in there.items():
-        owners = {motor for many in signals.values() for one in many for motor in one.owners}
+        motion = [one for signal in MOVING for one in signals.get(signal, ())]
+        owners = {motor for one in motion for motor in one.owners}
         if len(owners) > 1 and owners & judged:
             continue
         judged |= owners
