@@ -34,7 +34,7 @@ _WHOLES = {SPEED: "the top speed", POSITION: "the way"}
 
 
 def find_gap_places(runs: Sequence[Residuals], *, noise: float, most: int = 5) -> tuple[Place, ...]:
-    """The bins with the largest significant residuals, the largest first.
+    """The bins with the most significant residuals, the largest residual first.
 
     Args:
         runs: residuals of each run.
@@ -54,8 +54,9 @@ def find_gap_places(runs: Sequence[Residuals], *, noise: float, most: int = 5) -
     kept = []
     for bins in list_bins(runs):
         found = _find_places(bins, residual * bins.way, begins)
-        kept += sorted(found, key=lambda one: -abs(one.error))[:PER_WAY]
-    return tuple(sorted(kept, key=lambda one: -abs(one.error))[:most])
+        kept += sorted(found, key=lambda one: -one.sure)[:PER_WAY]
+    surest = sorted(kept, key=lambda one: -one.sure)[:most]
+    return tuple(sorted(surest, key=lambda one: -abs(one.error)))
 
 
 def _find_places(bins: Bins, signed: Array, begins: NDArray[np.intp]) -> Iterator[Place]:
