@@ -42,7 +42,7 @@ VARIED = {
 
 @pytest.mark.parametrize("name", ["drivetrain", "elevator", "arm"])
 @pytest.mark.parametrize("what", [*VARIED, "clock"])
-def test_gains_are_right_when_runs_differ(name, what):
+def test_gains_are_right_when_friction_differs_between_runs(name, what):
     mechanism, off = MECHANISMS[name], []
     for seed in range(4):
         log = record_each(mechanism, VARIED.get(what, lambda one, _: one), seed=seed)

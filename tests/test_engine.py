@@ -100,7 +100,7 @@ def test_a_current_limit_makes_the_rise_a_straight_line():
     assert track.velocity[rising] == pytest.approx(0.8 / 0.3 * TIME[rising], rel=1e-4, abs=1e-12)
 
 
-def test_linearly_changing_voltage_moves_as_many_small_steps_do():
+def test_voltage_ramp_moves_like_many_small_steps():
     fine = np.linspace(0.0, 0.2, 2001)
     coarse = fine[::200]
     volts = 3.0 + 10.0 * coarse

@@ -196,7 +196,7 @@ def test_a_wrong_gravity_ratio_or_sign_setting_is_named(  # noqa: PLR0917 - a ro
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_the_ratio_itself_may_stand_in_the_code(checked, kind):
+def test_a_gear_ratio_in_the_code_is_accepted(checked, kind):
     student = of(kind=kind)
     ratio = OWN.module.draw(student).ratio
     head = f"{FEEDBACK}SensorToMechanismRatio({ratio});"

@@ -54,7 +54,7 @@ def test_log_of_the_fit_has_measured_and_simulated_signals(tmp_path, name):
         )
 
 
-def test_innovations_are_written_where_something_new_was_read(tmp_path):
+def test_innovations_are_written_only_at_new_readings(tmp_path):
     file, out = write_log(drive_log(), tmp_path / "drive.csv"), tmp_path / "out.wpilog"
     assert run("fit", file, "--wpilog", out) == 0
     log = read(file)

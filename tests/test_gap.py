@@ -81,7 +81,7 @@ def since_jump(at):
     ],
     ids=["run and time", "direction and speed", "direction and position", "after steps", "at rest"],
 )  # fmt: skip
-def test_a_disagreement_is_found_where_it_is(plant, what, where, sign):
+def test_an_error_of_the_model_is_found_in_its_bin(plant, what, where, sign):
     found = find_gap_places(runs_of(*FOUR, *FOUR, plant=plant), noise=NOISE, most=10)
 
     mine = [place for place in found if place.what == what]

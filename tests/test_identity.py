@@ -149,9 +149,7 @@ def test_a_course_started_under_another_name_is_reported(course, tmp_path, reads
     reads(one.problem)
 
 
-def test_single_answers_without_a_secret_need_an_option_for_the_owner_of_the_numbers(
-    course, tmp_path, capsys, reads
-):
+def test_grading_one_student_without_a_secret_requires_an_option(course, tmp_path, capsys, reads):
     place = tmp_path / "in"
     place.mkdir()
     (place / "Ann Lee - answers.toml").write_text(RIGHT, encoding="utf-8")

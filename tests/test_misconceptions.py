@@ -124,7 +124,7 @@ def test_a_heavier_robot_needs_more_ka_and_no_more_ks_by_itself(reads):
     assert heavy["kA"] > 1.3 * light["kA"]
 
 
-def test_drag_is_air_and_neither_grease_nor_a_belt(reads):
+def test_drag_means_air_drag_and_no_grease_or_belt(reads):
     looks = EFFECTS["drag"].inspect
 
     assert looks.startswith("Check whether a part moves air")

@@ -57,7 +57,7 @@ def test_gains_are_within_a_few_of_their_errors_which_are_small(kind, period):
     assert [doubt.code for doubt in found.doubts if doubt.grave] == []
 
 
-def test_stated_intervals_hold_the_truth_and_are_no_wider_than_a_robot_asks():
+def test_confidence_intervals_cover_the_truth_and_are_not_too_wide():
     # Eight logs of each ideal mechanism. The intervals allow for small effects and for variation
     # between runs, of which these have none, so nearly all hold the truth, and they are narrow.
     inside, wide = [], {"kS": [], "kV": [], "kA": [], "kG": []}

@@ -152,7 +152,7 @@ def empty_course(tmp_path, monkeypatch):
     ("command", "said"),
     [
         (["release"], "Missing option '-o' / '--output'"),
-        (["release", "-o", "out", "--roster", "r.csv"], "numbers for a class need a secret"),
+        (["release", "-o", "out", "--roster", "r.csv"], "to give each student own numbers"),
         (
             ["release", "-o", "out", "--roster", "r.csv", "--secret", "out/s"],
             "everybody would get it",

@@ -62,8 +62,8 @@ def _is_mistaken(value: float, gain: str, variant: Variant, text: str) -> bool:
     return any(near(value, replace(variant, shown_in=one).needed(gain)) for one in others)
 
 
-def _find_known(value: float, gain: str, variant: Variant) -> WrongNumber | None:
-    """The slip behind a gain of the feedforward, if its number tells."""
+def _find_known_mistake(value: float, gain: str, variant: Variant) -> WrongNumber | None:
+    """The known mistake that gives exactly this gain of the feedforward; None if there is none."""
     shown, times = variant.shown[gain], variant.times
     both = (shown, variant.needed(gain))
     code = _find_first(value, _list_rotations(gain, variant))
@@ -91,7 +91,7 @@ def find_constant_slip(value: float, gain: str, variant: Variant, *, text: str) 
         return name_slip("mistaken", gain, variant)
     sizes = (variant.shown[gain], variant.needed(gain))
     rounded = any(near(value, size, share=ROUNDED) for size in sizes)
-    found = _find_known(value, gain, variant)
+    found = _find_known_mistake(value, gain, variant)
     return found or name_slip("rounded" if rounded else "other", gain, variant)
 
 
@@ -102,7 +102,7 @@ def find_handed_slip(value: float, gain: str, variant: Variant) -> WrongNumber:
     if variant.place == SLOT0:
         ways.insert(1, ("coded", [variant.convert_to_code_unit(gain)]))
     code = _find_first(value, ways)
-    found = None if code else _find_known(value, gain, variant)
+    found = None if code else _find_known_mistake(value, gain, variant)
     return found or name_slip(code or "handed", gain, variant)
 
 

@@ -31,9 +31,9 @@ def explain_mixed_up(said: str, really: str) -> str:
     return " ".join(part for part in (explain_false_alarm(said), asks, fault["plot"]) if part)
 
 
-def explain_false_alarm(said: str) -> str:
-    """The look of a fault, for a log that does not have it."""
-    return f"{said} would look like this: {_TEXTS['faults'][said]['looks']}."
+def explain_false_alarm(reported: str) -> str:
+    """What the reported fault would look like, for a log without it."""
+    return f"{reported} would look like this: {_TEXTS['faults'][reported]['looks']}."
 
 
 def explain_overlooked(really: str) -> str:

@@ -63,11 +63,11 @@ class SubmittedFile:
 
 
 def list_submitted_files(place: Path, *, name: str = "") -> Iterator[SubmittedFile]:
-    """All files of one thing that was handed in.
+    """All files of one submission.
 
     Args:
         place: a folder, a zip file or a single file.
-        name: what the student called that file; empty if it is called so still.
+        name: original name of that file; empty if it was not renamed.
 
     Raises:
         ValueError: there are too many files, they unpack to too much, or it is an archive that is

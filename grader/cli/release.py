@@ -50,7 +50,7 @@ def release(
     """
     if roster and not secret:
         raise BadRequest(
-            "numbers for a class need a secret",
+            "to give each student own numbers, a secret is needed",
             advice="Name a file for it outside the packages: --secret class.secret",
         )
 

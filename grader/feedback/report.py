@@ -105,7 +105,7 @@ def find_mark(result: Result) -> tuple[str, str]:
 
 
 def judge_grade(grade: Grade) -> tuple[tuple[str, str], str]:
-    """The sign of a whole grade with its style, and the verdict in words."""
+    """The symbol of a whole grade with its style, and the verdict in words."""
     if grade.status == "passed":
         return MARKS[Status.PASSED], "all right"
     unanswered = sum(result.is_unanswered for result in grade.checks)

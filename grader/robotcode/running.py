@@ -44,7 +44,7 @@ def run_buttons(path: Path, *, run: bool = True) -> Runs:
 
 
 def run_gains(path: Path, *, run: bool = True) -> Runs:
-    """Make the class of a file and look at its gains; all else is as in ``run_routine``."""
+    """Run the constructor of a file's class and read its gains; all else as in ``run_routine``."""
     return _run(path, "gains", {}, run=run)
 
 

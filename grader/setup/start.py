@@ -33,7 +33,7 @@ HIDDEN = ("__pycache__", "*.pyc", "*.pyo", ".DS_Store", "*~", "solutions")
 
 
 def is_in_jupyter() -> bool:
-    """Whether this process was started in a terminal or in a notebook of Jupyter."""
+    """Whether this process runs inside Jupyter, in its terminal or in a notebook."""
     return any(name in os.environ for name in IN_JUPYTER)
 
 

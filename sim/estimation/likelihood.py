@@ -302,8 +302,8 @@ class PredictionErrorProblem:
             friction_offset=nuisance.friction_offset, lag_offset=nuisance.lag_offset, errors=errors,
         )  # fmt: skip
 
-    def _log_scale(self, kalman_filter: KalmanFilter) -> float:
-        """The log determinant, as -2 log L, of the innovations whose voltage is uncertain."""
+    def _compute_log_determinant(self, kalman_filter: KalmanFilter) -> float:
+        """Log det S, a term of -2 log L, of the innovations with an uncertain voltage."""
         if (schedule := self._schedule_gains(kalman_filter)) is None:
             return 0.0
         scales = schedule.scales[self.informative[schedule.uncertain]]
@@ -365,7 +365,7 @@ class PredictionErrorProblem:
             cost += sum(
                 (values[name] / sd) ** 2 for name, sd in self.select_priors(structure).items()
             )
-            cost += self._log_scale(kalman_filter)
+            cost += self._compute_log_determinant(kalman_filter)
         if not math.isfinite(cost):
             return nowhere
         return Estimate(*given, kalman_filter, innovations, cov, cost)

@@ -173,7 +173,7 @@ def shares_clock(log: Log) -> bool:
 
 
 def _compute_rows(run: Run, number: int, clock: float) -> Array:
-    """(7, n): run, clock, since, voltage, position, velocity, acceleration."""
+    """(7, n): run, time, time in the run, voltage, position, velocity, acceleration."""
     since = run.time - run.time[0]
     if len(run) < MIN_SAMPLES:
         return np.empty((7, 0))

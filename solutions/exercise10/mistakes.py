@@ -216,7 +216,7 @@ MISTAKES = (
     Mistake("kP as it was suggested", JAVA, change_gain("kP", lambda value: value.split(" ")[0]),
         "kp", "as the analyzer shows it", "M-UNITS"),
     Mistake("kP for another output", PYTHON, use_other_output, "kp", "the output is not", "M-DUTY"),
-    Mistake("kP as the last word", JAVA,
+    Mistake("kP without 'start here, then tune'", JAVA,
         replace_text(("the analyzer's suggestion: start here, then tune", "proportional gain")),
         "kp", "The number is right. Write in a comment"),
     Mistake("a kP that only running the code can tell", PYTHON,

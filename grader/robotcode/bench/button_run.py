@@ -168,7 +168,7 @@ class ButtonBench(Bench):
             "shared": tuple(shared),
         }
 
-    def look_last(self, facts: dict[str, Any]) -> None:
+    def record_last(self, facts: dict[str, Any]) -> None:
         """Record the bindings and commands that were made meanwhile."""
         facts |= {
             "routines": len(WORLD.routines),

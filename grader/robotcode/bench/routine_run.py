@@ -90,14 +90,14 @@ class Bench:
             self.look(facts)
         except StoppedError as stopped:
             facts["stop"] = stopped.stop
-        self.look_last(facts)
+        self.record_last(facts)
         return self.kind(season=self.subject.season, **self.subject.describe() | facts)
 
     def look(self, facts: dict[str, Any]) -> None:
         """Write down what happens as long as the program runs."""
         raise NotImplementedError
 
-    def look_last(self, facts: dict[str, Any]) -> None:
+    def record_last(self, facts: dict[str, Any]) -> None:
         """Record the state after the end of the program."""
         raise NotImplementedError
 
@@ -134,8 +134,8 @@ class RoutineBench(Bench):
         if "drive" in facts:
             facts["tests"] = dict(self._list_tests(facts))
 
-    def look_last(self, facts: dict[str, Any]) -> None:
-        """List the devices."""
+    def record_last(self, facts: dict[str, Any]) -> None:
+        """Record the devices."""
         facts["devices"] = self._list_devices()
 
     # -- what there is ----------------------------------------------------------------------

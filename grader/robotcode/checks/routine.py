@@ -350,7 +350,7 @@ def check_open_loop(facts: RoutineFacts) -> None:
 
 
 def check_assembled(facts: RoutineFacts) -> None:
-    """Raise ``WrongAnswer`` unless the parts of the routine are in their places."""
+    """Raise ``WrongAnswer`` unless a ``SysIdRoutine`` gets Config, Mechanism, subsystem."""
     this = "this" if facts.language == "java" else "self"
     if facts.swapped:
         raise fault("routine_swapped", facts.line)

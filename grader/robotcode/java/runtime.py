@@ -265,7 +265,7 @@ def get_static(cls: Any, name: str) -> Any:
 
 
 def _find_static_member(cls: Any, name: str) -> Any:
-    """A static member of a library's class, but none that only Python's own classes give it."""
+    """A static member of a library's class, without those that all Python classes have."""
     attribute = python_name(name)
     if not name.startswith("_"):
         if find_attribute(cls, name) is not None:

@@ -254,14 +254,14 @@ class StatementCompiler(ExpressionCompiler):
         left = self.frame.declare(f"{node.start_byte} left", "").slot
         primitive = kind if kind in PRIMITIVES else ""
 
-        def more(env: Env) -> bool:
+        def advance(env: Env) -> bool:
             for one in env[left]:
                 env[slot] = owner.convert(primitive, one) if primitive else one
                 return True
             return False
 
         self.frame.pop()
-        loop = self._compile_loop(more, turn, lambda _env: None)
+        loop = self._compile_loop(advance, turn, lambda _env: None)
 
         def run_loop(env: Env) -> Any:
             STATE.at = at

@@ -149,7 +149,7 @@ def _name(node: ast.Name, is_base: bool, call: ast.Call | None) -> str:  # noqa:
         return f"it gives {node.id} another name"
     if node.id == "getattr" and not _is_plain_getattr(call):
         return "it uses getattr with a name that cannot be read"
-    if node.id == "open" and not (_only_reads(call, mode_at=1) or _writes_notes(call)):
+    if node.id == "open" and not (_only_reads(call, mode_at=1) or _opens_named_text_file(call)):
         return "it writes a file that may be code"
     return ""
 
@@ -204,8 +204,8 @@ def _only_reads(call: ast.Call | None, *, mode_at: int) -> bool:
     ) and not any(isinstance(one, ast.Starred) for one in call.args)
 
 
-def _writes_notes(call: ast.Call | None) -> bool:
-    """Whether the file that is opened is named in the code, and is one for text."""
+def _opens_named_text_file(call: ast.Call | None) -> bool:
+    """Whether a call opens a text file whose name stands in the code."""
     name = call.args[0] if call is not None and call.args else None
     if not isinstance(name, ast.Constant) or not isinstance(name.value, str):
         return False

@@ -88,7 +88,7 @@ class DatasetPlace:
                 f"{list_first(sorted(foreign))}",
                 where=str(self.folder),
                 advice="Name another folder with -o, move these files away, or add --overwrite: it "
-                "replaces files, and the key no longer contains those that the spec lacks.",
+                "replaces files, and drops those that the spec lacks from the answer key.",
             )
         return kept
 

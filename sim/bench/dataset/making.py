@@ -168,7 +168,7 @@ def _describe_log(
 
 
 def _describe_interval(found: LogInterval, log: Log) -> dict[str, object]:
-    """A damaged interval in the final log, in which a later fault may remove or rename its run."""
+    """A damaged interval of the final log; later faults may have renamed or removed its run."""
     middle = (found.start + found.end) / 2.0
     inside = (n for n, run in enumerate(log.runs) if run.time[0] <= middle <= run.time[-1])
     number = None if found.run is None else next(inside, None)

@@ -111,7 +111,7 @@ def _convert_to_radians(turning: Fit, lever: float | None) -> Fit:
     if lever is None:
         raise BadRequest(
             "the log of turning contains the distance of the wheels, not the angle of the robot",
-            advice="Give --lever as well: trackwidth/√2 of a square swerve, half of it of a tank.",
+            advice="Give --lever as well: trackwidth/√2 of a square swerve, or /2 of a tank drive.",
         )
     found = _scale_gains(turning.in_units("meters"), lever)
     return replace(found, units="radians", log_units="radians")
@@ -143,7 +143,7 @@ def _refuse_unusable(turning: Fit, straight: Fit, *, mass: float, lever: float |
                 f"the log of going straight is in {straight.units}, so the lever cannot be "
                 "computed from the speeds"
             ),
-            advice="Give --lever as well: trackwidth/√2 of a square swerve, half of it of a tank.",
+            advice="Give --lever as well: trackwidth/√2 of a square swerve, or /2 of a tank drive.",
         )
     for what, one in (("turning", turning), ("going straight", straight)):
         low = [gain for gain in ("kV", "kA") if not one.gains[gain] > 0.0]

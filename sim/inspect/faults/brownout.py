@@ -203,17 +203,17 @@ def _fit_cut(features: LogFeatures, anomaly: Anomaly) -> tuple[float, int, int]:
     firsts = range(anomaly.first - margin, anomaly.first + 1, margin // 3)
     for first, end in product(firsts, ends.tolist()):
         if first >= anomaly.begin:
-            best = max(best, _try_cut(features, anomaly, first, end))
+            best = max(best, _score_power_cut(features, anomaly, first, end))
     _, first, last = best
     for end in range(max(last - margin, first + 1), min(last + margin, anomaly.end)):
-        best = max(best, _try_cut(features, anomaly, first, end))
+        best = max(best, _score_power_cut(features, anomaly, first, end))
     return best
 
 
-def _try_cut(
+def _score_power_cut(
     features: LogFeatures, anomaly: Anomaly, first: int, last: int
 ) -> tuple[float, int, int]:
-    """Share of an anomaly that a cut from sample ``first`` to before ``last`` explains; the cut."""
+    """Share of an anomaly that zero volts in samples [first, last) explain; and that range."""
     run, baseline = features.log.runs[anomaly.run], features.baseline
     if baseline is None:
         return 0.0, first, last

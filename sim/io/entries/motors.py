@@ -358,7 +358,7 @@ def _advise_logging(signal: str) -> str:
 
 
 def _find_similar_names(signal: str, entries: Sequence[Entry], mechanism: str) -> list[str]:
-    """Names of entries like those of signals, first those of this mechanism and this signal."""
+    """Names of entries that are similar to signals; those of this mechanism and signal first."""
 
     def rank_entry(entry: Entry) -> tuple[bool, bool, int]:
         name = entry.name.lower()

@@ -31,7 +31,7 @@ def update_memory(memory: float, dt: float, u: float, v: float, kv: float, rate:
 
 
 def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
-    """Parameters of a given size; size 1 is 10 % more resistance after 10 s of a quarter step."""
+    """Parameters of a given size; 1: 10 % more resistance after 10 s of a quarter step voltage."""
     return {"rate": 0.01 * size / (0.25 * scale.step) ** 2}
 
 

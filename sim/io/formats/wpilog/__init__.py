@@ -58,7 +58,7 @@ def read(path: Path, options: ReadOptions) -> dict[str, Log]:
     """
     where = str(path)
     named = set(options.entries.values())
-    found = read_contents(path, partial(_is_wanted, named=named))
+    found = read_contents(path, partial(_may_be_needed, named=named))
     damage, every = found.damage, found.list_entries()
     if not every:
         raise _make_unreadable_error(damage, found.end, where, "there is no record before it")
@@ -76,8 +76,8 @@ def read(path: Path, options: ReadOptions) -> dict[str, Log]:
     return {name: log.add_doubts(*doubts) for name, log in logs.items()}
 
 
-def _is_wanted(entry: Start, *, named: Collection[str]) -> bool:
-    """Whether the values of an entry may be needed; any text may name tests."""
+def _may_be_needed(entry: Start, *, named: Collection[str]) -> bool:
+    """Whether to read the values of an entry: signals, and all texts, which may name tests."""
     if entry.name in named or entry.type == STRING:
         return True
     return entry.type in NUMBERS and may_be_signal(entry.name, entry.metadata)
