@@ -53,8 +53,8 @@
 # <details><summary>Step 2: run the tests (this lesson)</summary>
 #
 # **What:** make five checks, run the four tests, fetch the log. **Why:** nothing steers during a
-# test. And the ramps show kS and kV, the steps show kA: without one of the tests, a gain is
-# missing.
+# test. And the ramps show kS and kV, the steps show kA: without both ramps or both steps, a
+# gain is missing.
 # </details>
 #
 # <details><summary>Step 3: inspect, then fit (lessons 6 and 7)</summary>

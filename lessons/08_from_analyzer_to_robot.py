@@ -243,7 +243,7 @@ print(f"kV by {share['kV']:+.1f} %, kA by {share['kA']:+.0f} %.")
 # - kS and kA: divide the gain in volts by the motor's resistance R = 12 V / (stall current).
 #
 # **Do it:** a flywheel with two Kraken X60 has kS = 0.12 V, and R is 0.033 Ω. How many amperes is
-# its kS? (3.7 A for each motor.) Then look into your team's code: which requests does it use, and
+# its kS? (3.6 A for each motor.) Then look into your team's code: which requests does it use, and
 # do the gains of their slot have the right unit?
 # </details>
 #

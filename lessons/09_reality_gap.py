@@ -467,10 +467,11 @@ search.compare_with(story.model.parts, "reconcile")
 # `EffectSearch(sim.read("monday.wpilog"), validation=sim.read("faster.wpilog"))`.
 
 # %%
-mine = sorted(Path("..", "exercises", "exercise12", "data").glob("*/log.wpilog"))
+mine = list(Path("..", "exercises", "exercise12", "data").glob("*/log.wpilog"))
 if mine:
-    print(f"The logs in {mine[0].parent}:")
-    display(EffectSearch.read(mine[0].parent))
+    newest = max(mine, key=lambda path: path.stat().st_mtime).parent
+    print(f"The logs in {newest}:")
+    display(EffectSearch.read(newest))
 else:
     print("No log of your own yet. Make it in a terminal, in the course's folder:  grade start")
 

@@ -153,7 +153,8 @@ def check_order(one: Gains, seen: Seen, *, points: float) -> None:
     """
     given = {GRAVITY.get(n, n): value for n, value in one.gains.items() if n not in SETTINGS}
     places = seen.variant.gains if one.kind in PLACES else CLASSES[one.kind]
-    lacking = [place for place in places if given.get(place, 0.0) == 0.0]
+    needed = (place for place in places if place in seen.variant.gains)
+    lacking = [place for place in needed if given.get(place, 0.0) == 0.0]
     for place, number in given.items():
         value = seen.get_value(number, f"{place} of {_locate(one)}")
         gain = seen.find_gain(value, place)

@@ -209,11 +209,12 @@ def _read_value(name: str, given: Mapping[str, object], key: AnswerKey) -> float
 
 def _describe_wrong_number(name: str, value: float, slips: tuple[WrongNumber, ...]) -> str:
     if slips:
-        return (
+        said = (
             "; or ".join(slip.says for slip in slips)
             .replace("?; or about", "? Or it is about")
             .replace("?; or ", "? Or: ")
         )
+        return said if "?" in said or slips[0].code == "sign" else f"most likely, {said}"
     if value < 0:
         return (
             f"{name} cannot be negative. Check the signs in your calculation. If every gain of a "

@@ -38,6 +38,7 @@ def write_headline(story: Story) -> str:
 def _write_verdict(story: Story) -> str:
     found = [one for one in story.findings if one.kind == FAULT]
     remains = story.remainder and story.verdict != NOTHING_MISSING
+    remains = remains and not story.gap_after <= story.noise_floor  # nothing is seen to remain
     added = {one.added for one in story.chapters[1:]}
     suspected = [one for one in found if one.size == MINOR and remains and one.effect not in added]
     faults = [one for one in found if one not in suspected]
@@ -66,7 +67,7 @@ def _write_verdict(story: Story) -> str:
         return f"{damaged} Apart from that, {rest}."
     if faults:
         said.append(damaged)
-    if majors and story.remainder and story.complete and story.verdict != UNEXPLAINED:
+    if majors and remains and story.complete and story.verdict != UNEXPLAINED:
         said.append("Something else remains that no known effect explains.")
     if suspected:
         names = join_names([one.effect for one in suspected])

@@ -209,7 +209,6 @@ def describe_fit(
         "doubts": _describe_doubts(found.list_doubts(), one),
         "notes": [] if chosen else list(pooled.notes),
         "tracks": _list_tracks(chosen, log) if chosen else None,
-        "gap": finite_or_none(chosen.gap) if chosen else None,
         "parts": [] if chosen else sorted(part.effect for part in found.parts),
         "lag": found.position_delay if found.position_delay > LAGS else 0.0,
         "window": max(2.0 * (found.velocity_delay - found.position_delay), 0.0),
@@ -261,15 +260,16 @@ def _describe_starts(found: Fit, log: Log, reading: Reading) -> dict[str, Any]:
     rest = replace(log, runs=tuple(piece for _, piece in pieces))
     top = log.top_speed / find_unit(log.units).si  # a share of it stays comparable
     try:
-        replays = iter(replay_fit(found, rest))
+        done = replay_fit(found, rest)
+        whole = replay_fit(found, log) if reading.left_out else done  # its noise stays the same
     except BadRequest:  # the doubts say which gain is below zero
         return {"starts": [], "noise": None, "top": top}
     starts: list[list[dict[str, float]]] = [[] for _ in log.runs]
-    noise = None
+    replays = iter(done)
+    noise = max(whole[0].velocity_noise, LEAST_FLOOR * log.top_speed) if done else None
     for k, piece in pieces:
         replay = next(replays, None) if len(piece) >= MIN_SAMPLES else None
         if replay is not None:
-            noise = max(replay.velocity_noise, LEAST_FLOOR * rest.top_speed)
             start = {
                 "first": int(np.searchsorted(log.runs[k].time, replay.run.time[0])),
                 "count": len(replay.run),

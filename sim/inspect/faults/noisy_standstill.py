@@ -17,6 +17,7 @@ from dataclasses import replace
 import numpy as np
 
 from sim.core.log import Array, Log
+from sim.core.units import find_unit
 from sim.fit.sysid_rows import estimate_noise_floor
 from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterval
 from sim.inspect.log_features import LogFeatures
@@ -46,7 +47,7 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
 
 def detect(features: LogFeatures) -> Iterable[Damage]:
     """Find velocity noise at the start of ramps, while the position does not change."""
-    top = features.log.top_speed
+    top, unit = features.log.top_speed, find_unit(features.log.units)
     rests = {}
     for index, run in enumerate(features.log.runs):
         still = features.rest_lengths[index] if run.kind == "quasistatic" else 0
@@ -60,14 +61,15 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
         run = features.log.runs[index]
         threshold = estimate_noise_floor(run.velocity)
         passed = int(np.sum(np.abs(rest) >= threshold))
+        speeds = (f"{v / unit.si:.3g} {unit.symbol}/s" for v in (noise, threshold, 3.0 * noise))
+        shown, own, wanted = speeds
         yield Damage(
             where=LogInterval.of_samples(index, run, last=rest.size - 1),
             confidence=confidence,
             evidence=f"The position does not change for {rest.size} samples, but the velocity "
-            f"reads about ±{noise:.3g} per second. In {passed} of these samples the velocity is "
-            f"above {threshold:.3g}, SysId's own threshold for this test, so SysId thinks that the "
-            "mechanism moves.",
-            advice=f"Set the velocity threshold by hand, to about {3.0 * noise:.2g}, or cut what "
+            f"reads about ±{shown}. In {passed} of these samples the velocity is above {own}, "
+            "SysId's own threshold for this test, so SysId thinks that the mechanism moves.",
+            advice=f"Set the velocity threshold by hand, to about {wanted}, or cut what "
             "comes before the motion.",
         )
 

@@ -17,6 +17,7 @@ from dataclasses import replace
 import numpy as np
 
 from sim.core.log import Array, Log, Run, find_majority_sign
+from sim.core.units import Unit, find_unit
 from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterval, damage_runs
 from sim.inspect.log_features import Flags, LogFeatures
 
@@ -56,7 +57,8 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
         if against_slope:
             said.append("the velocity has the sign opposite to the slope of the position")
         if said:
-            yield _damage(index, run, said, velocity_only=against_slope)
+            unit = find_unit(features.log.units)
+            yield _damage(index, run, said, unit, velocity_only=against_slope)
 
 
 def _find_large(values: Array) -> Flags:
@@ -91,7 +93,7 @@ def _falls_by_gravity(run: Run, log: Log) -> bool:
     return False
 
 
-def _damage(index: int, run: Run, said: list[str], *, velocity_only: bool) -> Damage:
+def _damage(index: int, run: Run, said: list[str], unit: Unit, *, velocity_only: bool) -> Damage:
     """The damage of a run; ``said`` are the observations."""
     volts, speed = _compute_median_of_large(run.voltage), _compute_median_of_large(run.velocity)
     cure = (
@@ -105,8 +107,8 @@ def _damage(index: int, run: Run, said: list[str], *, velocity_only: bool) -> Da
         where=LogInterval.of_samples(index, run),
         confidence=0.95,
         evidence=f"{' and '.join(said).capitalize()}: at {volts:.3g} V the velocity is "
-        f"{speed:.3g} per second, while the position changes by "
-        f"{run.position[-1] - run.position[0]:.3g}.",
+        f"{speed / unit.si:.3g} {unit.symbol}/s, while the position changes by "
+        f"{(run.position[-1] - run.position[0]) / unit.si:.3g} {unit.symbol}.",
         advice=f"{cure}, and log the voltage with its sign. Then record again, or change the "
         "sign in the log.",
     )

@@ -17,6 +17,7 @@ from dataclasses import replace
 import numpy as np
 
 from sim.core.log import MOVING, Log, Run
+from sim.core.units import Unit, find_unit
 from sim.inspect.fault import (
     Damage,
     DamagedLog,
@@ -67,7 +68,9 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
                 continue
             hidden = _compute_hidden_distance(run, int(first), last, step=features.position_step)
             if hidden > 0.0:
-                yield _damage(index, run, int(first), last, hidden)
+                yield _damage(
+                    index, run, int(first), last, hidden, unit=find_unit(features.log.units)
+                )
 
 
 def _measure_usual_hold(run: Run) -> float:
@@ -89,16 +92,17 @@ def _compute_hidden_distance(run: Run, first: int, last: int, *, step: float) ->
     return predicted if moved else 0.0
 
 
-def _damage(index: int, run: Run, first: int, last: int, hidden: float) -> Damage:
+def _damage(index: int, run: Run, first: int, last: int, hidden: float, *, unit: Unit) -> Damage:
     """The damage of a freeze from sample ``first`` to ``last``, with its distance [m or rad]."""
     where = LogInterval.of_samples(index, run, first, last)
     return Damage(
         where=where,
         confidence=0.95,
         evidence=f"For {where.end - where.start:.2f} s the sensor repeats one reading (position "
-        f"{run.position[first]:.4g}, velocity {run.velocity[first]:.4g}), and then "
-        f"jumps. The mechanism moved by {hidden:.3g} in that time, and the log does not"
-        " show it.",
+        f"{run.position[first] / unit.si:.4g} {unit.symbol}, velocity "
+        f"{run.velocity[first] / unit.si:.4g} {unit.symbol}/s), and then jumps. The mechanism "
+        f"moved by {hidden / unit.si:.3g} {unit.symbol} in that time, and the log does not show "
+        "it.",
         advice="Check the sensor's plug and the CAN error counters, and run this test again. "
         "Until then, cut the run where the sensor starts to repeat.",
     )

@@ -17,10 +17,12 @@ let role = "voltage"; // whose candidates are listed
 
 /** Show the choices of a log: a button for each role, and the candidates of one role. */
 export function showChoice() {
-  const { name, runs, choice: { why, columns } } = shownLog();
+  const { name, runs, choice: { why, columns, chosen, entries } } = shownLog();
   at("choose-why").textContent = `${name}: ${why}`;
   at("choose-back").hidden = !runs;
   role = "voltage";
+  // A column has to be chosen, even if its name is likely.
+  for (const [one] of columns ? ROLES : []) if (unchosen(one) === "Found by its name") chosen[one] ??= entries.find(({ signal }) => signal === one).name;
   at("roles").replaceChildren(...ROLES.filter(([one]) => one !== "time" || columns).map(([value, words]) => {
     const onchange = () => { role = value; showCandidates(); };
     return make("label", "", make("input", { type: "radio", name: "role", value, checked: value === role, onchange }), words, make("span"));

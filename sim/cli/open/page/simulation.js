@@ -25,5 +25,5 @@ export function simulate(log, gains) {
     }
     return { first, velocity };
   });
-  return log.fit.gap ?? (count ? Math.sqrt(sum / count) : null); // that of effects is the story's
+  return count ? Math.sqrt(sum / count) : null;
 }

@@ -88,11 +88,10 @@ function searchForm(search, others, begin) {
 
 /** The gap of each model as a bar, in times the noise; 1 is noise alone. */
 function gapBars({ gaps, findings }) {
-  const damaged = findings.some(({ kind }) => kind === "fault");
   const most = Math.max(1, ...gaps.map(({ gap }) => gap ?? 0));
   const rows = gaps.map(({ name, text, gap }, k) => make("div", k === gaps.length - 1 && (gap ?? most) < (gaps[k - 1]?.gap ?? 0) ? "last" : "",
     make("span", "", name), make("i", { style: `--share: ${(gap ?? most) / most}` }), make("b", "", text)));
-  return make("div", "gaps", make("p", "quiet", `Simulation error, in times the noise of the velocity${damaged ? ", without the damaged parts" : ""}`), rows);
+  return make("div", "gaps", make("p", "quiet", `Simulation error at new samples${findings.some(({ kind }) => kind === "fault") ? " outside the damaged parts" : ""}, in times the noise of the velocity; above, it is over all samples`), rows);
 }
 
 at("look").addEventListener("click", () => {
