@@ -589,8 +589,8 @@ print(f"Their factor is {per_rotation / per_radian:.4f}. 2π is {2 * math.pi:.4f
 # **Myth check.** "A SysId test *bypasses* all limits: no limit works during a test." *This is only
 # partly true.* During a test, the subsystem's other *commands* do not run, nor does their safety
 # code. Limits **inside the motor controller** still work if you set them up, and that is your job.
-# A limit in the motor controller protects the robot. But while it acts, you measure the limit and not
-# the motor.
+# A limit in the motor controller protects the robot. But while it acts, you measure the limit and
+# not the motor.
 #
 # <details><summary>For mentors: which limits does a test bypass?</summary>
 #
