@@ -216,7 +216,7 @@ def test_a_fast_mechanism_gets_wider_bands_for_ka():
         ("kV", {"kV": 0.035, "kA": 0.13}, ""),
     ],
 )
-def test_a_slip_is_named(name, answers, reads, misconception):
+def test_a_known_mistake_is_named(name, answers, reads, misconception):
     caught = wrong(name, answers, FLYWHEEL_KEY)
 
     reads(caught.hint)

@@ -95,14 +95,14 @@ def test_file_that_appears_during_the_run_is_not_overwritten(tmp_path, reads):
     assert read_all(tmp_path / "data") == {"log-01.csv": b"ours", "log-02.csv": b"somebody else's"}
 
 
-def test_a_changed_file_is_foreign_too(tmp_path, capsys, reads):
+def test_a_file_that_was_edited_is_kept(tmp_path, capsys, reads):
     path = spec(tmp_path)
     (make_dataset(path) / "log-01.wpilog").write_bytes(b"changed by a student")
 
     reads(refused(capsys, path, "-o", tmp_path / "data"))
 
 
-def test_logs_removed_from_the_spec_stay_in_the_key_without_the_option(tmp_path, capsys, reads):
+def test_logs_removed_from_the_spec_stay_in_the_key_without_overwrite(tmp_path, capsys, reads):
     folder = make_dataset(spec(tmp_path, DAMAGED))
     fewer = spec(tmp_path, DAMAGED.replace('"ann", ', ""))
 

@@ -301,7 +301,7 @@ def test_a_damaged_engine_is_never_loaded(cache, damage):
     assert link_code(ObjectCode.from_bytes(kept.read_bytes()))
 
 
-def test_where_object_files_do_not_work_the_compiler_keeps_its_own(cache, tmp_path):
+def test_engine_without_object_files_uses_the_cache_of_numba(cache, tmp_path):
     (kept,) = cache.glob("*.kernel")
     (tmp_path / kept.name).write_bytes(NO_USE)
 

@@ -61,7 +61,7 @@ def test_the_term_may_be_written_in_many_ways(copy, written):
 
 
 @pytest.mark.parametrize("student", CLASS[:12])
-def test_a_speed_left_out_a_voltage_beyond_any_battery_and_swapped_gains_are_named(copy, student):
+def test_feedback_names_missing_speed_impossible_voltage_and_swapped_gains(copy, student):
     variant = OWN.module.draw(student)
     kick, _, push = variant.terms("accelerating")
     gains, at = variant.gains, variant.moments["braking"]

@@ -40,10 +40,10 @@ class Variant:
         analysis: what the analyzer was told it is: ``Simple``, ``Elevator``, ``Arm``.
         shown: the gains, and kP, as the analyzer shows them.
         shown_in: the unit of position they are made for: ``Rotations``.
-        used_in: the one that the robot's code counts in.
+        used_in: the one in which the gains are used, in the code or in ``place``.
         duty: whether the velocity loop puts out a duty cycle, and not volts.
         ratio: turns of the motor for one turn of the mechanism.
-        radius: [m] of wheel or drum; 0 of what turns.
+        radius: [m] of wheel or drum; 0 if the mechanism turns.
         place: the class of the motor controller that holds the gains; empty in the roboRIO.
         coded_in: the unit that the robot's code counts in, whatever the place counts in.
     """

@@ -88,9 +88,10 @@ class Answers:
         name = Path(named.replace("\\", "/")).name if isinstance(named, str) and named else usual
         return self.folder / name
 
-    def _read(self, place: str, room: ModuleType) -> object:
+    def _read(self, place: str, checks: ModuleType) -> object:
+        """A file of the answers, read by the checks of the exercise that it belongs to."""
         try:
-            return room.read(self.find_file(place), student=self.student, run=self.run)
+            return checks.read(self.find_file(place), student=self.student, run=self.run)
         except Refusal as refusal:
             raise NotReachedError(str(refusal)) from None
         except WrongAnswer as wrong:
@@ -191,22 +192,22 @@ def read(path: Path, *, student: str, run: bool = True) -> Answers:
 
 
 def _borrow_checks(
-    room: ModuleType, part: str, *, step: str, leave: tuple[str, ...] = ()
+    checks: ModuleType, part: str, *, step: str, leave: tuple[str, ...] = ()
 ) -> tuple[Check[Answers], ...]:
     """Let the checks of another exercise look at a part of the answers."""
     ours: dict[str, Check[Answers]] = {}
-    for one in find_checks(room):
+    for one in find_checks(checks):
         if one.id in leave:
             continue
 
-        def look(answers: Answers, theirs: Check[Any] = one) -> str | None:
-            if room is FOURTH and theirs.id in {"log", "units"} and _logs_by_itself(answers):
+        def judge_part(answers: Answers, theirs: Check[Any] = one) -> str | None:
+            if checks is FOURTH and theirs.id in {"log", "units"} and _logs_by_itself(answers):
                 return OWN_LOG
             return theirs.judge(getattr(answers, part))
 
         before = tuple(ours[first.id] for first in one.after)
         ours[one.id] = make_check(
-            f"{step}-{one.id}", one.description, look, points=one.points, after=before
+            f"{step}-{one.id}", one.description, judge_part, points=one.points, after=before
         )
     return tuple(ours.values())
 

@@ -123,7 +123,7 @@ def _list_starter_lines(exercise: Exercise) -> frozenset[str]:
 
 
 def find_foreign_logs(handed_in: Sequence[Submission], packages: Path) -> tuple[str, ...]:
-    """Logs that a class made for one student and another handed in, one line each.
+    """Logs made for one student and handed in by another, one line each.
 
     Args:
         handed_in: by everybody.

@@ -225,16 +225,16 @@ def _read_content(name: str, path: Path, course: Path) -> bytes:
 
 
 def strip_notebook(content: bytes, *, name: str, course: Path) -> bytes:
-    """A notebook as it was made from its source: no outputs, no metadata of Jupyter's.
+    """A notebook without outputs and without Jupyter's metadata.
 
     Args:
         content: of the notebook's file.
         name: of the notebook, for a refusal.
-        course: the course folder, for the same.
+        course: the course folder, for a refusal.
 
     Raises:
-        BadRequest: it is no notebook, or a cell is not as it was derived; a cell's id is made of a
-            digest of its text.
+        BadRequest: it is no notebook, or a cell was changed: its id, a digest of its text, does not
+            fit.
     """
     from nbformat import reads, v4, writes  # noqa: PLC0415 - only who packs a course needs it
 

@@ -72,7 +72,7 @@ def read(
 
 
 def read_with(path: str | os.PathLike[str], options: ReadOptions) -> Log:
-    """Read a log as ``read`` does.
+    """Read a log as ``read`` does, with options that are collected already.
 
     Raises:
         Refusal: as ``read``.

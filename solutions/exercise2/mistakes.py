@@ -25,8 +25,8 @@ def flag(text: str) -> str:
     return make_wrong_answer("ks_flag", '"stop"' if '"stop"' not in text else '"fine"')(text)
 
 
-def put_wires_first(text: str) -> str:
-    """A wrench in hand before the numbers were checked, on a sound mechanism or not."""
+def inspect_parts_first(text: str) -> str:
+    """Causes in a wrong order: parts to open before numbers to check."""
     sound = 'verdict = "ok"' in text
     found = re.search(r'^inspection = .*?"(.+?)"', text, re.MULTILINE)
     first = found[1] if found else ""
@@ -79,7 +79,7 @@ MISTAKES = (
         "inspection", "friction that needs the same voltage at"),
     Mistake("noise", ANSWERS, write_causes("sensor-noise", "gear-ratio", "logged-voltage"),
         "inspection", "noise goes to both sides; it does"),
-    Mistake("wires before numbers", ANSWERS, put_wires_first, "inspection",
+    Mistake("wires before numbers", ANSWERS, inspect_parts_first, "inspection",
         "Check the easiest first"),
     Mistake("one cause only", ANSWERS, write_causes("motor-type"), "inspection",
         "name at least 2 causes"),

@@ -30,7 +30,7 @@ MISTAKES = (
     Mistake("no kP noted", ANSWERS, make_wrong_answer("kP", '""'), "gains-kp", "nothing yet"),
     Mistake("R² in percent", ANSWERS, scale_numbers(100.0, "simulated_velocity_r2"), "r2",
         "write a fraction, not percent", "M-R2"),
-    Mistake("an output for the theory's volts", ANSWERS, scale_numbers(1 / 12, "kV_theory"),
+    Mistake("a theoretical kV as a duty cycle", ANSWERS, scale_numbers(1 / 12, "kV_theory"),
         "theory-kv-theory", "volts", "M-DUTY"),
     Mistake("a wrong verdict", ANSWERS, make_wrong_answer("verdict", '"inspect"'), "theory-verdict",
         "with its sign"),

@@ -176,7 +176,7 @@ class JavaSubject(Subject):
 
     @staticmethod
     def refill() -> None:
-        """Give the program the steps of one more loop."""
+        """Give the program a new budget of steps, for the next loop."""
         STATE.refill()
 
     @staticmethod

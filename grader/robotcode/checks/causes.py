@@ -37,8 +37,8 @@ def fault(kind: str, line: int = 0, *, earned: float = 0.0, **values: object) ->
     Args:
         kind: its row there.
         line: of the code that does it; 0 if there is none to name.
-        earned: points all the same.
-        values: what the words leave open.
+        earned: points that are given in spite of it.
+        values: for the gaps in its words.
     """
     row, values = FAULTS[kind], values | {"at": quote(line), "line": line}
     whole = {part: re.sub(r"\{(\w+)\}", _put_phrase, text) for part, text in row.items()}
@@ -63,7 +63,7 @@ def ask_for_files(unknown: Mapping[str, int], earned: float = 0.0) -> None:
 
     Args:
         unknown: a name, and the line that uses it.
-        earned: points all the same.
+        earned: points that are given in spite of it.
 
     Raises:
         WrongAnswer: there is such a name.
@@ -77,7 +77,7 @@ def check_compiles(facts: ProgramFacts, *, earned: float = 0.0) -> None:
 
     Args:
         facts: the run.
-        earned: points all the same.
+        earned: points that are given in spite of it.
     """
     if facts.errors:
         one, count = facts.errors[0], len(facts.errors)
@@ -97,7 +97,7 @@ def check_stop(facts: ProgramFacts, *places: str, earned: float = 0.0) -> None:
     Args:
         facts: the run.
         places: of ``WHEN``, at which it may have stopped; none are all.
-        earned: points all the same.
+        earned: points that are given in spite of it.
     """
     stop = facts.stop
     if stop is None or (places and stop.where not in places):

@@ -56,10 +56,9 @@ class Source:
 
     @cached_property
     def root(self) -> Node | None:
-        """The tree; None where repairing the text would take the parser out of all proportion.
+        """The tree; None where error recovery would take the parser too long.
 
-        The beginning is tried first, then twice as much each time, so that what comes next never
-        costs much more than four times what was still in proportion.
+        Beginnings of doubling length are parsed first, so that the cost of all is bounded.
         """
         source, length = self.text.replace("\0", " ").encode("utf-8", errors="replace"), FIRST
         while length < len(source):

@@ -295,7 +295,7 @@ def _add_axis(cls: type, name: str, number: int) -> None:
 
 
 def _make_controller(name: str, first: int, buttons: str, axes: str) -> None:
-    """Make the two classes of a controller: one to ask, and one with triggers."""
+    """Make the two classes of a controller: one that is polled, and one with triggers."""
     numbers = {f"k{button}": number for number, button in enumerate(buttons.split(), first)}
     places = {f"k{axis}": number for number, axis in enumerate(axes.split())}
     enums = {"Button": Enum("Button", numbers), "Axis": Enum("Axis", places)}

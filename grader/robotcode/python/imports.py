@@ -28,7 +28,7 @@ PROPERTIES = frozenset(TABLES["python"]["properties"].split())
 
 
 def rename(name: str) -> str:
-    """A name as the program has it while it runs."""
+    """The name under which a private name runs: no outside code can use it."""
     private = name.startswith("_") and not name.startswith("__") and not name.endswith("_")
     return MARK + name[1:] if private and name not in NOT_PRIVATE else name
 

@@ -171,7 +171,7 @@ def _doubt_lever(turn: Fit, go: Fit, from_speeds: float, lever: float) -> Iterat
     cause = min(near)[1] if near else "the lever, the wheel's radius or a unit is wrong"
     yield Doubt(
         "lever",
-        f"kV turning / kV straight is the lever: your logs give {from_speeds:.3g} m, but you "
-        f"gave {lever:.3g} m. Probably {cause}.",
+        f"kV turning / kV straight is the lever (half the trackwidth in a tank drive): your logs "
+        f"give {from_speeds:.3g} m, but you gave {lever:.3g} m. Probably {cause}.",
         grave=True,
     )

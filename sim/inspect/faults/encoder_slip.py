@@ -133,7 +133,7 @@ def _search_spans(anomaly: Anomaly, *, fading: bool, margin: int) -> tuple[float
 def _measure_loss(
     anomaly: Anomaly, span: tuple[int, int], *, fading: bool
 ) -> tuple[float, float, int, int]:
-    """How well a loss of speed over a span explains an anomaly: share, loss [share], the span.
+    """Share of an anomaly that a loss of speed explains, the loss [share of the speed], its span.
 
     ``fading`` is a loss that grows and fades; otherwise it is constant over the span.
     """

@@ -132,7 +132,7 @@ def _scale_signals(
 
 
 def _list_needed(signals: Iterable[str]) -> list[str]:
-    """Those of the signals without which a sample is left out."""
+    """The required signals: a sample that lacks one is left out."""
     return [name for name in NEEDED if name in signals]
 
 
