@@ -5,6 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from sim.core.doubt import Doubt
+from sim.core.units import find_unit
 from sim.fit.sysid_rows import estimate_noise_floor
 from sim.inspect.log_features import MIN_SAMPLES, LogFeatures
 from sim.inspect.log_units import FAR
@@ -54,9 +55,10 @@ def check_rest_noise(features: LogFeatures) -> Iterator[Doubt]:
     counted = sum(int(np.sum(np.abs(run.velocity) >= threshold)) for run in ramps)
     if passed <= PASSES * counted:
         return
+    unit = find_unit(features.log.units)
     yield Doubt(
         "standstill-counted",
         f"SysId thinks that the mechanism moves in {counted} quasistatic samples. In {passed} "
         "of them it stands still, but the noise of the velocity is above SysId's threshold of "
-        f"{threshold:.2g}. Set the threshold by hand, above the noise.",
+        f"{threshold / unit.si:.2g} {unit.symbol}/s. Set the threshold by hand, above the noise.",
     )
