@@ -55,7 +55,7 @@ def _draw_variant(rng: np.random.Generator) -> Variant:
 
 
 def _is_clear(variant: Variant) -> bool:
-    """Whether no known mistake earns points, and those with other advice give other numbers."""
+    """Whether no known mistake earns points, and different mistakes give different numbers."""
     for name, looks in list_lookalikes(variant).items():
         asked = variant.asked[name]
         partial = 1.2 * asked.band.widths(asked.expected)[1]

@@ -163,7 +163,7 @@ def explain_wrong_number(name: str, value: float, key: AnswerKey) -> tuple[Wrong
 
 
 def _is_rounded(value: float, asked: AskedNumber) -> bool:
-    """Whether a number is the right one, rounded to fewer digits: then no wrong recipe made it."""
+    """Whether a number is the right one, rounded to the digits that the learner wrote."""
     return round(asked.expected, len(repr(value).partition(".")[2])) == value
 
 

@@ -1,1 +1,1 @@
-"""An exercise: its folder, its mistakes, its starting file, and whether an addition is whole."""
+"""An exercise: its folder, its mistakes, its starting file, and the check of a new one."""

@@ -72,7 +72,7 @@ def read(
 
 
 def read_with(path: str | os.PathLike[str], options: ReadOptions) -> Log:
-    """Read a log as ``read`` does, with options that are collected already.
+    """Read a log as ``read`` does, with its options in one object.
 
     Raises:
         Refusal: as ``read``.

@@ -117,8 +117,8 @@ def list_driven(facts: RoutineFacts) -> list[DeviceFacts]:
     """The motors that the test has to move.
 
     While a swerve drive goes straight, a closed loop holds its steering: such a motor gets closed
-    loops in every test and no voltage, and others of the subsystem are driven. A motor of which
-    the task says how it is mounted is no such motor.
+    loops in every test and no voltage, and others of the subsystem are driven. A motor whose
+    mounting the task describes is no steering motor.
     """
     motors = list(facts.motors.values())
     kinds = {one.name: {sent.kind for sent in _list_sent(one, facts)} for one in motors}

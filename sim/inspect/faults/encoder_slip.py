@@ -133,7 +133,7 @@ def _search_spans(anomaly: Anomaly, *, fading: bool, margin: int) -> tuple[float
 def _measure_loss(
     anomaly: Anomaly, span: tuple[int, int], *, fading: bool
 ) -> tuple[float, float, int, int]:
-    """Share of an anomaly that a loss of speed explains, the loss [share of the speed], its span.
+    """Fit a loss of speed: explained share of the anomaly, loss [share of the speed], samples.
 
     ``fading`` is a loss that grows and fades; otherwise it is constant over the span.
     """
