@@ -61,7 +61,7 @@ def slowed(run):
 
 
 PLANTED = {
-    "velocity-lags": (
+    "velocity-lag": (
         lambda: each(drawn("drivetrain"), lambda run: late(run, by=0.112)),
         "REV's own encoder of a NEO",
     ),

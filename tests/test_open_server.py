@@ -13,7 +13,6 @@ from open_page import BROKEN, ask, ask_json, drive_log, served, slipped_log, wri
 from sysid_process import run_sysid
 
 from sim.cli import sysid
-from sim.cli.open.page_data import replace_gains
 from sim.cli.open.session import LiveView, Session
 from sim.core.doubt import Doubt
 from sim.core.units import TURN
@@ -22,6 +21,7 @@ from sim.fit import Fit, fit
 from sim.fit.physics import Parts
 from sim.io import read
 from sim.physics.motors import MOTORS
+from sim.reconcile.gains import replace_gains
 from sim.support.command_line import run_command
 
 pytestmark = pytest.mark.slow

@@ -167,7 +167,7 @@ def test_real_logs_get_no_invented_faults(inspected, name):
 @pytest.mark.parametrize("name", [name for name, seen in LOOKED_AT.items() if seen.lag is not None])
 def test_the_delay_of_the_velocity_is_found_and_none_made_up(inspected, name):
     lag = LOOKED_AT[name].lag
-    said = [doubt for doubt in inspected[name].doubts if doubt.code == "velocity-lags"]
+    said = [doubt for doubt in inspected[name].doubts if doubt.code == "velocity-lag"]
 
     if not lag:
         assert said == []

@@ -67,8 +67,15 @@ class LogReader(ReadOptions):
         Raises:
             Refusal: the file cannot be read.
         """
-        logs = read_motors(file, self)
-        return {name: _check_signals(self._scale_velocity(log)) for name, log in logs.items()}
+        return mend_parts(self.read_motors(file))
+
+    def read_motors(self, file: Path) -> dict[str, Log]:
+        """The logs in one file as they were recorded, by the name of the mechanism, side or motor.
+
+        Raises:
+            Refusal: the file cannot be read.
+        """
+        return {name: self._scale_velocity(log) for name, log in read_motors(file, self).items()}
 
     def _scale_velocity(self, log: Log) -> Log:
         """The log with the velocity times the factor that the user gave."""
@@ -79,6 +86,11 @@ def _check_signals(log: Log) -> Log:
     """The log, repaired where that is possible, with doubts about wrong units."""
     mended = leave_out_falls(mend_motion(log))
     return mended.add_doubts(*doubt_units(mended))
+
+
+def mend_parts(parts: Parts) -> dict[str, Log]:
+    """The log of each part, repaired where that is possible, with doubts about wrong units."""
+    return {name: _check_signals(log) for name, log in parts.items()}
 
 
 def list_parts(logs: Sequence[tuple[Path, Parts]]) -> Parts:

@@ -1,12 +1,17 @@
 """The gains that reconcile reports: with the effects that it found, and without them."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 
+from sim.core.doubt import Doubt
 from sim.core.units import Unit, convert_gains
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.run_variation import compute_run_variation_covariance
+from sim.fit import Fit
+from sim.fit.fit_doubts import MISFIT
 from sim.fit.output_error import compute_gains_with_errors
 from sim.fit.result import format_gain_unit
+from sim.physics.model import Part
 from sim.reconcile.recordings import Recordings
 from sim.reconcile.story import ParameterEstimate
 
@@ -36,6 +41,26 @@ def fit_without_effects(
     if found is None:
         return estimate_gains(problem, base, recordings.unit)
     return _make_estimates(found.gains, found.errors, recordings.unit)
+
+
+def replace_gains(
+    plain: Fit,
+    gains: Mapping[str, ParameterEstimate],
+    parts: tuple[Part, ...],
+    doubts: tuple[Doubt, ...],
+) -> Fit:
+    """A fit with the gains, effects and doubts of a model with effects, in the same unit.
+
+    That the model without effects misses the log says nothing about these gains, unless it is
+    grave; everything else that is doubted of the log still holds.
+    """
+    return replace(
+        plain,
+        gains={name: one.value for name, one in gains.items()},
+        errors={name: one.error for name, one in gains.items() if one.error is not None},
+        parts=parts,
+        doubts=(*(one for one in plain.doubts if one.grave or one.code not in MISFIT), *doubts),
+    )
 
 
 def _make_estimates(

@@ -242,8 +242,14 @@ def list_next_tests(story: Story) -> tuple[str, ...]:
 
 
 def list_remarks(story: Story) -> tuple[str, ...]:
-    """Remarks: what remains, and the notes."""
-    return (*((story.remains,) if story.remains else ()), *story.notes)
+    """Remarks: what remains, what the fit has beyond the base model, and the notes."""
+    added = {one.added for one in story.chapters[1:]}
+    lags = sorted(added & SENSOR_LAGS) if added - SENSOR_LAGS else []
+    base = (
+        f"The base model has the gains alone. The fit has {join_names(lags)}, too, so its "
+        "simulation error is smaller."
+    )
+    return (*filter(None, (story.remains, base if lags else "")), *story.notes)
 
 
 def _describe_complete_model(story: Story) -> str:

@@ -29,17 +29,15 @@ from sim.fit.feedback_trial import (
     format_gain_pair,
     try_feedback_gains,
 )
-from sim.fit.fit_doubts import MISFIT
 from sim.fit.physics import Parts
 from sim.fit.physics.parts import check_radius_unit
 from sim.fit.replay import replay_fit
 from sim.inspect.detect_faults import Inspection
 from sim.io.entries.entry import NUMBERS, SECOND, STRING, Entry
 from sim.physics.engine import engine_can_compile, engine_is_cached
-from sim.physics.model import Part
 from sim.physics.motors import MOTORS, find_motor
+from sim.reconcile.gains import replace_gains
 from sim.reconcile.model_variant import ModelVariant
-from sim.reconcile.story import ParameterEstimate
 from sim.reconcile.thresholds import LEAST_FLOOR
 from sim.report.fit_terminal import format_gains
 from sim.report.gain_verdicts import judge_gains, write_gain_verdict
@@ -457,23 +455,3 @@ def _without_path(text: str, one: OpenLog) -> str:
     short = re.sub(f"{re.escape(str(one.path))}[:,] ", "", text)
     start = short[:1].upper() if short != text else short[:1]
     return f"{start}{short[1:]}".replace(str(one.path), one.name)
-
-
-def replace_gains(
-    plain: Fit,
-    gains: Mapping[str, ParameterEstimate],
-    parts: tuple[Part, ...],
-    doubts: tuple[Doubt, ...],
-) -> Fit:
-    """A fit with the gains, effects and doubts of a model with effects, in the same unit.
-
-    That the model without effects misses the log says nothing about these gains, unless it is
-    grave; everything else that is doubted of the log still holds.
-    """
-    return replace(
-        plain,
-        gains={name: one.value for name, one in gains.items()},
-        errors={name: one.error for name, one in gains.items() if one.error is not None},
-        parts=parts,
-        doubts=(*(one for one in plain.doubts if one.grave or one.code not in MISFIT), *doubts),
-    )

@@ -17,7 +17,7 @@ from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.cli.fit.parts import PooledParts, fit_parts
 from sim.cli.fit.plausibility import check_against_physics, compare_directions_alone
-from sim.cli.log_reader import LogReader, join_parts
+from sim.cli.log_reader import LogReader, join_parts, mend_parts
 from sim.cli.open.reconcile_job import ReconcileJob
 from sim.cli.open.view import PageView
 from sim.core.errors import BadRequest, Refusal
@@ -51,6 +51,10 @@ class Reading:
     type: str | None = None
     entries: tuple[tuple[str, str], ...] = ()
     left_out: tuple[LeftOutPart, ...] = ()
+
+    def make_reader(self) -> LogReader:
+        """The reader that follows these options."""
+        return LogReader(self.units, self.type, entries=dict(self.entries))
 
     @classmethod
     def from_query(cls, query: Mapping[str, str]) -> "Reading":
@@ -105,15 +109,20 @@ class OpenLog:
             Refusal: the file cannot be read with these options.
         """
         reading = replace(reading, left_out=())
+        return self._compute_once(
+            ("parts", reading), lambda: mend_parts(self._read_recorded(reading))
+        )
+
+    def _read_recorded(self, reading: Reading) -> dict[str, Log]:
+        """The log of each mechanism, side or motor as it was recorded."""
 
         def read() -> dict[str, Log]:
             if self.finished is not None and reading == Reading():
                 return dict(self.finished)
+            return reading.make_reader().read_motors(self.path)
 
-            reader = LogReader(reading.units, reading.type, entries=dict(reading.entries))
-            return dict(reader.read_parts([self.path]))
-
-        return self._compute_once(("parts", reading), read)
+        reading = replace(reading, left_out=())
+        return self._compute_once(("recorded", reading), read)
 
     def combine_runs(self, reading: Reading) -> Log:
         """All runs of all mechanisms in the file as one log.
@@ -133,8 +142,7 @@ class OpenLog:
         if len(self.read_parts(reading)) == 1:
             return self.combine_runs(reading)
 
-        reader = LogReader(reading.units, reading.type, entries=dict(reading.entries))
-        return reader.read_joined([self.path])
+        return reading.make_reader().read_joined([self.path])
 
     def list_entries(self) -> list[Entry]:
         """The entries of the file, for choosing signals.
@@ -150,7 +158,9 @@ class OpenLog:
         Raises:
             Refusal: as ``read_parts``.
         """
-        return self._compute_once(("faults", reading), lambda: inspect(self.combine_runs(reading)))
+        return self._compute_once(
+            ("faults", reading), lambda: inspect(join_parts(self._read_recorded(reading)))
+        )
 
     def fit(self, reading: Reading) -> PooledParts:
         """The gains, in the unit of the log.

@@ -10,7 +10,6 @@ import click
 from sim.cli.fit.paste import make_paste_text
 from sim.cli.fit.plausibility import check_against_physics
 from sim.cli.log_reader import LogReader
-from sim.cli.open.page_data import replace_gains
 from sim.cli.open.reconcile_job import search_effects
 from sim.cli.open.saved_page import save_page
 from sim.cli.open.session import OpenLog, Reading
@@ -19,6 +18,7 @@ from sim.core.log import Log
 from sim.fit import Fit, fit
 from sim.physics.engine import engine_can_compile
 from sim.reconcile import Story
+from sim.reconcile.gains import replace_gains
 from sim.reconcile.story_text import list_gain_doubts
 from sim.report.page_file import choose_page_path
 from sim.report.story_terminal import show_progress, show_story

@@ -33,7 +33,7 @@ def check_velocity_lag(features: LogFeatures) -> Iterator[Doubt]:
     similar = [name for name, age in FILTERS.items() if abs(lag / age - 1.0) < ALIKE]
     likely = f", as {similar[0]} does" if similar else ""
     yield Doubt(
-        "velocity-lags",
+        "velocity-lag",
         f"The velocity is about {rounded * 1000.0:.0f} ms later than the "
         f"position: most likely the motor controller averages it{likely}. The fit "
         "takes this delay into account. WPILib's SysId does not: its kA is wrong, and the "

@@ -84,7 +84,8 @@ export function showDoubts() {
   at("verdict-card").classList.toggle("wrong", Boolean(fitRefused) || bad);
   at("verdict-card").classList.toggle("well", word === "Usable");
   at("paste").classList.toggle("primary", !bad);
-  const said = [...fit?.doubts ?? [], ...faults?.doubts ?? []].filter(({ code }) => !faults?.faults.some(({ fault }) => fault === code)).sort((a, b) => Number(b.grave) - Number(a.grave));
+  const measured = new Set(fit?.doubts.map(({ code }) => code)); // what the fit says of the log is more exact than what the inspection says
+  const said = [...fit?.doubts ?? [], ...faults?.doubts.filter(({ code }) => !measured.has(code)) ?? []].filter(({ code }) => !faults?.faults.some(({ fault }) => fault === code)).sort((a, b) => Number(b.grave) - Number(a.grave));
   const known = [...Map.groupBy(said, ({ code }) => code).values()].map((alike) =>
     ({ ...alike[0], message: [...new Set(alike.map(({ message }) => message))].join(" ") }));
   const notes = (fit?.notes ?? []).map((note) => foldedItem("well", "Note", note));

@@ -143,10 +143,9 @@ def open_table(path: Path, *, entries: Mapping[str, str]) -> CsvTable:
     where = str(path)
     text = read_text(path)
     (_, first), *rows = list(split_rows(text, where=where)) or [(1, [""])]
-    header = [cell.strip().lower() for cell in first]
     for line, row in rows:
-        check_width(row, header, where=f"{where}, line {line}")
-    place, doubts = _find_columns(header, entries=entries, where=where)
+        check_width(row, first, where=f"{where}, line {line}")
+    place, doubts = _find_columns([cell.strip() for cell in first], entries=entries, where=where)
     if not rows:
         raise UnreadableFile(
             "there are no rows below the header", where=where, advice="Record a test first."
@@ -175,9 +174,10 @@ def read_text(path: Path) -> str:
 
 
 def _find_columns(
-    header: list[str], *, entries: Mapping[str, str], where: str
+    written: list[str], *, entries: Mapping[str, str], where: str
 ) -> tuple[dict[str, int], tuple[Doubt, ...]]:
     """Our name of each column -> its index, and a doubt about unknown columns."""
+    header = [title.lower() for title in written]
     named = {_ENTRY.get(name, name): title.strip().lower() for name, title in entries.items()}
     for name in named:
         if name not in SIGNALS:
@@ -192,12 +192,12 @@ def _find_columns(
             )
     place = {name: header.index(title) for name, title in titles.items() if title in header}
     missing = [titles[name] for name in NEEDED if name not in place]
-    ignored = [name for name in header if name and name not in titles.values()]
+    ignored = [name for name in written if name and name.lower() not in titles.values()]
     # One of position and velocity suffices, unless it may be there under another name.
     suffices = not ignored and missing in ([titles["position"]], [titles["velocity"]])
     if missing and not suffices:
         raise MissingSignal(
-            f"no column {' or '.join(missing)}; the first line is {','.join(header)[:80]!r}",
+            f"no column {' or '.join(missing)}; the first line is {','.join(written)[:80]!r}",
             where=where,
             advice=Action("columns", ",".join(NEEDED)),
         )
