@@ -587,8 +587,8 @@ Table(("unit", "the same speed in this unit", "kV [V for one unit]", "kV·v [V]"
 
 # %% [markdown]
 # The same speed needs the same volts in every unit: look at the last column. 50 rot/s is 314 rad/s,
-# so each rad/s needs fewer volts. **In a unit in which the speed is 6.28 times as large a number,
-# the gain is 6.28 times smaller.**
+# so each rad/s needs fewer volts. **The number of the speed gets 6.28 times larger, and the gain
+# gets 6.28 times smaller.**
 #
 # - From V·s/rot to V·s/rad: **divide** by 2π. Do the same with kA. kS is in volts, so it stays.
 # - From V·s/rot of a wheel to V·s/m: divide by the wheel's circumference.

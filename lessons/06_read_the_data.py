@@ -517,10 +517,10 @@ Table(
 # %% [markdown]
 # ## 5 R² does not find every bad log
 #
-# This section shows no plots, only one score: SysId's **simulated velocity R²**. SysId simulates
-# the robot with the fitted gains and the voltage of the log. The score compares simulated and
-# measured velocity. Below are logs A to V of one drivetrain. One is clean. One was damaged and then
-# repaired. In all others something is wrong.
+# Here you see no plots of the logs, only one score: SysId's **simulated velocity R²**. SysId
+# simulates the robot with the fitted gains and the voltage of the log. The score compares simulated
+# and measured velocity. Below are logs A to V of one drivetrain. One is clean. One was damaged and
+# then repaired. In all others something is wrong.
 #
 # The official docs say: "A value north of .9 indicates a good fit" ("north of" means "above").
 # ([WPILib docs: Viewing

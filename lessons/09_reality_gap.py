@@ -173,9 +173,9 @@ for name, gap in search.gaps.items():
 # is large, something is missing in the model. The places where the residual is large show *what* is
 # missing.
 #
-# We convert the residual into a **voltage residual**: the volts that you would have to add to the
-# simulation so that it moves like the robot. If it is below zero, the robot moves as if it got too
-# few volts: volts are *missing*. If it is above zero, the robot moves as if it got too many volts.
+# We convert the residual into volts, the **voltage residual**. If you add these volts to the
+# simulation, it moves like the robot. If they are below zero, the robot moves as if it got too few
+# volts: volts are *missing*. If they are above zero, the robot moves as if it got too many volts.
 # We plot the voltage residual in five ways:
 #
 # | plotted against | an effect that you see there |

@@ -160,7 +160,7 @@ def test_marks_lie_on_the_window_that_holds_an_elevator():
     assert (list(speed.y), mark.x, mark.notes) == ([-0.2, 0.1], [1.77], ["1.77 V"])
 
 
-def test_window_that_holds_an_arm_is_as_wide_at_every_angle():
+def test_range_of_volts_that_hold_an_arm_is_as_wide_at_every_angle():
     chart = chart_hold_angles([(0.0, 1.26, 1.76)], kg=1.51, ks=0.25)
     area, cosine, falls, rises = chart.curves
     count = len(cosine.x)

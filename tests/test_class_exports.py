@@ -106,7 +106,7 @@ def test_a_question_has_its_share_of_right_answers_and_its_discrimination():
     assert count_misconceptions(people) == (("M-UNITS", 6),)
 
 
-def test_too_few_students_give_no_discrimination():
+def test_too_few_students_give_no_discrimination_index():
     people = [student(f"s{n}", (2.0 * n, 2.0)) for n in range(2)]
 
     assert {one.discrimination for one in analyze_items(people)} == {None}

@@ -45,7 +45,7 @@ VERBS = (
 
 
 @pytest.mark.parametrize("name", VERBS)
-def test_the_main_verbs_have_an_example(name):
+def test_the_main_functions_have_an_example_in_their_docstring(name):
     assert name in LISTED
     assert ">>>" in resolve_name(name).__doc__
 

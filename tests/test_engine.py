@@ -369,7 +369,7 @@ def test_engine_runs_when_the_home_folder_is_read_only(cache, tmp_path, monkeypa
     assert isinstance(loaded, kernel.Kernel)
 
 
-def test_drag_ends_at_the_speed_at_which_the_volts_are_spent():
+def test_with_drag_the_final_speed_is_where_friction_back_emf_and_drag_take_all_volts():
     # 4 = 0.2 + 2 v + 0.5 v² has v = (-2 + √(4 + 7.6))/1
     track = simulate_run(
         PLAIN + Part("drag", {"drag": 0.5}),

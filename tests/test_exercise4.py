@@ -65,7 +65,7 @@ def test_without_a_file_the_better_starter_is_graded_and_named(all_exercises, ca
     ],
     ids=["a ramp beyond the battery", "no time to log", "a motor at rest"],
 )
-def test_a_mistake_is_no_fault_of_the_callback_that_is_right(tmp_path, old, new, wrong):
+def test_a_mistake_fails_only_the_check_of_its_own_callback(tmp_path, old, new, wrong):
     right = (ROOT / "solutions" / "exercise4" / PYTHON).read_text("utf-8")
     assert old in right
     (tmp_path / PYTHON).write_text(right.replace(old, new), encoding="utf-8")

@@ -336,7 +336,7 @@ def test_help_imports_nothing_heavy():
     assert not {"numpy", "scipy", "rich", "numba", "tomlkit"} & set(done.stdout.split())
 
 
-def test_a_reader_who_leaves_early_causes_no_traceback(course):
+def test_a_closed_output_pipe_causes_no_traceback(course):
     writer = subprocess.Popen(
         [sys.executable, "-m", "grader"],
         cwd=course,

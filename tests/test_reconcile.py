@@ -81,7 +81,7 @@ def test_hidden_effect_is_named_with_its_numbers_and_closes_the_gap(name):
     ("name", "steps"),
     [("drivetrain", (3.5, 5.0, 2.0)), ("shooter", (3.5, 6.0, 5.0)), ("elevator", (4.5, 7.0, 5.0))],
 )
-def test_a_healthy_robot_whose_current_limit_acts_lacks_nothing(name, steps):
+def test_no_effect_is_reported_for_a_healthy_robot_at_its_current_limit(name, steps):
     mechanism = MECHANISMS[name]
     log, validation, held_out = (
         simulate(mechanism, Routine(step=step), rng=np.random.default_rng(seed))

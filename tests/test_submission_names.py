@@ -208,7 +208,7 @@ def test_a_file_that_may_be_the_only_answer_to_an_exercise_is_named(
         "exercise1/data/ann/numbers.txt", "exercise1/log.wpilog", "exercise1/~$answers.docx",
     ],
 )  # fmt: skip
-def test_a_file_of_the_course_or_of_a_computer_is_not_named(tmp_path, four, path):
+def test_files_of_the_course_and_of_the_system_are_not_reported_as_unused(tmp_path, four, path):
     put(tmp_path / "in" / "ann", {path: "x"})
     (one,) = find_submissions(tmp_path / "in", four)
 

@@ -22,7 +22,7 @@ from .feedforwards import (
     check_settings,
     explain,
     is_known,
-    list_feedbacks,
+    list_feedback_loops,
 )
 from .key import FEED_FORWARD, FULL, SLOT0, Variant, near
 from .outcome import find_outcome
@@ -294,7 +294,7 @@ def kp(seen: Seen) -> None:
     marked = bool(START.search(constant.comment))
     earned = 0.5 if marked else 0.0
     try:
-        judgments = list(list_feedbacks(seen))
+        judgments = list(list_feedback_loops(seen))
     except WrongAnswer as wrong:
         wrong.earned = earned
         raise

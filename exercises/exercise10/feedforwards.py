@@ -104,14 +104,15 @@ def check_one_place(facts: GainFacts) -> None:
             held = {GRAVITY.get(name, name) for name, value in other.gains.items() if value != 0}
             twice = [gain for gain, value in one.gains.items() if value != 0 and gain in held]
             if twice:
+                places = f"in {_describe_place(one)}, and in {_describe_place(other)}"
                 raise WrongAnswer(
-                    f"{', '.join(twice)} twice: in {_locate(one)}, and in {_locate(other)}",
+                    f"{', '.join(twice)} twice: {places}",
                     hint="This is a double feedforward: the motor controller adds its own volts to "
                     "those that your code sends. Choose one place.",
                 )
 
 
-def _locate(one: Gains) -> str:
+def _describe_place(one: Gains) -> str:
     return f"{one.kind} in line {one.line}"
 
 
@@ -142,7 +143,7 @@ def check_settings(one: Gains, variant: Variant) -> None:
     elif spark and arm and not (turns and near(turns, variant.turns_per_unit)):
         slip, seen = "arm-turns", f"kCosRatio = {turns:g}" if turns else "no kCosRatio"
     if slip:
-        raise explain(f"{_locate(one)} has {seen}", name_slip(slip, "kG", variant))
+        raise explain(f"{_describe_place(one)} has {seen}", name_slip(slip, "kG", variant))
 
 
 def check_order(one: Gains, seen: Seen, *, points: float) -> None:
@@ -156,29 +157,31 @@ def check_order(one: Gains, seen: Seen, *, points: float) -> None:
     needed = (place for place in places if place in seen.variant.gains)
     lacking = [place for place in needed if given.get(place, 0.0) == 0.0]
     for place, number in given.items():
-        value = seen.get_value(number, f"{place} of {_locate(one)}")
+        value = seen.get_value(number, f"{place} of {_describe_place(one)}")
         gain = seen.find_gain(value, place)
         if value and gain and gain != place:
             raise WrongAnswer(
-                f"{_locate(one)} gets {place} = {value:.4g}",
+                f"{_describe_place(one)} gets {place} = {value:.4g}",
                 hint=f"{gain} is where {one.kind} expects {place}. {LOOK[one.kind in PLACES]}",
                 misconception="M-ARGORDER",
             )
         if value and not gain and place in seen.variant.gains and place in {"kS", "kG"}:
             slip = find_constant_slip(value, place, seen.variant, text="")
-            raise explain(f"{_locate(one)} gets {place} = {value:.4g}, not your {place}", slip)
-    _check_step(one, seen)
+            raise explain(
+                f"{_describe_place(one)} gets {place} = {value:.4g}, not your {place}", slip
+            )
+    _check_time_step(one, seen)
     constants = [seen.facts.find_constant(place) for place in lacking]
     if lacking and not any(constant and constant.value == 0 for constant in constants):
         raise WrongAnswer(
-            f"{_locate(one)} has no {' and no '.join(lacking)}",
+            f"{_describe_place(one)} has no {' and no '.join(lacking)}",
             hint="A missing argument counts as 0.",
             earned=points / 2 if lacking == ["kA"] else 0.0,
         )
 
 
-def _check_step(one: Gains, seen: Seen) -> None:
-    """Whether the time step of a feedforward is one.
+def _check_time_step(one: Gains, seen: Seen) -> None:
+    """Refuse a time step of a feedforward that is one of the gains, or too long.
 
     Raises:
         WrongAnswer: it is a gain, or longer than any loop.
@@ -188,13 +191,13 @@ def _check_step(one: Gains, seen: Seen) -> None:
     if held or step > LONGEST_STEP:
         gain = f"{held[0]} does not belong here. " if held else ""
         raise WrongAnswer(
-            f"{_locate(one)} gets the time step dt = {step:.4g} s",
+            f"{_describe_place(one)} gets the time step dt = {step:.4g} s",
             hint=f"{gain}The last argument is the time from loop to loop in seconds: leave it out.",
             misconception="M-ARGORDER",
         )
 
 
-def list_feedbacks(seen: Seen) -> Iterator[tuple[str, float, Variant]]:
+def list_feedback_loops(seen: Seen) -> Iterator[tuple[str, float, Variant]]:
     """The loops with a gain near the suggested kP: text, kP, and unit of the loop.
 
     Raises:

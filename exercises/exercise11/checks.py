@@ -53,18 +53,18 @@ def make_files(student: str) -> dict[str, Made]:
     return {"questions.md": key.format_questions(key.draw(student))}
 
 
-def _judge(name: str, points: float, answers: StudentAnswers) -> str | None:
+def _judge_question(name: str, points: float, answers: StudentAnswers) -> str | None:
     key = load_answer_key(__name__)
     note: str | None = key.judge_answer(name, answers.given, answers.variant, points=points)
     return note
 
 
 question_checks = tuple(
-    make_check(name, description, partial(_judge, name, points), points=points)
+    make_check(name, description, partial(_judge_question, name, points), points=points)
     for name, (description, points) in QUESTIONS.items()
 )
 mechanism_checks = tuple(
-    make_check(id_, description, partial(_judge, answer, SINGLE), points=SINGLE)
+    make_check(id_, description, partial(_judge_question, answer, SINGLE), points=SINGLE)
     for name in MECHANISMS
     for id_, answer, description in (
         (f"decision_{name}", name, f"Whether to characterize it: {name}."),

@@ -99,7 +99,7 @@ def _measure_floor(variant: Variant) -> float:
     return max(1.0, search.measure_gap(truth, "held_out"))
 
 
-def list_answer_tables() -> tuple[str, ...]:
+def list_answer_table_names() -> tuple[str, ...]:
     """The names of all effects, each also with ``_`` for ``-``: ``velocity-filter.lag = 0.02``."""
     return tuple({name: None for one in EFFECTS for name in (one, one.replace("-", "_"))})
 
@@ -304,8 +304,8 @@ def justified(answers: Answers) -> None:
         if stuck := find_bound(part):
             raise WrongAnswer(
                 f"{part.effect}.{stuck} is at its limit",
-                hint="this effect does nothing, or stands in for another. Leave it out, or fit "
-                "again from another start value",
+                hint="there the effect does nothing, or stands in for another. Fit again from "
+                "another start value. If it ends there again, leave the effect out",
             )
     whole = answers.measure_gap(parts)
     for part in parts:

@@ -37,27 +37,27 @@ def main() -> int:
     data = asked.logs or _prepare_own(exercise, asked.student or load_progress(course)[0].student)
     search = EffectSearch.read(data)
     for name in names:
-        _say(search.add(name))
-    _say(", ".join(f"{name} = {value:.4g}" for name, value in search.gains.items()))
+        _print_wrapped(search.add(name))
+    _print_wrapped(", ".join(f"{name} = {value:.4g}" for name, value in search.gains.items()))
     for name, gap in search.gaps.items():
-        _say(f"gap of the {name}: {gap:.3g} times the noise of the velocity")
-    _say(search.open() if asked.held_out else "\n".join(search.answer))
+        _print_wrapped(f"gap of the {name}: {gap:.3g} times the noise of the velocity")
+    _print_wrapped(search.open() if asked.held_out else "\n".join(search.answer))
     for variable, view in search.views.views.items():
-        _say(f"{variable}: explains {100.0 * view.explains:.0f} % of what is left")
-    _say(search.views.headline)
+        _print_wrapped(f"{variable}: explains {100.0 * view.explains:.0f} % of what is left")
+    _print_wrapped(search.views.headline)
     search.write_page(data / PAGE)
-    _say(f"The pictures are in {data / PAGE}: open this file in a browser.")
+    _print_wrapped(f"The pictures are in {data / PAGE}: open this file in a browser.")
     return 0
 
 
 def _prepare_own(exercise: Exercise, student: str) -> Path:
     """Make a learner's own logs, and say where they are."""
-    exercise.prepare(student, say=_say)
+    exercise.prepare(student, say=_print_wrapped)
     folder: Path = exercise.folder / "data" / exercise.module.make_folder_name(student)
     return folder
 
 
-def _say(line: str) -> None:
+def _print_wrapped(line: str) -> None:
     sys.stdout.write(f"{line}\n")
 
 

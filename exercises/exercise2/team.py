@@ -110,7 +110,7 @@ class Variant:
 
 
 def find_verdict(percent: float) -> str:
-    """The word for a difference [%]."""
+    """The verdict on a measured kV by its difference from theory [%]."""
     if percent < 0.0:
         return "bookkeeping"
     return "ok" if percent <= OK else "watch" if percent <= WATCH else "inspect"

@@ -61,7 +61,7 @@ def routine(runs: Runs) -> str | None:
     return _judge_both_runs(runs, check_routine_found)
 
 
-def _number(
+def _check_setting(
     runs: Runs, wanted: ConfigSetting, advice: Callable[..., tuple[str, str]]
 ) -> str | None:
     name = wanted.name.split()[0]
@@ -75,7 +75,7 @@ def _number(
 @check(points=1, after=routine)
 def ramp(runs: Runs) -> str | None:
     """The quasistatic test raises the voltage by 0.5 V every second."""
-    return _number(runs, RAMP, _explain_ramp)
+    return _check_setting(runs, RAMP, _explain_ramp)
 
 
 def _explain_ramp(facts: RoutineFacts, value: float) -> tuple[str, str]:
@@ -89,7 +89,7 @@ def _explain_ramp(facts: RoutineFacts, value: float) -> tuple[str, str]:
 @check(points=1, after=routine)
 def step(runs: Runs) -> str | None:
     """The dynamic test applies a step of 3.5 V."""
-    return _number(runs, STEP, _explain_step)
+    return _check_setting(runs, STEP, _explain_step)
 
 
 def _explain_step(_facts: RoutineFacts, value: float) -> tuple[str, str]:
@@ -105,7 +105,7 @@ def _explain_step(_facts: RoutineFacts, value: float) -> tuple[str, str]:
 @check(points=1, after=routine)
 def timeout(runs: Runs) -> str | None:
     """A test ends by itself after 10 s."""
-    return _number(runs, TIMEOUT, lambda *_: ("", ""))
+    return _check_setting(runs, TIMEOUT, lambda *_: ("", ""))
 
 
 @check(points=3, after=routine)

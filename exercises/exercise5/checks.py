@@ -297,10 +297,10 @@ def _check_comments(facts: ButtonFacts) -> None:
 @check(points=2)
 def guard(runs: Runs) -> str | None:
     """No test can be started by accident in a match."""
-    return judge_runs(runs, _guard)
+    return judge_runs(runs, _check_guards)
 
 
-def _guard(facts: ButtonFacts) -> str | None:
+def _check_guards(facts: ButtonFacts) -> str | None:
     if not facts.presses:
         _check_asked_once(facts)
     _check_reached(facts)
@@ -311,12 +311,12 @@ def _guard(facts: ButtonFacts) -> str | None:
             )
     for mode in ("autonomous", "teleop"):
         alone = facts.alone.get(mode)
-        if alone and not any(map(_joins, facts.presses)):
+        if alone and not any(map(_has_or, facts.presses)):
             raise WrongAnswer(
                 f"in {mode} mode {list_tests(alone)} runs although nobody presses anything",
                 hint=f"In a match it would run at once. {WAYS}",
             )
-    joined = [one for one in facts.presses if _is_open(one) and _joins(one)]
+    joined = [one for one in facts.presses if _is_open(one) and _has_or(one)]
     if joined:
         raise WrongAnswer(
             f"the trigger in line {joined[0].line} joins two conditions with or",
@@ -347,7 +347,7 @@ def _guard(facts: ButtonFacts) -> str | None:
     return None
 
 
-def _joins(one: Press) -> bool:
+def _has_or(one: Press) -> bool:
     """Whether the line of a binding joins conditions with or."""
     return ".or(" in one.text or ".or_(" in one.text
 
@@ -378,7 +378,7 @@ def _explain_open(open_: list[Press], facts: ButtonFacts, bound: int) -> None:
     if guarded:
         lines = ", ".join(str(one.line) for one in open_)
         raise WrongAnswer(
-            f"{guarded} of {bound} bindings are guarded; not so: line {lines}",
+            f"{guarded} of {bound} bindings are guarded; without a guard: line {lines}",
             hint="One test without a guard is enough for an accident. Guard all four in the same "
             "way, and with another button than the test's own.",
             earned=2 * guarded / len(TESTS),

@@ -59,7 +59,7 @@ def _explain_folder_2027(found: str) -> tuple[str, str]:
     ), ""
 
 
-def _limit(found: str) -> tuple[str, str]:
+def _explain_limit(found: str) -> tuple[str, str]:
     who = "where is this limit set? Does that code still run while the test command has the motor?"
     return who, "M-LIMITS-BYPASSED" if found == "bypassed" else ""
 
@@ -79,8 +79,8 @@ CHOICES: Mapping[str, Choice] = {
     **{f"check_{item}": _make_decision(item) for item in SEEN},
     "log_2026": Choice(FOLDERS, _explain_folder_2026),
     "log_2027": Choice(FOLDERS, _explain_folder_2027, always="/home/systemcore/logs"),
-    "limit_a": Choice(("acts", "bypassed"), _limit),
-    "limit_b": Choice(("acts", "bypassed"), _limit),
+    "limit_a": Choice(("acts", "bypassed"), _explain_limit),
+    "limit_b": Choice(("acts", "bypassed"), _explain_limit),
     "schedule": Choice(
         ("kickoff-week", "last-two-weeks-of-build-season", "first-regional", "after-the-season"),
         _explain_season,

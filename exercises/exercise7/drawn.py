@@ -83,10 +83,10 @@ class Case:
 def draw(student: str) -> tuple[Case, ...]:
     """A learner's logs, always the same ones."""
     rng = make_student_rng(student, "exercise7")
-    return tuple(draw_case(faults, rng) for faults in _plan(rng))
+    return tuple(draw_case(faults, rng) for faults in _plan_faults(rng))
 
 
-def _plan(rng: np.random.Generator) -> list[tuple[str, ...]]:
+def _plan_faults(rng: np.random.Generator) -> list[tuple[str, ...]]:
     """The faults of each log; the first log has one that the lesson names."""
     first, *lesson = (str(name) for name in rng.permutation(LESSON))
     sound = int(rng.choice(SOUND))

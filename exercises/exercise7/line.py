@@ -43,7 +43,7 @@ class Claim:
     times: tuple[float, float] | None
     action: str
 
-    def _means(self, test: str) -> bool:
+    def _includes_test(self, test: str) -> bool:
         """Whether a test is one of those that are named, or has all the marks that are."""
         named = [place for place in self.places if place in FOUR_TESTS]
         if named:
@@ -63,7 +63,7 @@ class Claim:
         named = [
             (index, float(run.time[0]), float(run.time[-1]))
             for index, run in enumerate(log.runs)
-            if self._means(run.test)
+            if self._includes_test(run.test)
         ]
         if self.times is None:
             return [named] if self.places else []
@@ -123,9 +123,9 @@ def _list_words() -> str:
 
 def _parse_claim(text: str) -> Claim:
     left = re.sub(r"[\s_]+", " ", text.lower().replace("backward", "reverse"))
-    faults, left = _take(left, (CLEAN, *FAULTS))
-    actions, left = _take(left, tuple(ACTIONS))
-    places, left = _take(left, PLACES)
+    faults, left = _extract_words(left, (CLEAN, *FAULTS))
+    actions, left = _extract_words(left, tuple(ACTIONS))
+    places, left = _extract_words(left, PLACES)
     times = [float(number.replace(",", ".")) for number in NUMBER.findall(left)]
     unknown = [word for word in re.findall(r"[^\W\d_]+", left) if word not in FILLERS]
     shown = f'"{shorten(text)}"'
@@ -155,8 +155,8 @@ def _format_examples(faults: Sequence[str]) -> str:
     return "Put a + between two faults, each with its own place." if faults else _list_words()
 
 
-def _take(text: str, words: Sequence[str]) -> tuple[list[str], str]:
-    """The words that stand in a text, and the text without them."""
+def _extract_words(text: str, words: Sequence[str]) -> tuple[list[str], str]:
+    """The known words found in a text, and the text without them."""
     known = {word: word for word in words}
     known |= {other: word for other, word in SPELLED.items() if word in words}
     found = []

@@ -118,13 +118,14 @@ def _is_solvable(variant: Variant) -> bool:
         or sum_points(log, NOTHING, asked) >= full / 2
     ):
         return False
-    by_eye = [_cut(reference, early, times) for early in EARLIER for times in ROUGHLY]
+    by_eye = [_cut_earlier(reference, early, times) for early in EARLIER for times in ROUGHLY]
     remaining = measure_coverage(log, by_eye[-1], valid=variant.valid, clean=variant.clean)
     return (
         all(part.enough and part.reaches for part in remaining)
         and all(sum_points(log, one, asked) == full for one in by_eye)
         and all(
-            sum_points(log, _cut(reference, EARLIER[1] / 2, times), asked, wider=NEARLY) == full
+            sum_points(log, _cut_earlier(reference, EARLIER[1] / 2, times), asked, wider=NEARLY)
+            == full
             for times in BETWEEN
         )
         and all(
@@ -140,7 +141,7 @@ def _is_solvable(variant: Variant) -> bool:
     )
 
 
-def _cut(reference: Preparation, early: float, times: float) -> Preparation:
+def _cut_earlier(reference: Preparation, early: float, times: float) -> Preparation:
     """The reference preparation, with earlier cuts [s] and a multiple of its threshold."""
     keep = {test: (begin, end - early) for test, (begin, end) in reference.keep.items()}
     return replace(reference, keep=keep, threshold=times * reference.threshold)

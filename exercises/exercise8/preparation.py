@@ -57,14 +57,14 @@ def read_preparation(given: Mapping[str, object], *, symbol: str, si: float) -> 
     """
     keep = {test: _parse_window(test, given.get(test.replace("-", "_"))) for test in FOUR_TESTS}
     asked = AskedNumber("threshold", 0.0, f"{symbol}/s", ANY)
-    threshold = _number(given.get("threshold"), asked)
+    threshold = _read_number(given.get("threshold"), asked)
     if threshold < 0.0:
         raise WrongAnswer(
             f"threshold {threshold:g}", hint="A speed has no sign here. 0 drops nothing."
         )
     whole = f"Write a whole number of samples from 1 (no filter) to {LONGEST}."
     try:
-        window = _number(given.get("median"), AskedNumber("median", 1.0, "", ANY))
+        window = _read_number(given.get("median"), AskedNumber("median", 1.0, "", ANY))
     except WrongAnswer as wrong:
         wrong.hint = whole
         raise
@@ -77,7 +77,7 @@ def read_preparation(given: Mapping[str, object], *, symbol: str, si: float) -> 
     )
 
 
-def _number(raw: object, asked: AskedNumber) -> float:
+def _read_number(raw: object, asked: AskedNumber) -> float:
     try:
         return read_answer_number(raw, asked)
     except WrongAnswer as wrong:

@@ -153,9 +153,9 @@ class AnswerSelector:
         path = found.path
         inside = path.parts[:-1]
         if path.name == ISSUED.name and (inside[-1:] == (".course",) or DATA in inside):
-            self._identities[ISSUED.as_posix()] = self._read(found, LARGEST)
+            self._identities[ISSUED.as_posix()] = self._read_content(found, LARGEST)
         elif path.parts[-2:] == tuple(PurePosixPath(PROGRESS).parts):
-            self._identities[PROGRESS] = self._read(found, LARGEST)
+            self._identities[PROGRESS] = self._read_content(found, LARGEST)
         elif DATA in inside:
             after = inside[inside.index(DATA) + 1 :]
             self._data.update(after[:1])
@@ -178,11 +178,13 @@ class AnswerSelector:
             name = _restore_name(path.name, exercise)
             fits = PurePosixPath(name).suffix.lower() in _list_endings(exercise)
             if fits and len(os.fsencode(name)) <= LONGEST_NAME:
-                self._candidates[exercise.name].append(self._make(found, name, exercise, place))
+                self._candidates[exercise.name].append(
+                    self._make_candidate(found, name, exercise, place)
+                )
             else:
                 self._unknown.append((path, exercise))
 
-    def _make(
+    def _make_candidate(
         self, found: SubmittedFile, name: str, exercise: Exercise, place: _Place
     ) -> _Candidate:
         if len(self._candidates[exercise.name]) >= MAX_FILES:
@@ -190,13 +192,13 @@ class AnswerSelector:
             return _Candidate(found.path, name, b"", place, many)
         log = found.path.suffix.lower() in exercise.log_endings
         most = LARGEST_LOG if log else LARGEST
-        content = self._read(found, most)
+        content = self._read_content(found, most)
         if log and len(content) > most:
             said = f"{format_file_name(found.path.name)} is larger than {most / 1e6:g} MB"
             return _Candidate(found.path, name, b"", place, said)
         return _Candidate(found.path, _find_declared(name, content, exercise), content, place)
 
-    def _read(self, found: SubmittedFile, most: int) -> bytes:
+    def _read_content(self, found: SubmittedFile, most: int) -> bytes:
         content = found.content(min(most, self._left))
         self._left -= len(content)
         if self._left < 0:

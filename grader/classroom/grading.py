@@ -64,12 +64,12 @@ def grade_student(job: GradingJob) -> GradedStudent:
         use_class_secret(job.secret) if job.secret is not None else nullcontext(),
     ):
         grades = tuple(
-            _grade(job.find_exercise(name), job, Path(folder) / name) for name in job.names
+            _grade_exercise(job.find_exercise(name), job, Path(folder) / name) for name in job.names
         )
     return GradedStudent(job.submission.student, job.digest, grades)
 
 
-def _grade(exercise: Exercise, job: GradingJob, folder: Path) -> Grade:
+def _grade_exercise(exercise: Exercise, job: GradingJob, folder: Path) -> Grade:
     given, student = job.submission, job.submission.student
     files = given.files.get(exercise.name, {})
     if exercise.name in given.problems:

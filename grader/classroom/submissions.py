@@ -73,7 +73,7 @@ def find_submissions(
             advice="Put a folder or zip file there for each student, with the student's name.",
         )
     each = [
-        _identify(parts, AnswerSelector(exercises, asked or exercises), roster)
+        _identify_student(parts, AnswerSelector(exercises, asked or exercises), roster)
         for parts in found.values()
     ]
     return tuple(sorted(each, key=lambda one: one.student.casefold()))
@@ -98,15 +98,15 @@ def _list_parts(folder: Path, roster: Identities | None) -> Iterator[_Part]:
             yield _Part(path, name)
 
 
-def _identify(
+def _identify_student(
     parts: Sequence[_Part], selector: AnswerSelector, roster: Identities | None
 ) -> Submission:
     """What one student handed in, by the name on the roster; a stranger's is not read."""
     first = parts[0]
     if roster is None:
-        return _read(parts, selector, student=first.name.student)
+        return _read_submission(parts, selector, student=first.name.student)
     if student := roster.find(first.name):
-        return _read(parts, selector, student=student)
+        return _read_submission(parts, selector, student=student)
     likely = roster.propose(first.name)
     perhaps = f". Perhaps it is {' or '.join(likely)}" if likely else ""
     problem = (
@@ -133,10 +133,12 @@ def read_submission(
     """
     name = SubmissionName(place.stem if place.is_file() else place.name)
     selector = AnswerSelector(exercises, asked or exercises)
-    return _read([_Part(place, name)], selector, student=student or name.student)
+    return _read_submission([_Part(place, name)], selector, student=student or name.student)
 
 
-def _read(parts: Sequence[_Part], selector: AnswerSelector, *, student: str) -> Submission:
+def _read_submission(
+    parts: Sequence[_Part], selector: AnswerSelector, *, student: str
+) -> Submission:
     place = parts[0].path
     try:
         student = check_student_name(student)

@@ -137,7 +137,7 @@ def _read_file(descriptor: int, size: int) -> bytes:
 
 def _read_folder(place: Path) -> Iterator[SubmittedFile]:
     """Files of a folder without its links, which may lead anywhere."""
-    for top, folders, names, opened in _walk(place):
+    for top, folders, names, opened in _walk_folders(place):
         folders[:] = sorted((name for name in folders if _is_theirs(name)), key=os.fsencode)
         for name in sorted(names, key=os.fsencode):
             path = top / name
@@ -151,7 +151,7 @@ def _read_folder(place: Path) -> Iterator[SubmittedFile]:
                 )
 
 
-def _walk(place: Path) -> Iterator[tuple[Path, list[str], list[str], int | None]]:
+def _walk_folders(place: Path) -> Iterator[tuple[Path, list[str], list[str], int | None]]:
     """Folder, names of its folders, names of its files, and the opened folder where there is one.
 
     Raises:
@@ -181,10 +181,10 @@ def _read_zip(archive: zipfile.ZipFile, top: PurePosixPath) -> Iterator[Submitte
         path = top / info.filename.replace("\\", "/").lstrip("/")
         link = stat.S_ISLNK(info.external_attr >> 16)
         if not (info.is_dir() or link) and all(map(_is_theirs, path.parts[:-1])):
-            yield SubmittedFile(path, lambda size, info=info: _unpack(archive, info, size))  # type: ignore[misc]
+            yield SubmittedFile(path, lambda size, info=info: _unpack_file(archive, info, size))  # type: ignore[misc]
 
 
-def _unpack(archive: zipfile.ZipFile, info: zipfile.ZipInfo, size: int) -> bytes:
+def _unpack_file(archive: zipfile.ZipFile, info: zipfile.ZipInfo, size: int) -> bytes:
     if info.file_size > max(MAX_PACKED * info.compress_size, size // MAX_PACKED):
         raise ValueError(
             f"{format_file_name(info.filename)} unpacks to {info.file_size / 1e6:.1f} MB"

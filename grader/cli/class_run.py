@@ -78,7 +78,7 @@ def grade_folder(  # noqa: PLR0917 - click passes options by name
     # before an hour of grading
     marks = read_overrides(overrides, students=everybody, exercises=asked) if overrides else ()
     work = GradedClass(there, asked, course, value, _decide_running(asked, run, cluster))
-    graded = _run(work, out, processes=processes, cluster=cluster, again=again)
+    graded = _grade_students(work, out, processes=processes, cluster=cluster, again=again)
     if graded is None:
         return INTERRUPTED
     title = name or folder.resolve().stem
@@ -156,7 +156,7 @@ def _decide_running(asked: Sequence[Exercise], run: bool | None, cluster: str | 
     return False
 
 
-def _run(
+def _grade_students(
     work: GradedClass, out: Path, *, processes: int | None, cluster: str | None, again: bool
 ) -> tuple[GradedStudent, ...] | None:
     """Grade the students without a result; None if the user stopped it."""

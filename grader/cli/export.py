@@ -59,11 +59,11 @@ def gradescope(
         output,
         pack_gradescope(AutograderContents(files, names, student_from, listed, value)),
     )
-    _tell_gradescope(asked, output, with_secret=value is not None)
+    _print_upload_notes(asked, output, with_secret=value is not None)
     return DONE
 
 
-def _tell_gradescope(asked: tuple[Exercise, ...], output: Path, *, with_secret: bool) -> None:
+def _print_upload_notes(asked: tuple[Exercise, ...], output: Path, *, with_secret: bool) -> None:
     if with_secret:
         print_error(
             f"{output} contains your class's secret. Code of students runs in Gradescope's "

@@ -20,7 +20,7 @@ worked in part), and ``checks.py``, which offers
                                                graded; ``read`` finds them beside its path
     ANSWER_NAMES : tuple[str, ...]             optional: the names that a file of answers may have;
                                                any other gets a warning
-    def list_answer_tables() -> tuple          optional: names of tables that it may have, too
+    def list_answer_table_names() -> tuple          optional: names of tables that it may have, too
     LOG_ENDINGS : tuple[str, ...]              optional: endings of logs of a learner's own robot,
                                                which an answer may name and ``read`` finds there
     def consequence(subject)                   optional: what a wrong answer would do on the robot,
@@ -162,7 +162,7 @@ class Exercise:
     @property
     def answer_tables(self) -> tuple[str, ...]:
         """Those of them that may have answers of their own below them."""
-        return tuple(getattr(self.module, "list_answer_tables", tuple)())
+        return tuple(getattr(self.module, "list_answer_table_names", tuple)())
 
     @property
     def log_endings(self) -> tuple[str, ...]:

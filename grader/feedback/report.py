@@ -206,7 +206,7 @@ def list_feedback(result: Result) -> list[tuple[str, str]]:
 
 
 def compose_feedback(result: Result) -> str:
-    """The feedback to a check as one text, for other people's systems."""
+    """The feedback to a check as one text, for Gradescope, GitHub and JUnit."""
     unanswered = [("got", result.seen)] if result.is_unanswered else []
     return _join_feedback([*unanswered, *list_feedback(result)])
 

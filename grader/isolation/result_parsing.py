@@ -87,14 +87,14 @@ def _read_answer(said: Mapping[str, object], file: str) -> CallResult:
         if not (isinstance(pair, list) and len(pair) == 2 and isinstance(pair[0], str)):  # noqa: PLR2004 - a name and what it stands for
             continue
         name, value = format_one_line(pair[0]), pair[1]
-        if type(value) in {int, float} and _require_finite(value):
+        if type(value) in {int, float} and _is_finite(value):
             numbers[name] = float(value)
         else:
             refused[name] = _describe_kind(value)
     return CallResult(numbers, refused)
 
 
-def _require_finite(value: float) -> bool:
+def _is_finite(value: float) -> bool:
     try:
         return math.isfinite(float(value))
     except OverflowError:
@@ -110,7 +110,7 @@ def _describe_kind(value: object) -> str:
     if isinstance(value, str):
         return NO_NUMBERS.get(value, "a text")
     if isinstance(value, int | float):
-        return "a number" if _require_finite(value) else "infinity"
+        return "a number" if _is_finite(value) else "infinity"
     return _describe_type(value) if isinstance(value, dict) else "something that is not a number"
 
 

@@ -225,10 +225,10 @@ class _Child:
         except subprocess.TimeoutExpired:
             ended = f"it was still running after {seconds:g} s and was stopped"
         finally:
-            self._end()
+            self._end_child()
         return ended or _explain_end(self.process.returncode)
 
-    def _end(self) -> None:
+    def _end_child(self) -> None:
         """End the child and all its processes, and read the rest of its pipes."""
         end_session(self.process)
         for pipe in (self.said, self.printed):

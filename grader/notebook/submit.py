@@ -139,7 +139,7 @@ class ExerciseQuestions:
             for name, (_, options) in self._asked.items()
         }
         button = ipywidgets.Button(description="Grade my answers", disabled=not names)
-        button.on_click(self._submit)
+        button.on_click(self._submit_choice)
         rows = [
             row
             for name, (question, _) in self._asked.items()
@@ -147,7 +147,7 @@ class ExerciseQuestions:
         ]
         self._box = ipywidgets.VBox([*rows, button, self._graded])
 
-    def _submit(self, _: object) -> None:
+    def _submit_choice(self, _: object) -> None:
         letters = {name: one.value for name, one in self._chosen.items() if one.value}
         self._graded.value = submit(self._exercise, course=self._course, **letters).html
 

@@ -80,20 +80,22 @@ def judge_runs(runs: Runs, judge: Callable[[Any], str | None]) -> str | None:
         WrongAnswer: it is wrong in each; or right in one only, and then the learner is asked.
         NotReachedError: there is nothing to look at yet.
     """
-    notes, wrong = [], []
-    for one in runs:
+    notes: list[str | None] = []
+    wrong: dict[str, WrongAnswer | NotReachedError] = {}
+    for assumed, one in zip(("false", "true"), runs, strict=False):  # as ``_run`` assumes them
         try:
             notes.append(judge(one))
-        except (WrongAnswer, NotReachedError) as why:
-            wrong.append(why)
+        except (WrongAnswer, NotReachedError) as error:
+            wrong[assumed] = error
     if not wrong:
         return notes[0]
-    if notes and isinstance(wrong[0], WrongAnswer):
+    assumed, why = next(iter(wrong.items()))
+    if notes and isinstance(why, WrongAnswer):
         text, line = next(iter(runs[0].unknown.items()), ("a condition", 0))
         raise WrongAnswer(
             f"the grader cannot know whether {text} is true (line {line}), and it matters here",
-            hint=f"If it may not be so, this is wrong: {wrong[0].seen}. Hand in the file that "
+            hint=f"If it is {assumed}, this is wrong: {why.seen}. Hand in the file that "
             "decides it, or write the code so that it does not depend on it.",
-            earned=wrong[0].earned,
+            earned=why.earned,
         )
-    raise wrong[0]
+    raise why

@@ -81,14 +81,14 @@ def simulate(
         state.clock = float(start + time[0] - runs[0].time[0]) if runs else 0.0  # as in the log
         begin, active = _at_rest(state, _find_start(mechanism, test, last)), model
         time, voltage = _divide_loops(time, voltage, parts)
-        track, state = _move(active, time, voltage, begin=begin, wires=wires)
+        track, state = _simulate_motion(active, time, voltage, begin=begin, wires=wires)
         if wheels_slip(mechanism, track):
             active, gripped = (model + slips, gripped) if slips else (model, True)
-            track, state = _move(active, time, voltage, begin=begin, wires=wires)
+            track, state = _simulate_motion(active, time, voltage, begin=begin, wires=wires)
         end = (_find_end(track.select(coarse), mechanism, test=test) - 1) * parts + 1
         time, voltage = time[:end], voltage[:end]
         if end < track.position.size and state.memory.any():  # without heating after the end
-            track, state = _move(active, time, voltage, begin=begin, wires=wires)
+            track, state = _simulate_motion(active, time, voltage, begin=begin, wires=wires)
         loops, seen = time[coarse], _delay_limits(track.select(slice(end)), voltage, time, model)
         run = _record_run(mechanism, test, time, seen, loops=loops, rng=rng, electrical=electrical)
         runs.append(replace(run, time=np.round(start + loops, DIGITS)))
@@ -103,7 +103,7 @@ def _at_rest(state: State, position: float) -> State:
     return replace(_copy_state(state), body=State.cold_at(position).body)
 
 
-def _move(
+def _simulate_motion(
     model: Model, time: Array, voltage: Array, *, begin: State, wires: Array
 ) -> tuple[Track, State]:
     """The motion from a state, which is not changed, and the state after it."""

@@ -67,11 +67,11 @@ def dataset(  # noqa: PLR0917 - click passes options by name
     place = DatasetPlace(output, key, asked.name, secret, overwrite)
     jobs = plan_jobs(asked, secret)
     if check:
-        return _check(place, jobs)
-    return _make(place, jobs, processes=processes, cluster=cluster)
+        return _check_logs(place, jobs)
+    return _make_missing_logs(place, jobs, processes=processes, cluster=cluster)
 
 
-def _make(
+def _make_missing_logs(
     place: DatasetPlace,
     jobs: tuple[LogJob, ...],
     *,
@@ -114,7 +114,7 @@ def _make(
     return DONE
 
 
-def _check(place: DatasetPlace, jobs: tuple[LogJob, ...]) -> int:
+def _check_logs(place: DatasetPlace, jobs: tuple[LogJob, ...]) -> int:
     """Print which logs have changed or are missing; the exit code."""
     wrong = list(place.verify(jobs))
     for line in wrong:

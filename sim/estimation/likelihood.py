@@ -570,10 +570,12 @@ class PredictionErrorProblem:
     ) -> Iterator[Array]:
         """The innovations of several simulations, in threads if the log is long."""
 
-        def one(each: tuple[Model, RunNuisance]) -> Array:
-            return self.predict_errors(*each, kalman_filter)
+        def predict_errors_of(pair: tuple[Model, RunNuisance]) -> Array:
+            return self.predict_errors(*pair, kalman_filter)
 
-        return (_make_thread_pool().map if len(self.measured) > PARALLEL else map)(one, tried)
+        return (_make_thread_pool().map if len(self.measured) > PARALLEL else map)(
+            predict_errors_of, tried
+        )
 
     def _fill_run_rows(self, rows: Array, change: Array) -> None:
         """Copy each run's part of the changes (2 n,) into that run's row; its rest stays zero.

@@ -115,7 +115,7 @@ def design_velocity_loop(
         >>> round(design_velocity_loop(kv=2.5, ka=0.4).kp, 2)
         2.44
     """
-    _check(kv=kv, ka=ka, errors=(velocity_error, volts))
+    _refuse_bad_plant(kv=kv, ka=ka, errors=(velocity_error, volts))
     if ka < MASSLESS:
         return Feedback(0.0, 0.0)
     rate = -kv / ka
@@ -150,7 +150,7 @@ def design_position_loop(
     Raises:
         BadRequest: as for ``design_velocity_loop``.
     """
-    _check(kv=kv, ka=ka, errors=(position_error, velocity_error, volts))
+    _refuse_bad_plant(kv=kv, ka=ka, errors=(position_error, velocity_error, volts))
     loops = _choose_delay(preset, delay) / preset.period
     if ka < MASSLESS:  # no inertia: the velocity answers at once, so it is the input
         k, closed = _design_scalar_regulator(1.0, preset.period, q=position_error**-2, r=volts**-2)
@@ -182,7 +182,7 @@ def _choose_delay(preset: Preset, delay: float | None) -> float:
     return preset.delay if delay is None else max(0.0, delay)
 
 
-def _check(*, kv: float, ka: float, errors: tuple[float, ...]) -> None:
+def _refuse_bad_plant(*, kv: float, ka: float, errors: tuple[float, ...]) -> None:
     if not (math.isfinite(kv) and math.isfinite(ka) and kv >= 0.0 and ka >= 0.0):
         raise BadRequest(
             f"no feedback gains for kV = {kv:.4g}, kA = {ka:.4g}",

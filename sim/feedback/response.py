@@ -125,7 +125,7 @@ def simulate_step_response(
         2.0
     """
     wait = preset.delay if delay is None else max(0.0, delay)
-    _check(plant, loop=loop, numbers=(feedback.kp, feedback.kd, target, wait))
+    _refuse_bad_numbers(plant, loop=loop, numbers=(feedback.kp, feedback.kd, target, wait))
     points = max(1, math.ceil(preset.period / FINE - 1e-9))
     moving = MovingPlant(plant, step=preset.period / points)
     controller = _Controller(plant, loop, feedback, preset, target=target)
@@ -225,7 +225,7 @@ def _choose_duration(plant: Plant, wait: float, preset: Preset) -> float:
     return min(max(slow, SHORTEST), LONGEST)
 
 
-def _check(plant: Plant, *, loop: str, numbers: tuple[float, ...]) -> None:
+def _refuse_bad_numbers(plant: Plant, *, loop: str, numbers: tuple[float, ...]) -> None:
     refuse_unknown("loop", loop, SIZES)
     if not all(map(math.isfinite, (*numbers, *plant.gains.values()))):
         raise BadRequest(

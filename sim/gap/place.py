@@ -35,5 +35,5 @@ class Place:
 
 
 def format_noises(value: float) -> str:
-    """A multiple of the noise as text: two digits, or all before the point."""
+    """A multiple of the noise with two significant digits; from 99.5 on, a whole number."""
     return f"{value:.0f}" if abs(value) >= MANY else f"{value:.2g}"

@@ -166,11 +166,13 @@ def find_anomalies(
                 )
             )
     return tuple(
-        one for one in found if not any(_recur(one, other, runs, still=still) for other in found)
+        one
+        for one in found
+        if not any(_are_same_event(one, other, runs, still=still) for other in found)
     )
 
 
-def _recur(one: Anomaly, other: Anomaly, runs: Sequence[Run], *, still: float) -> bool:
+def _are_same_event(one: Anomaly, other: Anomaly, runs: Sequence[Run], *, still: float) -> bool:
     """Whether two anomalies of two runs are at the same time after the start, or the same place."""
     if one.run == other.run:
         return False

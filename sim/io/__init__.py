@@ -77,7 +77,7 @@ def read_with(path: str | os.PathLike[str], options: ReadOptions) -> Log:
     Raises:
         Refusal: as ``read``.
     """
-    (log,) = _read(path, replace(options, each_motor=False)).values()
+    (log,) = _read_motor_logs(path, replace(options, each_motor=False)).values()
     return log
 
 
@@ -94,10 +94,10 @@ def read_motors(path: str | os.PathLike[str], options: ReadOptions | None = None
     Raises:
         Refusal: as ``read``.
     """
-    return _read(path, replace(options or ReadOptions(), each_motor=True))
+    return _read_motor_logs(path, replace(options or ReadOptions(), each_motor=True))
 
 
-def _read(path: str | os.PathLike[str], options: ReadOptions) -> dict[str, Log]:
+def _read_motor_logs(path: str | os.PathLike[str], options: ReadOptions) -> dict[str, Log]:
     """The name of each motor -> its log, as ``read`` and ``read_motors`` return them."""
     given = os.fspath(path)
     with _open_format(given) as (module, file):

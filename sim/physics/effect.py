@@ -151,8 +151,8 @@ class Effect:
         shortest_time: [s] shortest time scale, from parameters and gains; infinite if it has none.
         shortest_length: [unit] shortest length scale, from parameters, of an effect that depends on
             position: it needs short steps only where the motion is fast. Infinite if it has none.
-        narrowest_speed: [unit/s] shortest speed scale, from parameters: a search takes short steps
-            where the speed changes fast. Infinite if it has none.
+        smallest_speed_scale: [unit/s] smallest speed scale, from parameters: a search takes short
+            steps where the speed changes fast. Infinite if it has none.
         order: place in the path from command to motor or from motion to sensor, for a chain.
         reason_against: why a mechanism cannot have it, from its scale; empty if it can.
         inertia_shares: [1] shares of kA with which the first start is tried as well, for an effect
@@ -177,7 +177,7 @@ class Effect:
     stored_energy: Callable[..., float] | None = None
     shortest_time: Callable[[Mapping[str, float], Mapping[str, float]], float] = lambda *_: math.inf
     shortest_length: Callable[[Mapping[str, float]], float] = lambda _: math.inf
-    narrowest_speed: Callable[[Mapping[str, float]], float] = lambda _: math.inf
+    smallest_speed_scale: Callable[[Mapping[str, float]], float] = lambda _: math.inf
     order: int = 0
     reason_against: Callable[[Scale], str] = field(default=lambda _: "")
     inertia_shares: tuple[float, ...] = ()

@@ -83,7 +83,7 @@ def plot_consequence(shown: Sequence[Trace], *, words: str) -> Picture:
     figure, grid = make_panels(rows, columns, height=HEIGHT + MORE * rows)
     flat = [axes for row in grid for axes in row]
     for axes, one in zip(flat, shown, strict=False):
-        _draw(axes, one)
+        _draw_panel(axes, one)
     for axes in flat[len(shown) :]:
         axes.set_visible(False)
     add_legend(figure, flat[: len(shown)])
@@ -92,7 +92,7 @@ def plot_consequence(shown: Sequence[Trace], *, words: str) -> Picture:
     return Picture(figure, alt)
 
 
-def _draw(axes: "Axes", one: Trace) -> None:
+def _draw_panel(axes: "Axes", one: Trace) -> None:
     """Draw one panel; the target is a broad line, so that a curve on it stays visible."""
     time = np.asarray(one.time, dtype=float)
     name = "it must have stopped here" if one.limit else "what was wanted"

@@ -103,7 +103,8 @@ class EffectSearch:
         before, begun = self.gaps["validation"], monotonic()
         after = self._measure_gap(effects)["validation"]
         self.effects = effects
-        verdict = "better than" if is_narrower(after, before) else "no better than"
+        lower = "hardly better than" if after < before else "no better than"
+        verdict = "better than" if is_narrower(after, before) else lower
         self.message = (
             f"With {' + '.join(effects) or NONE}, the gap of the validation log is {after:.3g} "
             f"times the noise. That is {verdict} before ({before:.3g}). Fitted in "
@@ -225,7 +226,7 @@ class EffectSearch:
     # -- buttons ---------------------------------------------------------------------------------
 
     @cached_property
-    def _box(self) -> Any:  # noqa: ANN401 - ipywidgets has no types
+    def _make_box(self) -> Any:  # noqa: ANN401 - ipywidgets has no types
         import ipywidgets  # type: ignore[import-untyped]  # noqa: PLC0415 - no types; for notebooks
 
         wide = {"width": "max-content"}
@@ -266,4 +267,4 @@ class EffectSearch:
 
     def _repr_mimebundle_(self, **how: object) -> Any:  # noqa: ANN401 - ipywidgets has no types
         still = {"text/plain": repr(self), "text/html": self.html}  # where no buttons can be shown
-        return self._box._repr_mimebundle_(**how) | still
+        return self._make_box._repr_mimebundle_(**how) | still

@@ -53,7 +53,7 @@ def plot_time_series(
     figure, (upper, lower) = make_panels(2, 2, height=4.4, shared=True)
     drawn: dict[int, list[tuple[Axes, Array]]] = {}
     for kind, *pair in zip(KINDS, upper, lower, strict=True):
-        drawn |= _draw(runs, kind, pair, per=per)
+        drawn |= _draw_test_kind(runs, kind, pair, per=per)
         pair[0].set_title(f"{kind} tests", fontsize=10, color=INK)
         pair[1].set_xlabel("time since the test began [s]", color=INK)
     upper[0].set_ylabel("voltage [V]", color=INK)
@@ -104,7 +104,7 @@ def _take_first_runs(log: Log) -> dict[int, Run]:
     return first
 
 
-def _draw(
+def _draw_test_kind(
     runs: Mapping[int, Run], kind: str, axes: "Sequence[Axes]", *, per: Unit
 ) -> dict[int, list[tuple["Axes", Array]]]:
     """Draw both directions of a kind of test into two axes: voltage above, velocity below."""

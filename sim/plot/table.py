@@ -31,7 +31,7 @@ class Table:
     def html(self) -> str:
         """The table as HTML, with the colors of the page that contains it."""
         caption = f"<caption>{escape(self.caption)}</caption>" if self.caption else ""
-        left = self._left
+        left = self._left_aligned
         head = "".join(
             _write_cell("th", name, left=way) for name, way in zip(self.header, left, strict=True)
         )
@@ -57,14 +57,14 @@ class Table:
         text = [
             "  ".join(
                 cell.ljust(width) if way else cell.rjust(width)
-                for cell, width, way in zip(line, widths, self._left, strict=True)
+                for cell, width, way in zip(line, widths, self._left_aligned, strict=True)
             ).rstrip()
             for line in lines
         ]
         return "\n".join([self.caption, *text] if self.caption else text)
 
     @property
-    def _left(self) -> list[bool]:
+    def _left_aligned(self) -> list[bool]:
         """Whether each column holds text, which is aligned to the left."""
         columns = zip(*self.rows, strict=True) if self.rows else ((),) * len(self.header)
         return [place == 0 or _is_text_column(column) for place, column in enumerate(columns)]

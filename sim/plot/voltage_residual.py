@@ -284,7 +284,7 @@ def plot_voltage_residual(
     sizes = np.abs([np.quantile(np.abs(missing), DRAWN_QUANTILE), *means])
     high = 1.15 * max(float(np.nan_to_num(sizes).max()), 1e-9)
     for axes, (name, view) in zip(places, found.items(), strict=False):
-        _draw(axes, view, high=high)
+        _draw_panel(axes, view, high=high)
         axes.set_title(f"{name}: {_format_percent(view.explains)}", fontsize=10, color=INK)
         axes.set_xlabel(labels[name], color=INK)
         if name == DIRECTION:
@@ -356,7 +356,7 @@ def _bin_residual(missing: Array, at: Array, way: Array, edges: Array) -> Residu
     return ResidualView(at, missing, way, edges, cell, mean, error, 0.0)
 
 
-def _draw(axes: "Axes", view: ResidualView, *, high: float) -> None:
+def _draw_panel(axes: "Axes", view: ResidualView, *, high: float) -> None:
     inside = np.flatnonzero((view.at >= view.edges[0]) & (view.at <= view.edges[-1]))
     inside = inside[:: max(1, -(-inside.size // MOST))]
     axes.plot(

@@ -76,9 +76,9 @@ def plot_voltage_velocity(log: Log, *, lines: Mapping[str, Line] | None = None) 
     top = max(float(np.abs(one.velocity).max()) for one in ramps)
     near = top / 8.0 or 1.0  # without motion, any width will do
     figure, ((whole, close),) = make_panels(1, 2)
-    _draw(whole, ramps, drawn, top=top, most=MOST)
+    _draw_ramps(whole, ramps, drawn, top=top, most=MOST)
     _set_limits(close, ramps, drawn, near=near, both=log.type in {"elevator", "arm"})
-    _draw(close, _select_shown(ramps, close), drawn, top=top, most=CLOSEST)
+    _draw_ramps(close, _select_shown(ramps, close), drawn, top=top, most=CLOSEST)
     for axes in (whole, close):
         axes.set_xlabel(f"velocity [{per.symbol}/s]", color=INK)
     whole.set_ylabel("voltage [V]", color=INK)
@@ -86,7 +86,7 @@ def plot_voltage_velocity(log: Log, *, lines: Mapping[str, Line] | None = None) 
     close.set_title("close to standstill", fontsize=10, color=INK)
     whole.legend(fontsize=9)
     alt = "Two panels show voltage against velocity: the whole voltage ramp, and its slow part."
-    return Picture(figure, alt, _tabulate(ramps, drawn, per, top=top))
+    return Picture(figure, alt, _tabulate_lines(ramps, drawn, per, top=top))
 
 
 def _join_ramps(runs: Sequence[Run], per: Unit) -> list[_Ramps]:
@@ -134,7 +134,7 @@ def _select_shown(ramps: Sequence[_Ramps], axes: "Axes") -> list[_Ramps]:
     return shown
 
 
-def _draw(
+def _draw_ramps(
     axes: "Axes", ramps: Sequence[_Ramps], lines: Mapping[str, Line], *, top: float, most: int
 ) -> None:
     """Draw the samples, at most so many of each direction, and the lines."""
@@ -175,7 +175,7 @@ def _measure_rms_from_line(one: _Ramps, *, top: float) -> float | None:
     return float(np.sqrt(np.mean((voltage - line(velocity)) ** 2)))
 
 
-def _tabulate(
+def _tabulate_lines(
     ramps: Sequence[_Ramps], lines: Mapping[str, Line], per: Unit, *, top: float
 ) -> Table:
     """A table of the lines; without lines, of the samples."""

@@ -165,7 +165,7 @@ class _Scan:
                 ]
             for after in (None, later) if run < every[-1] else (None,):
                 tried = (
-                    self._rate(kind, run, share, here, after)
+                    self._fit_onset_size(kind, run, share, here, after)
                     for share, here in sums
                     if share or run or after is None  # else it acts on all samples, as kA does
                 )
@@ -178,7 +178,7 @@ class _Scan:
         for _ in range(HALVINGS if one.share else 0):
             step *= 0.5
             tried = [
-                self._rate(
+                self._fit_onset_size(
                     one.kind, one.run, share, self._sum_effect(one.kind, share, (one.run,))[0],
                     one.later,
                 )
@@ -198,7 +198,7 @@ class _Scan:
             UNTIL: start + self.durations[one.run] + MOMENT if one.later is None else LATER,
         }
 
-    def _rate(
+    def _fit_onset_size(
         self, kind: Mapping[str, float], run: int, share: float, here: Array, later: Array | None
     ) -> _Onset:
         """An onset with its best size; only added inertia can share momentum."""
@@ -217,7 +217,7 @@ class _Scan:
 
         The innovations are correlated with the response to a loss of speed (a matched filter).
         """
-        residual = self.residual[self._rows(run)].reshape(-1, 2)
+        residual = self.residual[self._find_run_rows(run)].reshape(-1, 2)
         speed = self.problem.measured[self.problem.run_slices[run], 1]
         response = self._velocity_response[: len(residual)]
         size = np.cumsum(np.sum(np.square(response), axis=1))
@@ -263,7 +263,7 @@ class _Scan:
             errors = isolated.predict_errors(model, nuisance, self.point.kalman_filter, clocks)
             for run, part in zip(runs, isolated.run_slices, strict=True):
                 change = (errors[part] - self._run_innovations[run]) / size
-                white, rows = self.problem.whiten(self.point, change), self._rows(run)
+                white, rows = self.problem.whiten(self.point, change), self._find_run_rows(run)
                 products = white @ self.residual[rows], white @ white
                 found.append(np.concatenate((products, self.basis[rows].T @ white)))
         return found
@@ -276,7 +276,7 @@ class _Scan:
             self._isolated[runs] = isolated, self.point.nuisance.select_runs(runs)
         return self._isolated[runs]
 
-    def _rows(self, run: int) -> slice:
+    def _find_run_rows(self, run: int) -> slice:
         """The rows of a run among whitened innovations."""
         samples = self.problem.run_slices[run]
         return slice(2 * samples.start, 2 * samples.stop)

@@ -70,13 +70,13 @@ def atomic_path(path: Path) -> Iterator[Path]:
     part = path.with_name(f".{uuid4().hex}.part{path.suffix}")
     try:
         yield part
-        _replace(part, path)
+        _replace_file(part, path)
     finally:
         with suppress(OSError):  # after success, there is nothing to remove
             part.unlink()
 
 
-def _replace(part: Path, path: Path) -> None:
+def _replace_file(part: Path, path: Path) -> None:
     for left in reversed(range(TRIES)):
         try:
             part.replace(path)

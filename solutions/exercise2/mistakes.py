@@ -35,7 +35,7 @@ def inspect_parts_first(text: str) -> str:
 
 
 def write_causes(*words: str) -> Callable[[str], str]:
-    """Make another list of causes."""
+    """An edit of an answer file that lists these causes for an inspection."""
     return make_wrong_answer("inspection", "[" + ", ".join(f'"{one}"' for one in words) + "]")
 
 

@@ -28,7 +28,7 @@ def solve(exercise: Path, data: Path) -> dict[str, str]:
         "kV_theory": f"{theory:.5g}",
         "difference": f"{percent:.2f}",
         "verdict": f'"{next(word for upper, word in UPPER if percent <= upper)}"',
-        "ks_flag": f'"{_flag(log)}"',
+        "ks_flag": f'"{_judge_friction(log)}"',
     }
     text = (exercise / "answers.toml").read_text(encoding="utf-8")
     for name, value in answers.items():
@@ -41,7 +41,7 @@ def _read_diameter(parts: Mapping[str, Any], otherwise: float) -> float:
     return float(parts.get("wheel_diameter", parts.get("drum_diameter", otherwise)))
 
 
-def _flag(log: Mapping[str, float]) -> str:
+def _judge_friction(log: Mapping[str, float]) -> str:
     if log["kS"] > log["kV"] * log["typical_speed"]:
         return "stop"
     return "watch" if log["kS"] > 0.5 else "fine"

@@ -32,7 +32,7 @@ def solve(exercise: Path, data: Path) -> dict[str, str]:
     given = tomllib.loads((data / "given.toml").read_text(encoding="utf-8"))
     answers: dict[str, object] = {}
     for kind in KINDS:
-        plan = _plan(given[kind])
+        plan = _choose_plan(given[kind])
         answers |= {f"{kind}_{name}": round(value, 4) for name, value in plan.items()}
         if "travel" not in given[kind]:
             answers[f"{kind}_release"] = "timeout"
@@ -51,7 +51,7 @@ def solve(exercise: Path, data: Path) -> dict[str, str]:
     return {"answers.toml": text.replace("steps = []", f"steps = [{listed}]")}
 
 
-def _plan(at: Mapping[str, float]) -> dict[str, float]:
+def _choose_plan(at: Mapping[str, float]) -> dict[str, float]:
     """Ramp, step, timeout and mark."""
     hold, tau = at["kS"] + at.get("kG", 0.0), at["kA"] / at["kV"]
     ramp = SHARE * at["free_speed"] * at["kV"] / (MOVES - tau)

@@ -28,14 +28,14 @@ def solve(exercise: Path, data: Path) -> dict[str, str]:
     """
     log = read(data / "log.wpilog")
     text = (exercise / "answers.toml").read_text(encoding="utf-8")
-    lines = {run.test.replace("-", "_"): f'"{_keep(run)}"' for run in log.runs}
+    lines = {run.test.replace("-", "_"): f'"{_select_samples(run)}"' for run in log.runs}
     lines |= {"threshold": f"{_choose_threshold(log) / find_unit(log.units).si:.4g}", "median": "3"}
     for name, value in lines.items():
         text = text.replace(f'{name} = ""', f"{name} = {value}")
     return {"answers.toml": text}
 
 
-def _keep(run: Run) -> str:
+def _select_samples(run: Run) -> str:
     """From the beginning until shortly before the position stands for good, voltage or not."""
     away = np.abs(run.position - run.position[-1])
     moves = np.flatnonzero(away > STANDS * np.ptp(run.position))

@@ -43,7 +43,7 @@ def _format_student(one: GradedStudent, results: ClassResults) -> str:
 
 def _make_result(one: GradedStudent, results: ClassResults) -> dict[str, Any]:
     unused = results.remarks.get(one.student, ())
-    tests = [_test(number, grade) for number, grade in enumerate(one.grades)]
+    tests = [_make_test(number, grade) for number, grade in enumerate(one.grades)]
     told = {test["status"] for test in tests}
     return {
         "version": 1,
@@ -54,7 +54,7 @@ def _make_result(one: GradedStudent, results: ClassResults) -> dict[str, Any]:
     }
 
 
-def _test(number: int, grade: Grade) -> dict[str, Any]:
+def _make_test(number: int, grade: Grade) -> dict[str, Any]:
     wrong = [check for check in grade.checks if check.status != "passed"]
     told = [make_printable(text) for text in grade.warnings]
     told += [f"{check.description}: {compose_feedback(check)}" for check in wrong]

@@ -145,13 +145,13 @@ class ButtonBench(Bench):
         self.simulation = Simulation({}, {}, self.subject.refill)
         self.simulation.jammed = True  # so that no end of travel ends a test
         self.scheduler = CommandScheduler()
-        facts |= self._look()
+        facts |= self._describe_program()
         facts["alone"] = {mode: self._watch_alone(mode) for mode in ("test", *MATCH)}
         facts["presses"] = tuple(self._find_presses())
 
     # -- what there is ----------------------------------------------------------------------
 
-    def _look(self) -> dict[str, Any]:
+    def _describe_program(self) -> dict[str, Any]:
         made = list(WORLD.tests)
         factories = self.guard(self.subject.list_factories)
         ports: dict[Any, int] = {}  # a number may be unknown
@@ -168,8 +168,8 @@ class ButtonBench(Bench):
             "shared": tuple(shared),
         }
 
-    def record_last(self, facts: dict[str, Any]) -> None:
-        """Record the bindings and commands that were made meanwhile."""
+    def record_final_state(self, facts: dict[str, Any]) -> None:
+        """Record bindings, releases and uncalled methods once the program has ended."""
         facts |= {
             "routines": len(WORLD.routines),
             "released": tuple(self.released.items()),
@@ -229,7 +229,7 @@ class ButtonBench(Bench):
             self.switch = (switch[0], WORLD.network.get(switch[0]))
             WORLD.network[switch[0]] = switch[1]
 
-    def _hold(self, inputs: Iterable[Input], *, on: bool) -> None:
+    def _set_inputs(self, inputs: Iterable[Input], *, on: bool) -> None:
         for port, kind, number in inputs:
             stick = WORLD.joysticks.setdefault(port, Joystick())
             if kind == "button":
@@ -260,12 +260,12 @@ class ButtonBench(Bench):
         count = ALONE if mode == "teleop" else ALONE // 3
         return tuple(sorted(self._run_loops(count)))
 
-    def _press(self, inputs: tuple[Input, ...]) -> frozenset[str]:
+    def _press_briefly(self, inputs: tuple[Input, ...]) -> frozenset[str]:
         """Hold some inputs for a moment; the tests that ran meanwhile."""
         before = set(self._list_running_commands())
         seen = len(self.scheduler._events)
         for one in inputs:
-            self._hold([one], on=True)
+            self._set_inputs([one], on=True)
             self._run_loops(1)
         found: frozenset[str] = frozenset()
         for count in range(LONGEST):
@@ -285,7 +285,7 @@ class ButtonBench(Bench):
         return found | started if len(started) > 1 else found
 
     def _release_inputs(self, inputs: tuple[Input, ...]) -> None:
-        self._hold(inputs, on=False)
+        self._set_inputs(inputs, on=False)
         for test in self._run_loops(2) & self._run_loops(2):
             lines = (int(b.line) for b in WORLD.bindings if test in find_tests(b.command))
             self.released.setdefault(test, next(lines, 0))
@@ -323,14 +323,16 @@ class ButtonBench(Bench):
     def _find_presses(self) -> Iterator[Press]:
         found: dict[str, tuple[tuple[Input, ...], tuple[str, Any] | None, str, frozenset[str]]] = {}
         for mode in ("test", "teleop"):
-            self._search(mode, None, found)
+            self._search_buttons(mode, None, found)
             for switch in self._list_switches():  # those that were asked for meanwhile
-                self._search(mode, switch, found)
+                self._search_buttons(mode, switch, found)
         for test in TESTS:
             if test in found:
-                yield self._measure(test, *found[test])
+                yield self._measure_test(test, *found[test])
 
-    def _search(self, mode: str, switch: tuple[str, Any] | None, found: dict[str, Any]) -> None:
+    def _search_buttons(
+        self, mode: str, switch: tuple[str, Any] | None, found: dict[str, Any]
+    ) -> None:
         """Look for what starts tests, in a mode and with a switch turned."""
         if not set(TESTS) - set(found):
             return
@@ -344,13 +346,13 @@ class ButtonBench(Bench):
                     continue
                 if count > 1 and len(set(TESTS) - set(found)) == 0:
                     return
-                tests = self._press(pressed)
+                tests = self._press_briefly(pressed)
                 if tests and count == 1:
                     singles.append(pressed[0])
                 for test in tests:
                     found.setdefault(test, (pressed, switch, mode, tests))
 
-    def _measure(
+    def _measure_test(
         self,
         test: str,
         inputs: tuple[Input, ...],
@@ -361,7 +363,7 @@ class ButtonBench(Bench):
         """Hold the button of a test to its end, release it halfway, and try it in a match."""
         self._set_mode(mode)
         self._turn_switch(switch)
-        self._hold(inputs, on=True)
+        self._set_inputs(inputs, on=True)
         ran, driven = [], []
         for _ in range(HELD):
             ran.append(test in self._run_loop())
@@ -369,12 +371,12 @@ class ButtonBench(Bench):
         line, how = self._find_binding(test)
         first = ran.index(True) if True in ran else HELD
         end = next((k for k in range(first, HELD) if not ran[k]), HELD)
-        self._hold(inputs, on=False)
+        self._set_inputs(inputs, on=False)
         self._run_loops(AFTER)
         moves = self._is_driven() or (not any(ran[end:]) and any(driven[end + AFTER :]))
         self.guard(self.scheduler.cancelAll)
         self._run_loops(2)
-        stayed, stopped, moved = self._release(inputs, test)
+        stayed, stopped, moved = self._try_release(inputs, test)
         opened = tuple(self._try_match(test, inputs))
         asked = next(
             (self._find_requested_line(lines) for t, _, lines in WORLD.tests if t == test), 0
@@ -400,19 +402,19 @@ class ButtonBench(Bench):
             apart=self._is_apart(inputs),
         )
 
-    def _release(self, inputs: tuple[Input, ...], test: str) -> tuple[bool, bool, bool]:
+    def _try_release(self, inputs: tuple[Input, ...], test: str) -> tuple[bool, bool, bool]:
         """Whether a test goes on when its input is let go, ends by a second press, moves motors."""
-        self._hold(inputs, on=True)
+        self._set_inputs(inputs, on=True)
         self._run_loops(SHORTEST if test in self._run_loops(SHORTEST) else LONGEST)
-        self._hold(inputs, on=False)
+        self._set_inputs(inputs, on=False)
         self._run_loops(2)
         stayed = test in self._run_loops(AFTER)
         moves = not stayed and self._is_driven()
         stopped = False
         if stayed:
-            self._hold(inputs, on=True)
+            self._set_inputs(inputs, on=True)
             self._run_loops(AFTER)
-            self._hold(inputs, on=False)
+            self._set_inputs(inputs, on=False)
             stopped = test not in self._run_loops(AFTER)
         self.guard(self.scheduler.cancelAll)
         return stayed, stopped, moves
@@ -427,7 +429,7 @@ class ButtonBench(Bench):
         for mode in MATCH:
             for state in STATES:
                 self._set_mode(mode, state)
-                if test in self._press(inputs):
+                if test in self._press_briefly(inputs):
                     yield mode
                     break
 

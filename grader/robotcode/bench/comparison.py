@@ -130,7 +130,7 @@ def _compare_motion(
     pairs: list[tuple[int, float]], rows: Sequence["Row"], made: dict[str, Any], signal: str
 ) -> Signal:
     if signal == "position":
-        pairs = _unwrap(pairs)
+        pairs = _unwrap_position(pairs)
     best: tuple[float, str, float, float, bool] = (TRUE, "", 0.0, 0.0, False)
     errors: dict[str, float] = {}  # of a line through the truth of a motor, the least
     for part in (2, 1) if signal == "velocity" else (1, 2):
@@ -167,7 +167,7 @@ def _pair_with_truth(
     ]
 
 
-def _unwrap(pairs: list[tuple[int, float]]) -> list[tuple[int, float]]:
+def _unwrap_position(pairs: list[tuple[int, float]]) -> list[tuple[int, float]]:
     """A position without the jumps of an absolute sensor, which begins anew each rotation."""
     span = max(v for _, v in pairs) - min(v for _, v in pairs)
     added, before, step = 0.0, pairs[0][1], 0.0

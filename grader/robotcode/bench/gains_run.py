@@ -129,7 +129,7 @@ class GainsBench(Bench):
         WORLD.mode, self.where = "teleop", "periodic"
         self.guard(lambda: CommandScheduler().run())
 
-    def record_last(self, facts: dict[str, Any]) -> None:
+    def record_final_state(self, facts: dict[str, Any]) -> None:
         """List the gains."""
         self.subject.refill()
         java = self.subject.language == "java"

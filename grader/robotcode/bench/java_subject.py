@@ -54,7 +54,7 @@ class JavaSubject(Subject):
         WORLD.stack = self.list_calls
         STATE.refill()
         self.program = Program(path)
-        self.java: Any = self._choose(wanted)  # None if the file has no class
+        self.java: Any = self._choose_class(wanted)  # None if the file has no class
         self.name = self.java.name if self.java is not None else path.stem
         self.text = self.program.main.text
 
@@ -64,7 +64,7 @@ class JavaSubject(Subject):
         new = any(one.full.startswith("org.wpilib.") for one in self.program.unit.imports)
         return 2027 if new else 2026
 
-    def _choose(self, wanted: str) -> JavaClass | None:
+    def _choose_class(self, wanted: str) -> JavaClass | None:
         classes = list(self.program.unit.classes.values())
         if not classes:
             return None

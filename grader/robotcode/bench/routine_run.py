@@ -90,14 +90,14 @@ class Bench:
             self.look(facts)
         except StoppedError as stopped:
             facts["stop"] = stopped.stop
-        self.record_last(facts)
+        self.record_final_state(facts)
         return self.kind(season=self.subject.season, **self.subject.describe() | facts)
 
     def look(self, facts: dict[str, Any]) -> None:
         """Write down what happens as long as the program runs."""
         raise NotImplementedError
 
-    def record_last(self, facts: dict[str, Any]) -> None:
+    def record_final_state(self, facts: dict[str, Any]) -> None:
         """Record the state after the end of the program."""
         raise NotImplementedError
 
@@ -130,17 +130,17 @@ class RoutineBench(Bench):
 
     def look(self, facts: dict[str, Any]) -> None:
         """Find the routine, and run all four tests."""
-        facts |= self._look()
+        facts |= self._describe_program()
         if "drive" in facts:
             facts["tests"] = dict(self._list_tests(facts))
 
-    def record_last(self, facts: dict[str, Any]) -> None:
+    def record_final_state(self, facts: dict[str, Any]) -> None:
         """Record the devices."""
         facts["devices"] = self._list_devices()
 
     # -- what there is ----------------------------------------------------------------------
 
-    def _look(self) -> dict[str, Any]:
+    def _describe_program(self) -> dict[str, Any]:
         """Find the routine, its settings and its devices."""
         ways = list(walk_fields(self.subject.instance))
         held = {id(one) for _, _, one in ways}
@@ -212,7 +212,7 @@ class RoutineBench(Bench):
             WORLD.mode, WORLD.battery, self.simulation.hiccup = "test", BATTERY, False
             self._wait_at_rest()
             try:
-                yield test, self._hold(test)
+                yield test, self._hold_button(test)
             except StoppedError as stopped:
                 facts["stop"] = stopped.stop
                 return
@@ -254,7 +254,7 @@ class RoutineBench(Bench):
     def _note_truth(self) -> None:
         if self.row is not None:
             self.row.truth = {
-                self.simulation.name(one): (one._applied, *one._rotor())
+                self.simulation.name(one): (one._applied, *one._read_rotor())
                 for one in self.simulation.motors
             }
 
@@ -281,7 +281,7 @@ class RoutineBench(Bench):
         for one in self.simulation.motors:  # carried back to where it began
             one._shaft.position = one._shaft.velocity = 0.0
 
-    def _hold(self, test: str) -> TestRun:
+    def _hold_button(self, test: str) -> TestRun:
         """Hold down the button of a test, until it ends or has shown enough."""
         self.test, self.sent = test, {}
         kind, way = test.split("-")

@@ -176,7 +176,7 @@ class Simulation:
         """Fix the voltage of every motor until the next loop."""
         for one in self.motors:
             if one._leader is None:
-                one._settle(self.get_through(one))
+                one._fix_voltage(self.get_through(one))
         for one in self.motors:
             if one._leader is not None:
                 leader = self.find_leader(one)

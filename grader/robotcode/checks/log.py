@@ -322,7 +322,7 @@ def _check_scale(
     if one.family == "linear" and scale > LONGEST and (not sensor or wanted):
         length = f"{scale:.3g}" if scale < LARGE else f"{scale:.0f}"
         raise fault("long_rotation", one.line, length=length, **told)
-    if one.family == "linear" and wanted and not _close(scale, wanted):
+    if one.family == "linear" and wanted and not _is_close(scale, wanted):
         raise fault("not_as_in_task", one.line, scale=scale, wanted=wanted, **told)
 
 
@@ -352,11 +352,11 @@ def _check_reported(signal: str, one: Signal, turn: float, told: Mapping[str, An
     else:
         return
     for factor, what in (taken | (rates if signal == "velocity" else {})).items():
-        if _close(turn, factor):
+        if _is_close(turn, factor):
             raise fault(kind, one.line, what=what, **told)
 
 
-def _close(one: float, other: float) -> bool:
+def _is_close(one: float, other: float) -> bool:
     return abs(one / other - 1.0) < NEAR
 
 
@@ -376,13 +376,13 @@ def _check_rate(name: str, position: Signal | None, velocity: Signal | None) -> 
     if not velocity.follows.startswith("velocity") or not position.follows.startswith("position"):
         return
     ratio = velocity.scale / position.scale
-    if any(_close(abs(ratio), one) for one in (1.0, GEARING, 1 / GEARING)) and ratio > 0:
+    if any(_is_close(abs(ratio), one) for one in (1.0, GEARING, 1 / GEARING)) and ratio > 0:
         return  # an absolute sensor turns slower than the motor, by gears that nobody told
-    if _close(ratio, -1.0):
+    if _is_close(ratio, -1.0):
         raise fault("velocity_sign", velocity.line, name=name, ratio=ratio)
     slips = {**SLIPS, **{1 / factor: said for factor, said in SLIPS.items()}}
     slip = next(
-        (said for factor, said in slips.items() if _close(abs(ratio), factor)),
+        (said for factor, said in slips.items() if _is_close(abs(ratio), factor)),
         "They are converted differently",
     )
     raise fault("velocity_unit", velocity.line, name=name, ratio=ratio, slip=slip)
@@ -393,7 +393,7 @@ def _check_alike(signals: Sequence[tuple[str, Signal]]) -> None:
     sided = [(name, one) for name, one in signals if find_side(name, SIDES[0]) and one.scale]
     for (name, one), (other, second) in itertools.pairwise(sided):
         ratio = abs((second.scale or 1.0) / (one.scale or 1.0))
-        if not _close(ratio, 1.0) and one.family == second.family:
+        if not _is_close(ratio, 1.0) and one.family == second.family:
             raise fault("sides_count_differently", second.line, other=other, ratio=ratio, name=name)
 
 

@@ -275,7 +275,7 @@ class JavaClass:
         self.__dict__["cls"] = made
         self.state = "new"
         declare_members(self)
-        self._install()
+        self._install_methods()
         compile_members(self)
         return made
 
@@ -308,7 +308,7 @@ class JavaClass:
         """The class that a type names; None if it is unknown, which is recorded as an error."""
         return self.unit.program.resolve_or_report(kind_of(node), self, self.unit.source.at(node))
 
-    def _install(self) -> None:
+    def _install_methods(self) -> None:
         """Add the methods to the Python class, with inherited ones of the same name."""
         by_name: dict[str, list[Method]] = {}
         for one in self.methods:

@@ -69,12 +69,12 @@ class JavaIterable(JavaClass, package="java.lang", name="Iterable", partial=True
 class Collection(JavaIterable, package=_UTIL, others="spliterator hashCode iterator"):
     """Any collection, by means of its length, its elements, ``add`` and ``_replace``."""
 
-    def _grow(self, count: int) -> None:
+    def _check_growth(self, count: int) -> None:
         STATE.tick(count)
         if len(self) + count > MOST:
             raise OutOfMemoryError("Java heap space")
 
-    def _keep(self, test: Callable[[Any], Any]) -> bool:
+    def _keep_passing(self, test: Callable[[Any], Any]) -> bool:
         """Keep the elements that pass a test; return whether that changed anything."""
         kept = [one for one in counted(self) if test(one)]
         changed = len(kept) < len(self)
@@ -84,16 +84,16 @@ class Collection(JavaIterable, package=_UTIL, others="spliterator hashCode itera
     def remove(self, item: object) -> Any:
         """Take out the first element that equals an object; return whether there was one."""
         gone: list[Any] = []
-        return self._keep(lambda one: gone or not equals(item, one) or gone.append(one))
+        return self._keep_passing(lambda one: gone or not equals(item, one) or gone.append(one))
 
     size = lambda self: len(self)
     isEmpty = lambda self: not len(self)
     contains = lambda self, item: any(equals(item, one) for one in counted(self))
     containsAll = lambda self, items: all(self.contains(one) for one in items)
     addAll = lambda self, items: sum(bool(self.add(one)) for one in list(items)) > 0
-    removeIf = lambda self, test: self._keep(lambda one: not test(one))
-    removeAll = lambda self, items: self._keep(lambda one: not items.contains(one))
-    retainAll = lambda self, items: self._keep(items.contains)
+    removeIf = lambda self, test: self._keep_passing(lambda one: not test(one))
+    removeAll = lambda self, items: self._keep_passing(lambda one: not items.contains(one))
+    retainAll = lambda self, items: self._keep_passing(items.contains)
     clear = lambda self: self._replace([])
     stream = parallelStream = lambda self: make_stream(self)
     toArray = lambda self, like=None: Array(self, getattr(like, "kind", "Object"))
@@ -107,7 +107,7 @@ class List(Collection, list[Any], package=_UTIL, others="listIterator"):
         if source is not None and type(source) is not int:
             self.addAll(source)
 
-    def _at(self, index: int) -> int:
+    def _check_index(self, index: int) -> int:
         if not 0 <= index < len(self):
             raise IndexOutOfBoundsException(f"Index {index} out of bounds for length {len(self)}")
         return index
@@ -116,14 +116,14 @@ class List(Collection, list[Any], package=_UTIL, others="listIterator"):
         self[:] = list(items)
 
     def _put(self, index: int, item: Any) -> Any:
-        before, self[index] = self[self._at(index)], item
+        before, self[index] = self[self._check_index(index)], item
         return before
 
     def addAll(self, *place_and_items: Any) -> bool:
         """Insert elements at an index or at the end."""
         *place, items = place_and_items
         added = list(items)
-        self._grow(len(added))
+        self._check_growth(len(added))
         index = place[0] if place else len(self)
         if not 0 <= index <= len(self):
             raise IndexOutOfBoundsException(f"Index: {index}, Size: {len(self)}")
@@ -136,7 +136,7 @@ class List(Collection, list[Any], package=_UTIL, others="listIterator"):
             return Collection.remove(self, item)
         if any(type(one) is int for one in self):
             refuse("remove() of a list of numbers")  # an index, or one of them
-        return list.pop(self, self._at(item))
+        return list.pop(self, self._check_index(item))
 
     def indexOf(self, wanted: object) -> int:
         """The first place of an element, -1 if there is none."""
@@ -151,7 +151,7 @@ class List(Collection, list[Any], package=_UTIL, others="listIterator"):
         isinstance(other, List) and len(self) == len(other) and all(map(equals, self, other))
     )
     add = lambda self, *place_and_item: self.addAll(*place_and_item[:-1], place_and_item[-1:])
-    get = lambda self, index: self[self._at(index)]
+    get = lambda self, index: self[self._check_index(index)]
     set = lambda self, index, item: self._put(index, item)
     sort = lambda self, order=None: self._replace(sort(self, order))
     replaceAll = lambda self, change: self._replace(map(change, list(self)))
@@ -238,7 +238,7 @@ class Set(Collection, dict[Any, None], package=_UTIL, others="clone"):
 
     def add(self, item: object) -> bool:
         """Add an element; return whether it is new."""
-        self._grow(1)
+        self._check_growth(1)
         new = item not in self
         self[item] = None
         return new

@@ -153,7 +153,7 @@ class ExpressionCompiler(StaticTypes):
             return self.refuse("a static method has no `this`", node)
         return Code(lambda env: env[THIS], self.owner.name)
 
-    def _reach(self, keys: Sequence[str]) -> Callable[[Env], Env]:
+    def _compile_path_to_outer(self, keys: Sequence[str]) -> Callable[[Env], Env]:
         """Code that leads from the variables of a method to those of an outer class."""
         if not keys:
             return lambda env: env
@@ -212,7 +212,7 @@ class ExpressionCompiler(StaticTypes):
         found = self.find_variable(name)
         if found is None:
             return self._find_imported_field(name) or self._unknown_name(name, node)
-        reach = self._reach(found[1])
+        reach = self._compile_path_to_outer(found[1])
         if found[0] == "local":
             return self._compile_local(found[1], found[2])
         if found[0] == "library":
@@ -226,7 +226,7 @@ class ExpressionCompiler(StaticTypes):
 
     def _compile_local(self, keys: Sequence[str], local: Local) -> Code:
         slot = local.slot
-        reach = self._reach(keys)
+        reach = self._compile_path_to_outer(keys)
         fixed = f"cannot assign a value to final variable {local.name}" if local.final else ""
         if keys or local.depth < self.frame.depth:
             fixed = (
@@ -246,7 +246,7 @@ class ExpressionCompiler(StaticTypes):
             return self.refuse(
                 f"{one.name} belongs to an object, and this is a static method", node
             )
-        reach = self._reach(keys)
+        reach = self._compile_path_to_outer(keys)
         place = lambda env: (reach(env)[THIS].__dict__, key)
         return Code(lambda env: reach(env)[THIS].__dict__[key], kind, place, fixed)
 
@@ -402,7 +402,7 @@ class ExpressionCompiler(StaticTypes):
         wanted = self.find_named_class(node)
         for frame, keys in self._list_frames():
             if frame.owner is wanted:
-                return Code(_this_of(self._reach(keys)), frame.owner.name)
+                return Code(_this_of(self._compile_path_to_outer(keys)), frame.owner.name)
         return self.refuse(f"there is no {text(node)}.this here", node)
 
     # -- arithmetic -------------------------------------------------------------------------
@@ -675,7 +675,7 @@ class ExpressionCompiler(StaticTypes):
                 return self.refuse(
                     f"{name}() belongs to an object, and this is a static method", node
                 )
-            reach, overloads = self._reach(keys), getattr(found, "overloads", None)
+            reach, overloads = self._compile_path_to_outer(keys), getattr(found, "overloads", None)
             this = lambda env, reach=reach: reach(env)[THIS]
             private = overloads and all("private" in one.modifiers for one in overloads.methods)
             run = (
@@ -794,7 +794,7 @@ class ExpressionCompiler(StaticTypes):
         if cls.static:
             return None
         for frame, keys in self._list_frames():
-            reach = self._reach(keys)
+            reach = self._compile_path_to_outer(keys)
             if cls.frame is not None:
                 if frame is cls.frame:
                     return lambda env, reach=reach: list(reach(env))
@@ -869,7 +869,7 @@ class ExpressionCompiler(StaticTypes):
                 raise values.NullPointerException(f"{text(first)} is null")
             caller = runtime.find_caller(type(one), name, ())
             arity = _count_parameters(runtime.find_attribute(type(one), name))
-            return Function(lambda *args: self._at(at, caller, one, args), at, arity)
+            return Function(lambda *args: self._call_at(at, caller, one, args), at, arity)
 
         return Code(bound, "lambda")
 
@@ -914,7 +914,7 @@ class ExpressionCompiler(StaticTypes):
         return Code(lambda _env: Function(call, at, arity), "lambda")
 
     @staticmethod
-    def _at(at: At, caller: runtime.Call, value: Any, args: Sequence[Any]) -> Any:
+    def _call_at(at: At, caller: runtime.Call, value: Any, args: Sequence[Any]) -> Any:
         STATE.at = at
         return caller(value, args)
 

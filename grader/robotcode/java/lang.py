@@ -52,7 +52,7 @@ def _round_with(change: Callable[[float], int]) -> Callable[[float], float]:
     return lambda x: math.copysign(change(x), x) if math.isfinite(x) else x
 
 
-def _choose(pick: Callable[..., Any]) -> Callable[[Any, Any], Any]:
+def _lift_choice(pick: Callable[..., Any]) -> Callable[[Any, Any], Any]:
     def run(a: Any, b: Any) -> Any:
         found = pick(require_number(a), require_number(b))
         return found if type(a) is type(b) else float(found)
@@ -69,7 +69,7 @@ def _round_down(operate: Callable[[int, int], int]) -> Callable[[Any, Any], Any]
     return run
 
 
-_larger, _smaller = _choose(max), _choose(min)
+_larger, _smaller = _lift_choice(max), _lift_choice(min)
 _SAME = "sin cos tan asin acos atan sinh cosh tanh atan2 sqrt cbrt exp log10 pow"
 _REALS: dict[str, Callable[..., float]] = {
     **{name: getattr(math, name) for name in _SAME.split()},
@@ -112,13 +112,13 @@ _REAL_TESTS: dict[str, Callable[..., bool]] = {
 def _make_box(kind: str, name: str, **constants: Any) -> None:
     """The class of a boxed number: its static methods, and a constructor."""
 
-    def read(source: Any) -> Any:
+    def value_of(source: Any) -> Any:
         return Unknown(f"{name}.valueOf()") if isinstance(source, str) else cast(kind, source)
 
     make_statics(
         f"{_LANG}.{name}",
         {
-            "valueOf": read,
+            "valueOf": value_of,
             "compare": compare,
             "max": _larger,
             "min": _smaller,
@@ -126,7 +126,7 @@ def _make_box(kind: str, name: str, **constants: Any) -> None:
             **(_REAL_TESTS if kind in {"double", "float"} else {}),
         },
         partial=True,
-        __new__=lambda _cls, source: read(source),
+        __new__=lambda _cls, source: value_of(source),
         **constants,
     )
 
@@ -179,7 +179,7 @@ class PrintStream(JavaClass, package="java.io", partial=True):
     print = println = printf = format = lambda self, *_args: None
 
 
-def _exit(_status: int) -> None:
+def _exit_program(_status: int) -> None:
     raise Exited
 
 
@@ -188,7 +188,7 @@ make_statics(
     {
         "currentTimeMillis": lambda: START + int(WORLD.time * MILLISECONDS),
         "nanoTime": lambda: int(WORLD.time * NANOSECONDS),
-        "exit": _exit,
+        "exit": _exit_program,
         "arraycopy": lambda _source, _from, to, *_how: to.__setitem__(
             slice(None), [Unknown("a copied element")] * len(to)
         ),

@@ -49,15 +49,15 @@ def declare_members(owner: JavaClass) -> None:
     if owner.form == "record":
         _declare_canonical(owner)
         for name, kind in owner.components:
-            _give(owner, name, [], kind, _make_reader(name))
-        _give(owner, "hashCode", [], "int", _hash_record)
-        _give(owner, "equals", ["Object"], "boolean", _are_equal_records)
+            _add_method(owner, name, [], kind, _make_reader(name))
+        _add_method(owner, "hashCode", [], "int", _hash_record)
+        _add_method(owner, "equals", ["Object"], "boolean", _are_equal_records)
 
     if owner.form == "enum":
         ask = lambda name, *args: enum_static(owner.list_constants(), owner.name, name, args)
-        _give(owner, "values", [], f"{owner.name}[]", lambda _: ask("values"), "static")
+        _add_method(owner, "values", [], f"{owner.name}[]", lambda _: ask("values"), "static")
         one = lambda _, name: ask("valueOf", name)
-        _give(owner, "valueOf", ["String"], owner.name, one, "static")
+        _add_method(owner, "valueOf", ["String"], owner.name, one, "static")
 
 
 def _declare_canonical(owner: JavaClass) -> None:
@@ -113,7 +113,7 @@ def _declare_components(owner: JavaClass) -> None:
         owner.fields[name] = Field(name, kind, False, True, f".{name}", -1, owner.at)
 
 
-def _give(
+def _add_method(
     owner: JavaClass, name: str, kinds: list[str], returns: str, run: Callable[..., Any], *more: str
 ) -> None:
     """Give a record or an enum a method that its text does not have, with more modifiers."""

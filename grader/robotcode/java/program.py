@@ -140,7 +140,7 @@ class Program:
     # -- files ------------------------------------------------------------------------------
 
     @functools.cached_property
-    def _stems(self) -> dict[str, list[Path]]:
+    def _files_by_stem(self) -> dict[str, list[Path]]:
         found: dict[str, list[Path]] = {}
         for one in list_sources(self.path, self.unit.package, ".java") if self._on_disk else ():
             found.setdefault(one.stem, []).append(one)
@@ -159,7 +159,7 @@ class Program:
 
     def list_all_units(self) -> list[Unit]:
         """Every file of the program that can be read."""
-        paths = [self.path, *(one for several in self._stems.values() for one in several)]
+        paths = [self.path, *(one for several in self._files_by_stem.values() for one in several)]
         return [unit for unit in map(self._find_unit, paths) if unit is not None]
 
     def find_own(self, full: str) -> JavaClass | None:
@@ -169,7 +169,7 @@ class Program:
             if not word[:1].isupper():
                 continue
             package = ".".join(words[:at])
-            units = [self._find_unit(path) for path in self._stems.get(word, ())]
+            units = [self._find_unit(path) for path in self._files_by_stem.get(word, ())]
             found = [one for one in units if one is not None and word in one.classes]
             exact = [one for one in found if one.package == package]
             one = next(iter(exact or (found if len(found) == 1 else ())), None)
@@ -184,8 +184,8 @@ class Program:
         found = self.find_own(f"{unit.package}.{name}")
         if found is not None and found.unit.package == unit.package:
             return found
-        for path in (one for several in self._stems.values() for one in several):
-            if path.parent == unit.source.path.parent and _mentions(path, name):
+        for path in (one for several in self._files_by_stem.values() for one in several):
+            if path.parent == unit.source.path.parent and _mentions_name(path, name):
                 other = self._find_unit(path)
                 if other is not None and other.package == unit.package and name in other.classes:
                     return other.classes[name]
@@ -196,9 +196,9 @@ class Program:
         found = self._resolve_simple(name, scope)
         if found is not None:
             return found
-        paths = [one for several in self._stems.values() for one in several]
+        paths = [one for several in self._files_by_stem.values() for one in several]
         for path in paths:
-            unit = self._find_unit(path) if _mentions(path, name) else None
+            unit = self._find_unit(path) if _mentions_name(path, name) else None
             if unit is not None and unit.package == scope.unit.package:
                 for one in unit.classes.values():
                     if name in one.nested:
@@ -238,7 +238,7 @@ class Program:
         while local is not None:
             found = local.find_class(name.partition(".")[0])
             if found is not None:
-                return _descend(found, name.split(".")[1:])
+                return _find_inner_class(found, name.split(".")[1:])
             local = local.outer
         key = (name, scope)
         if key not in self._resolved:
@@ -247,7 +247,7 @@ class Program:
             found = self._resolve_simple(first, scope)
             if found is None and rest:
                 found, rest = self.load(name), []
-            self._resolved[key] = _descend(found, rest)
+            self._resolved[key] = _find_inner_class(found, rest)
         return self._resolved[key]
 
     def _resolve_simple(self, name: str, scope: JavaClass) -> Any:
@@ -324,20 +324,22 @@ class Program:
             inner = [key for key, one in vars(whole).items() if isinstance(one, type)]
             near = type_names.did_you_mean(rest[0], inner)
             self.error(f"{whole.__name__} has no {rest[0]}{near}", at)
-            return _descend(whole, [near.rpartition(" ")[2].rstrip("?")]) if near else whole
+            return (
+                _find_inner_class(whole, [near.rpartition(" ")[2].rstrip("?")]) if near else whole
+            )
         loaded = [(one.full, self.load(one.full)) for one in scope.unit.imports]
-        nested = {f"{full}.{first}": _descend(cls, [first]) for full, cls in loaded}
+        nested = {f"{full}.{first}": _find_inner_class(cls, [first]) for full, cls in loaded}
         elsewhere = {full: JAVA[full] for full in packages_of(first)}
         elsewhere |= {full: cls for full, cls in nested.items() if isinstance(cls, type)}
         if elsewhere:
             best = min(elsewhere, key=lambda full: _rate_likeness(full, scope.unit))
             self.error(f"{first} is not imported. Write at the top: import {best};", at)
-            return _descend(elsewhere[best], rest)
+            return _find_inner_class(elsewhere[best], rest)
         simple = [full.rpartition(".")[2] for full in JAVA if full.startswith(VENDORS)]
         close = difflib.get_close_matches(first, simple, 1, NEARLY)
         if close:
             self.error(f"there is no class {first}. Did you mean {close[0]}?", at)
-            return _descend(JAVA[packages_of(close[0])[0]], rest)
+            return _find_inner_class(JAVA[packages_of(close[0])[0]], rest)
         return self._make_unknown(name, at)
 
 
@@ -348,7 +350,7 @@ def _rate_likeness(full: str, unit: Unit) -> tuple[bool, int]:
     return old, -sum(one.full.startswith(package[:14]) for one in unit.imports)
 
 
-def _mentions(path: Path, name: str) -> bool:
+def _mentions_name(path: Path, name: str) -> bool:
     try:
         return name.encode() in path.read_bytes()
     except OSError:
@@ -360,11 +362,11 @@ def _find_library(full: str) -> Any:
     for length in range(len(words), 1, -1):
         top = JAVA.get(".".join(words[:length]))
         if top is not None:
-            return _descend(top, words[length:])
+            return _find_inner_class(top, words[length:])
     return None
 
 
-def _descend(found: Any, names: list[str]) -> Any:
+def _find_inner_class(found: Any, names: list[str]) -> Any:
     """A class within classes."""
     for name in names:
         if isinstance(found, JavaClass):

@@ -293,7 +293,7 @@ class StatementCompiler(ExpressionCompiler):
         return lambda _env: Jump.CONTINUE
 
     def _yield_statement(self, node: Node) -> Run:
-        return _give(self.yields[-1], self.compile(next(named(node))))
+        return _store_value(self.yields[-1], self.compile(next(named(node))))
 
     def _throw_statement(self, node: Node) -> Run:
         run, at = self.compile(next(named(node))).run, self.at(node)
@@ -401,7 +401,7 @@ class StatementCompiler(ExpressionCompiler):
             arrow = part.type == "switch_rule"
             rest = [one for one in named(part) if one.type != "switch_label"]
             if arrow and slot is not None and rest and rest[0].type == "expression_statement":
-                body = _give(slot, self.compile(next(named(rest[0]))))
+                body = _store_value(slot, self.compile(next(named(rest[0]))))
             else:
                 body = _sequence([self.statement(one) for one in rest])
             cases.append((labels, default, body, arrow))
@@ -448,7 +448,7 @@ def _choose_case(cases: Sequence[tuple[list[Any], bool, Run, bool]], value: Unkn
     return 0 if value else default
 
 
-def _give(slot: int, code: Code) -> Run:
+def _store_value(slot: int, code: Code) -> Run:
     def give(env: Env) -> Jump:
         env[slot] = code.run(env)
         return Jump.YIELD

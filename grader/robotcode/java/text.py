@@ -49,12 +49,12 @@ def format(pattern: Any, args: Any) -> Any:
     return pattern.replace("%n", "\n") % tuple(filled) if unknown is None else unknown
 
 
-def _replace(text: str, old: Any, new: Any) -> Any:
+def _replace_text(text: str, old: Any, new: Any) -> Any:
     long = text.count(old) * len(new) > LONGEST_TEXT
     return Unknown("replace()") if long else text.replace(old, new)
 
 
-def _cut(text: str, begin: int, end: int | None = None) -> str:
+def _take_substring(text: str, begin: int, end: int | None = None) -> str:
     stop = len(text) if end is None else end
     if not 0 <= begin <= stop <= len(text):
         raise StringIndexOutOfBoundsException(f"begin {begin}, end {stop}, length {len(text)}")
@@ -71,8 +71,8 @@ STRING_METHODS: dict[str, Callable[..., Any]] = {
     **{name: make_unknown(f"{name}()") for name in _UNKNOWN.split()},
     "length": len,
     "isEmpty": lambda text: not text,
-    "charAt": lambda text, index: _cut(text, index, index + 1),
-    "substring": _cut,
+    "charAt": lambda text, index: _take_substring(text, index, index + 1),
+    "substring": _take_substring,
     "indexOf": lambda text, part: text.find(part),
     "contains": lambda text, part: part in text,
     "startsWith": lambda text, start: text.startswith(start),
@@ -83,7 +83,7 @@ STRING_METHODS: dict[str, Callable[..., Any]] = {
     "toUpperCase": lambda text, *_locale: text.upper(),
     "toLowerCase": lambda text, *_locale: text.lower(),
     "trim": lambda text: text.strip(),
-    "replace": _replace,
+    "replace": _replace_text,
     "concat": lambda text, other: text + other,
     "format": lambda _text, pattern, *args: format(pattern, args),
     "formatted": lambda text, *args: format(text, args),

@@ -190,11 +190,11 @@ add_named_classes(NAMES["exceptions"])
 
 def find_method(value: Any, name: str) -> Any:
     """A method that the class of an object or one of its bases has; None if it has none."""
-    return getattr(value, name) if _defines(type(value), name) else None  # type: ignore[arg-type]
+    return getattr(value, name) if _defines_method(type(value), name) else None  # type: ignore[arg-type]
 
 
 @functools.lru_cache(maxsize=4096)
-def _defines(cls: type, name: str) -> bool:
+def _defines_method(cls: type, name: str) -> bool:
     return any(name in vars(base) for base in cls.__mro__)
 
 
@@ -256,7 +256,7 @@ def require_number(value: Any) -> Any:
 def _lift_operator(operate: Callable[[Any, Any], Any]) -> Callable[[Any, Any], Any]:
     """An operator of Java's for two numbers or two booleans."""
 
-    def run(a: Any, b: Any) -> Any:
+    def apply_to_java_values(a: Any, b: Any) -> Any:
         if type(a) not in _NUMBERS or type(b) not in _NUMBERS:
             unknown = find_unknown(a, b)
             if unknown is not None:
@@ -268,16 +268,16 @@ def _lift_operator(operate: Callable[[Any, Any], Any]) -> Callable[[Any, Any], A
         wide = type(result) is int and not -LARGEST <= result < LARGEST
         return Unknown("a number beyond 64 bits") if wide else result
 
-    return run
+    return apply_to_java_values
 
 
 def _lift_whole_operator(operate: Callable[[int, int], int]) -> Callable[[Any, Any], Any]:
-    def run(a: Any, b: Any) -> Any:
+    def apply_to_whole_numbers(a: Any, b: Any) -> Any:
         if type(a) is float or type(b) is float:
             raise WrongArgument(f"{a} and {b} are not both whole numbers")
         return operate(a, b)
 
-    return _lift_operator(run)
+    return _lift_operator(apply_to_whole_numbers)
 
 
 def _divide(a: Any, b: Any) -> Any:

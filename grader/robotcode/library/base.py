@@ -60,15 +60,17 @@ class Unknown:
     def __iter__(self) -> Iterator["Unknown"]:
         return iter([self] if WORLD.decide(self.unknown_text) else [])
 
-    def _same(self, *_others: object) -> "Unknown":
+    def _return_self(self, *_others: object) -> "Unknown":
         return self
 
     __hash__ = object.__hash__
-    __add__ = __radd__ = __sub__ = __rsub__ = __mul__ = __rmul__ = __truediv__ = _same
-    __rtruediv__ = __mod__ = __rmod__ = __floordiv__ = __rfloordiv__ = __pow__ = __rpow__ = _same
-    __neg__ = __pos__ = __abs__ = __invert__ = __getitem__ = __round__ = __enter__ = _same
-    __eq__ = __ne__ = __lt__ = __le__ = __gt__ = __ge__ = _same  # type: ignore[assignment]
-    __and__ = __rand__ = __or__ = __ror__ = __xor__ = __rxor__ = _same
+    __add__ = __radd__ = __sub__ = __rsub__ = __mul__ = __rmul__ = __truediv__ = _return_self
+    __rtruediv__ = __mod__ = __rmod__ = __floordiv__ = __rfloordiv__ = __pow__ = __rpow__ = (
+        _return_self
+    )
+    __neg__ = __pos__ = __abs__ = __invert__ = __getitem__ = __round__ = __enter__ = _return_self
+    __eq__ = __ne__ = __lt__ = __le__ = __gt__ = __ge__ = _return_self  # type: ignore[assignment]
+    __and__ = __rand__ = __or__ = __ror__ = __xor__ = __rxor__ = _return_self
 
     def __exit__(self, *_error: object) -> None:
         pass

@@ -116,7 +116,7 @@ class CommandScheduler(Fake):
     def getInstance() -> "CommandScheduler":
         return CommandScheduler()
 
-    def _tell(self, kind: str, command: "Command") -> None:
+    def _record_event(self, kind: str, command: "Command") -> None:
         self._events.append((kind, command, WORLD.time, command._scheduled_line))
 
     def schedule(self, *commands: Any) -> None:
@@ -145,7 +145,7 @@ class CommandScheduler(Fake):
         self._scheduled[command] = None
         self._owners.update(dict.fromkeys(needed, command))
         command.initialize()
-        self._tell("schedule", command)
+        self._record_event("schedule", command)
 
     def cancel(self, *commands: Any) -> None:
         for one in flatten(commands):
@@ -162,7 +162,7 @@ class CommandScheduler(Fake):
     def _end(self, command: "Command", kind: str) -> None:
         self._ending.add(command)
         command.end(kind == "interrupt")
-        self._tell(kind, command)
+        self._record_event(kind, command)
         self._ending.discard(command)
         self._scheduled.pop(command, None)
         for one in [one for one, owner in self._owners.items() if owner is command]:
@@ -178,7 +178,7 @@ class CommandScheduler(Fake):
         self._in_loop = True
         try:
             for command in list(self._scheduled):
-                self._step(command)
+                self._run_one_loop(command)
         finally:
             self._in_loop = False
         for command, line in list(self._to_schedule.items()):
@@ -191,7 +191,7 @@ class CommandScheduler(Fake):
             if command is not None and subsystem not in self._owners:
                 self._schedule(command, command._line)
 
-    def _step(self, command: "Command") -> None:
+    def _run_one_loop(self, command: "Command") -> None:
         if not (WORLD.enabled or command.runsWhenDisabled()):
             self._cancel(command)
             return
@@ -537,22 +537,26 @@ class ParallelDeadlineGroup(ParallelCommandGroup):
 
 
 class _Choice(_Composition):
-    """One of several commands, chosen when it starts; ``_choose`` does it."""
+    """One of several commands, chosen when it starts; ``_choose_command`` does it."""
 
-    def _delegate(method: str) -> Any:  # makes a method
+    def _delegate_method(method: str) -> Any:  # makes a method
         def call(self: Any, *args: Any) -> Any:  # as the part's
             return getattr(self._chosen, method)(*args)
 
         return call
 
-    execute, end, isFinished = _delegate("execute"), _delegate("end"), _delegate("isFinished")
+    execute, end, isFinished = (
+        _delegate_method("execute"),
+        _delegate_method("end"),
+        _delegate_method("isFinished"),
+    )
 
     def __init__(self, *commands: Any) -> None:
         super().__init__(*commands)
         self._chosen = self._parts[0] if self._parts else InstantCommand()
 
     def initialize(self) -> None:
-        self._chosen = self._choose()
+        self._chosen = self._choose_command()
         self._chosen.initialize()
 
 
@@ -561,7 +565,7 @@ class ConditionalCommand(_Choice):
 
     def __init__(self, onTrue: Command, onFalse: Command, condition: Callable[..., Any]) -> None:
         super().__init__(onTrue, onFalse)
-        self._choose = lambda: self._parts[0 if condition() else 1]
+        self._choose_command = lambda: self._parts[0 if condition() else 1]
 
 
 class WrapperCommand(_Choice):
@@ -571,7 +575,7 @@ class WrapperCommand(_Choice):
         self, command: Command, name: str = "", at_end: Callable[..., Any] = nothing, **fixed: Any
     ) -> None:
         super().__init__(command)
-        self._choose = lambda: self._parts[0]
+        self._choose_command = lambda: self._parts[0]
         self._at_end = at_end
         self._fixed = fixed  # what it answers instead of the command
         self.setName(name or self._parts[0].getName())
@@ -595,7 +599,7 @@ class DeferredCommand(_Choice):
         self._supplier = supplier
         self.addRequirements(*requirements)
 
-    def _choose(self) -> Command:
+    def _choose_command(self) -> Command:
         made = self._supplier()
         (command,) = as_commands([InstantCommand() if made is None else made])
         CommandScheduler().registerComposedCommands(command)
@@ -646,7 +650,7 @@ class ProxyCommand(Command):
         return self._proxied is None or not CommandScheduler().isScheduled(self._proxied)
 
 
-def _make(cls: type) -> Any:  # a static method
+def _make_factory(cls: type) -> Any:  # a static method
     """A static method that makes a command of a class."""
 
     def make(*args: Any, **named: Any) -> Command:  # the class checks them
@@ -658,13 +662,25 @@ def _make(cls: type) -> Any:  # a static method
 class Commands(Fake):
     """Methods that make commands (allwpilib v2026, .../command/Commands.java)."""
 
-    none, runOnce, run = _make(InstantCommand), _make(InstantCommand), _make(RunCommand)
-    startEnd, print, print_ = _make(StartEndCommand), _make(PrintCommand), _make(PrintCommand)
-    waitSeconds, waitUntil = _make(WaitCommand), _make(WaitUntilCommand)
-    waitTime, defer, deferredProxy = waitSeconds, _make(DeferredCommand), _make(ProxyCommand)
-    either = _make(ConditionalCommand)
-    sequence, parallel = _make(SequentialCommandGroup), _make(ParallelCommandGroup)
-    race, deadline = _make(ParallelRaceGroup), _make(ParallelDeadlineGroup)
+    none, runOnce, run = (
+        _make_factory(InstantCommand),
+        _make_factory(InstantCommand),
+        _make_factory(RunCommand),
+    )
+    startEnd, print, print_ = (
+        _make_factory(StartEndCommand),
+        _make_factory(PrintCommand),
+        _make_factory(PrintCommand),
+    )
+    waitSeconds, waitUntil = _make_factory(WaitCommand), _make_factory(WaitUntilCommand)
+    waitTime, defer, deferredProxy = (
+        waitSeconds,
+        _make_factory(DeferredCommand),
+        _make_factory(ProxyCommand),
+    )
+    either = _make_factory(ConditionalCommand)
+    sequence, parallel = _make_factory(SequentialCommandGroup), _make_factory(ParallelCommandGroup)
+    race, deadline = _make_factory(ParallelRaceGroup), _make_factory(ParallelDeadlineGroup)
 
     @staticmethod
     def idle(*requirements: Any) -> Command:

@@ -85,7 +85,7 @@ def publish(path: str, data: Any) -> None:  # a chooser, a command, a value
 def add_kinds(put: str, start: str) -> Callable[[type], type]:
     """Give a class the methods for each kind of value: ``getBoolean``, ``putBoolean``.
 
-    The class has a method ``_find``, which makes a key a whole path.
+    The class has a method ``_find_topic``, which makes a key a whole path.
 
     Args:
         put: the word with which its writing methods begin: ``put`` or ``set``.
@@ -105,13 +105,13 @@ def make_accessors(of: type, nothing: Any) -> tuple[Any, ...]:  # any value
     """Methods that get, put, and put as a start, values of a type by their key."""
 
     def get(self: Any, key: str, default: of = nothing) -> of:
-        return read_value(self._find(key), default)
+        return read_value(self._find_topic(key), default)
 
     def put(self: Any, key: str, value: of) -> bool:
-        return write_value(self._find(key), value)
+        return write_value(self._find_topic(key), value)
 
     def start(self: Any, key: str, value: of) -> bool:
-        return write_value(self._find(key), value, start=True)
+        return write_value(self._find_topic(key), value, start=True)
 
     return get, put, start
 
@@ -124,13 +124,13 @@ class SmartDashboard(Fake):
     _root = "SmartDashboard"
 
     @classmethod
-    def _find(cls, key: str) -> str:
+    def _find_topic(cls, key: str) -> str:
         return make_path(cls._root, key)
 
     @classmethod
     def putData(cls, key: Any, data: Any = None) -> None:  # a key and data, or data only
         name, value = ("", key) if data is None else (key, data)
-        publish(cls._find(name or type(value).__name__), value)
+        publish(cls._find_topic(name or type(value).__name__), value)
 
 
 @fake("edu.wpi.first.wpilibj org.wpilib.preferences", "wpilib")

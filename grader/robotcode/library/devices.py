@@ -45,7 +45,7 @@ class Device(Fake):
 
     _port: tuple[Any, ...] = ()
 
-    def _register(self, *port: Any) -> None:  # numbers and names
+    def _register_port(self, *port: Any) -> None:  # numbers and names
         self._port = port
         self._line = WORLD.where()
         self._shaft = Shaft()
@@ -55,16 +55,16 @@ class Device(Fake):
 class Motor(Device):
     """A motor controller with its motor.
 
-    The bench calls ``_settle`` once all code of a loop has run, which fixes what the motor gets,
-    and then moves its shaft. A vendor's class calls ``_ask`` for every command.
+    The bench calls ``_fix_voltage`` once all code of a loop has run, which fixes what the motor
+    gets, and then moves its shaft. A vendor's class calls ``_store_command`` for every command.
 
     ``_inverted``: plus turns the shaft backward. ``_peak``: the largest voltage [V] that its
     settings allow, forward and reverse. ``_leader``: the motor or its port that it follows.
     ``_applied``: [V] at the shaft in the motor's own direction, as it was in the last loop.
     """
 
-    def _register(self, *port: Any) -> None:  # numbers and names
-        super()._register(*port)
+    def _register_port(self, *port: Any) -> None:  # numbers and names
+        super()._register_port(*port)
         self._inverted = False
         self._peak = (float("inf"), float("inf"))
         self._leader: Any = None
@@ -73,14 +73,16 @@ class Motor(Device):
         self._commands: list[Command] = []  # of this loop, in order
         self._applied: Any = 0.0  # or unknown
 
-    def _ask(self, kind: str, value: Any = 0.0, method: str = "") -> None:  # may be unknown
+    def _store_command(
+        self, kind: str, value: Any = 0.0, method: str = ""
+    ) -> None:  # may be unknown
         """Take a command, which holds until the next one."""
         self._command = Command(kind, value, method, WORLD.where())
         self._commands.append(self._command)
         if kind != "follow":
             self._leader = None
 
-    def _settle(self, share: float = 1.0) -> None:
+    def _fix_voltage(self, share: float = 1.0) -> None:
         """Fix the motor's voltage until the next loop.
 
         Args:
@@ -101,7 +103,7 @@ class Motor(Device):
             volts = max(-low, min(high, volts)) * share
         self._applied = volts
 
-    def _rotor(self) -> tuple[float, float]:
+    def _read_rotor(self) -> tuple[float, float]:
         """Position [rot] and velocity [rot/s] in the motor's own direction."""
         sign = -1.0 if self._inverted else 1.0
         return sign * self._shaft.position, sign * self._shaft.velocity

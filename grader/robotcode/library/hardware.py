@@ -45,21 +45,21 @@ class VendorMotor(Motor):
     the shaft of its leader does.
     """
 
-    def _register(self, *port: Any) -> None:
-        super()._register(*port)
+    def _register_port(self, *port: Any) -> None:
+        super()._register_port(*port)
         self._ramp: Any = 0.0
         self._strict = False
 
-    def _settle(self, share: float = 1.0) -> None:
+    def _fix_voltage(self, share: float = 1.0) -> None:
         before = self._applied
-        super()._settle(share)
+        super()._fix_voltage(share)
         known = not any(isinstance(one, Unknown) for one in (before, self._applied, self._ramp))
         if known and self._ramp > 0 and WORLD.enabled and self._command.kind in {"voltage", "duty"}:
             step = NOMINAL / self._ramp * PERIOD
             self._applied = clamp(self._applied, before - step, before + step)
 
-    def _follow(self, leader: Motor) -> None:
-        """Copy a leader's output; called in place of ``_settle``, after that of the leader."""
+    def _copy_leader(self, leader: Motor) -> None:
+        """Copy a leader's output; called in place of ``_fix_voltage``, after that of the leader."""
         turned = self._opposed != (not self._strict and leader._inverted != self._inverted)
         self._applied = -leader._applied if turned else leader._applied
 
@@ -87,25 +87,25 @@ class PWMMotorController(MotorController, VendorMotor):
     def __init__(self, channel: int) -> None:
         self._channel = channel
         self._followers: list[PWMMotorController] = []
-        self._register("PWM", name_port(channel))
+        self._register_port("PWM", name_port(channel))
 
-    def _give(self, kind: str, speed: Any, method: str) -> None:
+    def _send_output(self, kind: str, speed: Any, method: str) -> None:
         speed = clamp(speed, -1.0, 1.0)
-        self._ask(kind, speed, method)
+        self._store_command(kind, speed, method)
         for follower in self._followers:
-            follower._give(kind, -speed if self._inverted else speed, method)
+            follower._send_output(kind, -speed if self._inverted else speed, method)
 
     def set(self, speed: float) -> None:
-        self._give("duty", speed, "set")
+        self._send_output("duty", speed, "set")
 
     def setThrottle(self, throttle: float) -> None:
-        self._give("duty", throttle, "setThrottle")
+        self._send_output("duty", throttle, "setThrottle")
 
     def setVoltage(self, outputVolts: float | Voltage) -> None:
-        self._give("duty", to_volts(outputVolts) / WORLD.battery, "setVoltage")
+        self._send_output("duty", to_volts(outputVolts) / WORLD.battery, "setVoltage")
 
     def stopMotor(self) -> None:
-        self._give("neutral", 0.0, "stopMotor")
+        self._send_output("neutral", 0.0, "stopMotor")
 
     def get(self) -> float:
         return self._command.value
@@ -161,7 +161,7 @@ class DifferentialDrive(Fake):
     def __init__(self, leftMotor: Any, rightMotor: Any) -> None:  # motors or functions
         self._sides = (leftMotor, rightMotor)
 
-    def _drive(self, *_speeds: Any, **_settings: Any) -> None:
+    def _drive_sides(self, *_speeds: Any, **_settings: Any) -> None:
         for side in self._sides:
             command = side if callable(side) else side.set
             command(Unknown("the speed of the drive class"))
@@ -170,7 +170,7 @@ class DifferentialDrive(Fake):
         for side in self._sides:
             (side if callable(side) else side.set)(0.0)
 
-    tankDrive = arcadeDrive = curvatureDrive = _drive
+    tankDrive = arcadeDrive = curvatureDrive = _drive_sides
 
 
 @fake(ENCODERS, "wpilib", complete=True)
@@ -182,25 +182,25 @@ class Encoder(Device):
     _pulses_per_rotation = PULSES
 
     def __init__(self, channelA: Any, channelB: Any, *settings: Any, **named: Any) -> None:
-        self._register("DIO", name_port(channelA), name_port(channelB))
+        self._register_port("DIO", name_port(channelA), name_port(channelB))
         if channelA == channelB and isinstance(channelA, int):
             raise WrongArgument(f"Encoder: both of its channels are on port {channelA}")
         self._reversed = any(one is True for one in (*settings, named.get("reverseDirection")))
 
-    def _count(self, rotations: float) -> float:
+    def _count_pulses(self, rotations: float) -> float:
         return rotations * self._pulses_per_rotation * (-1 if self._reversed else 1)
 
     def get(self) -> int:
-        return int(self._count(self._shaft.position - self._zero))
+        return int(self._count_pulses(self._shaft.position - self._zero))
 
     def getRaw(self) -> int:
-        return int(EDGES * self._count(self._shaft.position - self._zero))
+        return int(EDGES * self._count_pulses(self._shaft.position - self._zero))
 
     def getDistance(self) -> float:
-        return self._count(self._shaft.position - self._zero) * self._scale
+        return self._count_pulses(self._shaft.position - self._zero) * self._scale
 
     def getRate(self) -> float:
-        return self._count(self._shaft.velocity) * self._scale
+        return self._count_pulses(self._shaft.velocity) * self._scale
 
     def reset(self) -> None:
         self._zero = self._shaft.position
@@ -219,7 +219,7 @@ class DutyCycleEncoder(Device):
     _kind = "DIO"
 
     def __init__(self, channel: Any, fullRange: float = 1.0, expectedZero: float = 0.0) -> None:
-        self._register(self._kind, name_port(channel))
+        self._register_port(self._kind, name_port(channel))
         self._range, self._expected = fullRange, expectedZero
         self._inverted = False
 

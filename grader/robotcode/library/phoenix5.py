@@ -39,33 +39,33 @@ class BaseMotorController(VendorMotor):
     _offset: Any = 0.0  # [ticks] by which somebody moved the sensor's position
 
     def __init__(self, deviceNumber: int, canbus: str = "rio") -> None:
-        self._register("CAN", canbus or "rio", name_port(deviceNumber), self._model)
+        self._register_port("CAN", canbus or "rio", name_port(deviceNumber), self._model)
         self._id, self._strict = deviceNumber, True
         stored = WORLD.stored.get(deviceNumber, {})
         self._inverted = stored.get("inverted", False)
 
-    def _give(self, share: Any, method: str) -> None:
+    def _send_output(self, share: Any, method: str) -> None:
         share = clamp(share, -1.0, 1.0)
         if self._nominal:
-            self._ask("voltage", share * self._nominal, method)
+            self._store_command("voltage", share * self._nominal, method)
         else:
-            self._ask("duty", share, method)
+            self._store_command("duty", share, method)
 
     def set(self, mode: Any, value: Any = None, *_demand: Any) -> None:
         if value is None:
-            self._give(mode, "set")
+            self._send_output(mode, "set")
         elif mode is ControlMode.PercentOutput:
-            self._give(value, "set(PercentOutput)")
+            self._send_output(value, "set(PercentOutput)")
         elif mode is ControlMode.Follower:
-            self._ask("follow", 0.0, "set(Follower)")
+            self._store_command("follow", 0.0, "set(Follower)")
             others = (one for one in WORLD.devices if isinstance(one, BaseMotorController))
             self._leader = next((one for one in others if one._id == value), None)
         else:
             kind = "neutral" if mode is ControlMode.Disabled else "closed-loop"
-            self._ask(kind, 0.0, f"set({getattr(mode, 'name', '')})")
+            self._store_command(kind, 0.0, f"set({getattr(mode, 'name', '')})")
 
     def follow(self, masterToFollow: "BaseMotorController", *_type: Any) -> None:
-        self._ask("follow", 0.0, "follow")
+        self._store_command("follow", 0.0, "follow")
         self._leader = masterToFollow
 
     def setInverted(self, isInverted: bool | InvertType) -> None:
@@ -101,23 +101,23 @@ class BaseMotorController(VendorMotor):
         return self._id
 
     def getSelectedSensorPosition(self, *_pid: Any) -> float:
-        return self._rotor()[0] * self._ticks + self._offset
+        return self._read_rotor()[0] * self._ticks + self._offset
 
     def getSelectedSensorVelocity(self, *_pid: Any) -> float:
-        return self._rotor()[1] * self._ticks / TENTHS
+        return self._read_rotor()[1] * self._ticks / TENTHS
 
     def setSelectedSensorPosition(self, sensorPos: float, *_pid: Any) -> None:
-        self._offset = sensorPos - self._rotor()[0] * self._ticks
+        self._offset = sensorPos - self._read_rotor()[0] * self._ticks
 
 
 class WpiMotorController(MotorController, BaseMotorController):
     """The members that only the classes ``WPI_`` have (.../can/WPI_TalonSRX.html)."""
 
     def setVoltage(self, outputVolts: float | Voltage) -> None:
-        self._give(to_volts(outputVolts) / WORLD.battery, "setVoltage")
+        self._send_output(to_volts(outputVolts) / WORLD.battery, "setVoltage")
 
     def stopMotor(self) -> None:
-        self._ask("neutral", 0.0, "stopMotor")
+        self._store_command("neutral", 0.0, "stopMotor")
 
     def get(self) -> float:
         return self._command.value

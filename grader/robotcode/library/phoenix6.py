@@ -166,35 +166,35 @@ class StatusSignal(Fake):
     def __init__(self, device: Any, name: str, unit: str) -> None:
         self._device, self._name, self._unit, self._value = device, name, unit, 0.0
 
-    def _update(self) -> "StatusSignal":
-        self._value = self._device._measure(self._name)
+    def _read_value(self) -> "StatusSignal":
+        self._value = self._device._measure_signal(self._name)
         return self
 
-    def _typed(self) -> Any:
+    def _value_with_unit(self) -> Any:
         plain = WORLD.language == "python" or isinstance(self._value, Unknown)
         return self._value if plain or not self._unit else CONSTANTS[self._unit].of(self._value)
 
     def getValue(self) -> Any:
-        return self._typed()
+        return self._value_with_unit()
 
     def getValueAsDouble(self) -> float:
         return self._value
 
     def refresh(self, reportError: bool = True) -> "StatusSignal":
-        return self._update()
+        return self._read_value()
 
     def asSupplier(self) -> Any:
-        return lambda: self._update()._typed()
+        return lambda: self._read_value()._value_with_unit()
 
     @staticmethod
     def refreshAll(*signals: Any) -> StatusCode:
         for some in signals:
             for one in some if isinstance(some, list | tuple) else [some]:
-                one._update() if isinstance(one, StatusSignal) else None
+                one._read_value() if isinstance(one, StatusSignal) else None
         return OK
 
-    waitForUpdate = lambda self, *_settings: self._update()
-    getLatencyCompensatedValue = staticmethod(lambda signal, *_more: signal._typed())
+    waitForUpdate = lambda self, *_settings: self._read_value()
+    getLatencyCompensatedValue = staticmethod(lambda signal, *_more: signal._value_with_unit())
     getLatencyCompensatedValueAsDouble = staticmethod(lambda signal, *_more: signal._value)
 
 
@@ -238,7 +238,7 @@ class Configurator(Fake):
     def apply(self, configs: Record, timeoutSeconds: float = 0.1) -> StatusCode:
         place, name = self._part(configs)
         place[name] = copy.deepcopy(configs)
-        self._device._use()
+        self._device._apply_settings()
         return OK
 
     def refresh(self, configs: Record, timeoutSeconds: float = 0.1) -> StatusCode:
@@ -259,14 +259,14 @@ class ParentDevice(Device):
 
     def __init__(self, deviceId: int, canbus: str | CANBus = "rio") -> None:
         bus = canbus._name if isinstance(canbus, CANBus) else canbus or "rio"
-        self._register("CAN", bus, name_port(deviceId), self._kind)
+        self._register_port("CAN", bus, name_port(deviceId), self._kind)
         self._id = deviceId
         self._signals: dict[str, StatusSignal] = {}
         names = (one.__name__ for one in type(self).__mro__ if one.__name__ in TABLES["devices"])
         self._config = copy.deepcopy(DEFAULTS[f"{next(names)}Configuration"])
         if WORLD.stored.get(deviceId, {}).get("inverted"):
             self._set_inverted(inverted=True)
-        self._use()
+        self._apply_settings()
 
     def __getattr__(self, name: str) -> Any:
         if "Fault" in name or name.startswith("getDifferential"):
@@ -276,18 +276,18 @@ class ParentDevice(Device):
     def _set_inverted(self, *, inverted: bool) -> None:
         """Store the direction."""
 
-    def _use(self) -> None:
+    def _apply_settings(self) -> None:
         """Take over the settings."""
 
     def _setting(self, group: str, field: str) -> Any:
         return self._config._values[group]._values[field]
 
-    def _turns(self) -> tuple[Any, Any]:
+    def _read_turns(self) -> tuple[Any, Any]:
         """Position [rot], without the offset that the program set, and velocity [rot/s]."""
         return 0.0, 0.0
 
-    def _measure(self, name: str) -> Any:
-        position, velocity = self._turns()
+    def _measure_signal(self, name: str) -> Any:
+        position, velocity = self._read_turns()
         known = {"getPosition": position + self._offset, "getVelocity": velocity}
         return known.get(name, Unknown(f"{type(self).__name__}.{name}()"))
 
@@ -298,7 +298,7 @@ class ParentDevice(Device):
         return Configurator(self)
 
     def setPosition(self, newValue: float | Angle, timeoutSeconds: float = 0.1) -> StatusCode:
-        self._offset = to_number(newValue) - self._turns()[0]
+        self._offset = to_number(newValue) - self._read_turns()[0]
         return OK
 
     def isConnected(self, *_seconds: Any) -> bool:
@@ -322,9 +322,9 @@ class TalonFX(ParentDevice, VendorMotor):
     def _set_inverted(self, *, inverted: bool) -> None:
         directions = list(type(DEFAULTS["InvertedValue"]))
         self._config._values["MotorOutput"].Inverted = directions[inverted]
-        self._use()
+        self._apply_settings()
 
-    def _use(self) -> None:
+    def _apply_settings(self) -> None:
         self._inverted = self._setting("MotorOutput", "Inverted") != DEFAULTS["InvertedValue"]
         limits = [self._setting("Voltage", f"Peak{one}Voltage") for one in ("Forward", "Reverse")]
         self._peak = (limits[0], -limits[1])
@@ -343,13 +343,13 @@ class TalonFX(ParentDevice, VendorMotor):
             ratio = ratio * (self._setting(self._feedback, "RotorToSensorRatio") or 1.0)
         return ratio
 
-    def _turns(self) -> tuple[Any, Any]:
+    def _read_turns(self) -> tuple[Any, Any]:
         ratio = self._gearing
-        position, velocity = self._rotor()
+        position, velocity = self._read_rotor()
         return position / ratio, velocity / ratio
 
-    def _measure(self, name: str) -> Any:
-        position, velocity = self._rotor()
+    def _measure_signal(self, name: str) -> Any:
+        position, velocity = self._read_rotor()
         known = {
             "getRotorPosition": position,
             "getRotorVelocity": velocity,
@@ -357,12 +357,12 @@ class TalonFX(ParentDevice, VendorMotor):
             "getDutyCycle": self._applied / WORLD.battery,
             "getSupplyVoltage": WORLD.battery,
         }
-        return known[name] if name in known else super()._measure(name)
+        return known[name] if name in known else super()._measure_signal(name)
 
-    def _settle(self, share: float = 1.0) -> None:
+    def _fix_voltage(self, share: float = 1.0) -> None:
         kind = "Voltage" if self._command.kind == "voltage" else "DutyCycle"
         self._ramp = self._setting("OpenLoopRamps", f"{kind}OpenLoopRampPeriod")
-        super()._settle(share)
+        super()._fix_voltage(share)
         if not isinstance(self._applied, Unknown) and self._is_limited():
             self._applied = 0.0
 
@@ -373,35 +373,37 @@ class TalonFX(ParentDevice, VendorMotor):
             return True
         enabled = self._setting("SoftwareLimitSwitch", f"{side}SoftLimitEnable")
         limit = self._setting("SoftwareLimitSwitch", f"{side}SoftLimitThreshold")
-        past = sign * (self._turns()[0] + self._offset - limit) >= 0
+        past = sign * (self._read_turns()[0] + self._offset - limit) >= 0
         return enabled and past and not request.get("IgnoreSoftwareLimits")
 
-    def _run(self, kind: str, value: Any, method: str, request: Record | None = None) -> None:
+    def _apply_request(
+        self, kind: str, value: Any, method: str, request: Record | None = None
+    ) -> None:
         self._request = request
         if kind == "duty":
             ends = [f"Peak{one}DutyCycle" for one in ("Reverse", "Forward")]
             value = clamp(value, *(self._setting("MotorOutput", one) for one in ends))
-        self._ask(kind, value, method)
+        self._store_command(kind, value, method)
 
     def set(self, speed: float) -> None:
-        self._run("duty", speed, "set")
+        self._apply_request("duty", speed, "set")
 
     def setVoltage(self, volts: float | Voltage) -> None:  # a measure until 2024
-        self._run("voltage", to_volts(volts), "setVoltage")
+        self._apply_request("voltage", to_volts(volts), "setVoltage")
 
     def get(self) -> float:
         return self._applied / WORLD.battery
 
     def stopMotor(self) -> None:
-        self._run("neutral", 0.0, "stopMotor")
+        self._apply_request("neutral", 0.0, "stopMotor")
 
     def setControl(self, request: Record) -> StatusCode:
         call = "setControl" if WORLD.language == "java" else "set_control"
         if isinstance(request, Unknown):
-            self._run("closed-loop", 0.0, call)
+            self._apply_request("closed-loop", 0.0, call)
             return OK
         values, name = request._values, type(request).__name__
-        self._run(
+        self._apply_request(
             request._kind, values.get("Output", 0.0), f"{call}({name})", copy.deepcopy(request)
         )
         if request._kind == "follow":
@@ -445,7 +447,7 @@ class CANcoder(ParentDevice):
         )
         return next(mine, None)
 
-    def _turns(self) -> tuple[Any, Any]:
+    def _read_turns(self) -> tuple[Any, Any]:
         motor = self._turned_by
         ratio = motor._setting(motor._feedback, "RotorToSensorRatio") if motor else 1.0
         turned = (
@@ -455,11 +457,11 @@ class CANcoder(ParentDevice):
         offset = self._setting("MagnetSensor", "MagnetOffset")
         return self._shaft.position / ratio + offset, self._shaft.velocity / ratio
 
-    def _measure(self, name: str) -> Any:
+    def _measure_signal(self, name: str) -> Any:
         if name == "getAbsolutePosition":
             below = 1.0 - self._setting("MagnetSensor", "AbsoluteSensorDiscontinuityPoint")
-            return (self._turns()[0] + below) % 1.0 - below
-        return super()._measure(name)
+            return (self._read_turns()[0] + below) % 1.0 - below
+        return super()._measure_signal(name)
 
 
 @_device(complete=False)
@@ -468,14 +470,14 @@ class Pigeon2(ParentDevice):
 
     _kind = "Pigeon2"
 
-    def _measure(self, name: str) -> float:
+    def _measure_signal(self, name: str) -> float:
         return 0.0
 
 
 def _add_signal(cls: type, name: str, unit: str) -> None:
     def get(self: ParentDevice, refresh: bool = True) -> StatusSignal:
         signal = self._signals.setdefault(name, StatusSignal(self, name, unit))
-        return signal._update() if refresh else signal
+        return signal._read_value() if refresh else signal
 
     get.__qualname__ = f"{cls.__name__}.{name}"
     setattr(cls, name, checked(get))
@@ -572,11 +574,11 @@ class SwerveDrivetrain(VendorMotor):
     """All motors of a swerve drive as one (.../phoenix6/swerve/SwerveDrivetrain.html)."""
 
     def __init__(self, *_settings: Any, **_named: Any) -> None:
-        self._register("CAN", "swerve")
+        self._register_port("CAN", "swerve")
 
     def setControl(self, request: Any) -> None:
         known = isinstance(request, Record)
         value = next(iter(request._values.values())) if known else 0.0
         call = "setControl" if WORLD.language == "java" else "set_control"
         name = type(request).__name__
-        self._ask("voltage" if known else "closed-loop", value, f"{call}({name})")
+        self._store_command("voltage" if known else "closed-loop", value, f"{call}({name})")

@@ -61,14 +61,14 @@ class BaseConfig(Fake):
         parts = [self, *(getattr(self, name) for name in self._parts)]
         for one in parts:
             if config._family == one._family:
-                one._take(config)
+                one._copy_settings(config)
                 return self
         raise WrongArgument(f"{type(self).__name__} applies no {type(config).__name__}")
 
-    def _take(self, config: "BaseConfig") -> None:
+    def _copy_settings(self, config: "BaseConfig") -> None:
         self._given |= config._given
         for name in self._parts:
-            getattr(self, name)._take(getattr(config, name))
+            getattr(self, name)._copy_settings(getattr(config, name))
 
 
 def _add_setter(cls: type, name: str, kinds: str) -> None:
@@ -119,20 +119,20 @@ class RelativeEncoder(Fake):
     def _setting(self, name: str, default: Any) -> Any:
         return self._spark._setting(f"{self._part}.{name}", default)
 
-    def _turns(self) -> tuple[Any, Any]:
-        position, velocity = self._spark._rotor()
+    def _read_turns(self) -> tuple[Any, Any]:
+        position, velocity = self._spark._read_rotor()
         return position, velocity * MINUTE
 
     def getPosition(self) -> float:
-        turns = self._turns()[0] + self._offset
+        turns = self._read_turns()[0] + self._offset
         return turns * self._setting("positionConversionFactor", 1.0)
 
     def getVelocity(self) -> float:
-        return self._turns()[1] * self._setting("velocityConversionFactor", 1.0)
+        return self._read_turns()[1] * self._setting("velocityConversionFactor", 1.0)
 
     def setPosition(self, position: float) -> Enum:
         turns = position / self._setting("positionConversionFactor", 1.0)
-        self._offset = turns - self._turns()[0]
+        self._offset = turns - self._read_turns()[0]
         return OK
 
     def setPositionConversionFactor(self, factor: float) -> Enum:
@@ -151,7 +151,7 @@ class AbsoluteEncoder(RelativeEncoder):
     It sits behind the gears of the mechanism.
     """
 
-    def _turns(self) -> tuple[Any, Any]:
+    def _read_turns(self) -> tuple[Any, Any]:
         shaft = self._spark._shaft
         sign = -1.0 if self._setting("inverted", False) else 1.0
         least = -0.5 if self._setting("zeroCentered", False) else 0.0
@@ -175,18 +175,18 @@ class SparkClosedLoopController(Fake):
     def __init__(self, spark: Any) -> None:
         self._spark = spark
 
-    def _ask(self, call: str, value: Any, kind: Enum, more: tuple[Any, ...]) -> Enum:
+    def _store_command(self, call: str, value: Any, kind: Enum, more: tuple[Any, ...]) -> Enum:
         kinds = {ControlType.kVoltage: "voltage", ControlType.kDutyCycle: "duty"}
         extra = more[1] if len(more) > 1 and kind is ControlType.kVoltage else 0.0
         name = kind.name if isinstance(kind, Enum) else ""
-        self._spark._give(kinds.get(kind, "closed-loop"), value + extra, f"{call}({name})")
+        self._spark._send_output(kinds.get(kind, "closed-loop"), value + extra, f"{call}({name})")
         return OK
 
     def setSetpoint(self, setpoint: float, ctrl: ControlType, *more: Any) -> Enum:
-        return self._ask("setSetpoint", setpoint, ctrl, more)
+        return self._store_command("setSetpoint", setpoint, ctrl, more)
 
     def setReference(self, value: float, ctrl: ControlType, *more: Any) -> Enum:
-        return self._ask("setReference", value, ctrl, more)
+        return self._store_command("setReference", value, ctrl, more)
 
 
 fake(SPARK, "rev", name="SparkPIDController", complete=True)(SparkClosedLoopController)
@@ -203,53 +203,53 @@ class SparkBase(MotorController, VendorMotor):
     ResetMode, PersistMode = ResetMode, PersistMode
 
     def __init__(self, deviceId: int, type: MotorType) -> None:
-        self._register("CAN", "rio", name_port(deviceId), "Spark")
+        self._register_port("CAN", "rio", name_port(deviceId), "Spark")
         self._id = deviceId
         self._parts: dict[str, Any] = {}
         self._speed: Any = 0.0
         stored = WORLD.stored.get(deviceId, {})
         self._settings: dict[str, Any] = {name: (value,) for name, value in stored.items()}
-        self._use()
+        self._apply_settings()
 
     def _setting(self, name: str, default: Any) -> Any:
         values = self._settings.get(name)
         return values[0] if values else default
 
-    def _use(self) -> None:
+    def _apply_settings(self) -> None:
         self._inverted = self._setting("inverted", False)
         self._ramp = self._setting("openLoopRampRate", 0.0)
         follow = self._settings.get("follow")
         if follow:
             leader, *invert = follow
-            self._ask("follow", 0.0, "follow")
+            self._store_command("follow", 0.0, "follow")
             is_spark = isinstance(leader, Device)
             self._leader = leader if is_spark else ("CAN", "rio", name_port(leader), "Spark")
             self._opposed = bool(invert and invert[0])
         else:
             self._leader = None
 
-    def _give(self, kind: str, value: Any, method: str) -> None:
+    def _send_output(self, kind: str, value: Any, method: str) -> None:
         if self._leader is not None:
             return
         if kind == "duty":
             nominal = self._setting("voltageCompensation", 0.0)
             value = clamp(value, -1.0, 1.0)
             kind, value = ("voltage", value * nominal) if nominal else (kind, value)
-        self._ask(kind, value, method)
+        self._store_command(kind, value, method)
 
     def _part(self, part: str, cls: type = RelativeEncoder) -> Any:
         return self._parts.setdefault(part, cls(self, part))
 
     def set(self, speed: float) -> None:
         self._speed = speed
-        self._give("duty", speed, "set")
+        self._send_output("duty", speed, "set")
 
     def setVoltage(self, outputVolts: float | Voltage) -> None:
-        self._give("voltage", to_volts(outputVolts), "setVoltage")
+        self._send_output("voltage", to_volts(outputVolts), "setVoltage")
 
     def stopMotor(self) -> None:
         self._speed = 0.0
-        self._give("neutral", 0.0, "stopMotor")
+        self._send_output("neutral", 0.0, "stopMotor")
 
     def get(self) -> float:
         """The share that the motor gets: REV does not say whether a voltage changes it."""
@@ -267,7 +267,7 @@ class SparkBase(MotorController, VendorMotor):
         for setter in ("FollowerMode", "VoltageCompensation"):
             if self._settings.pop(f"disable{setter}", None) is not None:
                 self._settings.pop(OFF[setter], None)
-        self._use()
+        self._apply_settings()
         return OK
 
     def getAppliedOutput(self) -> float:
@@ -302,12 +302,12 @@ class CANSparkBase(SparkBase):
 
     def _store(self, name: str, *values: Any) -> Enum:
         self._settings[name] = values
-        self._use()
+        self._apply_settings()
         return OK
 
     def restoreFactoryDefaults(self, persist: bool = False) -> Enum:
         self._settings = {}
-        self._use()
+        self._apply_settings()
         return OK
 
     def enableVoltageCompensation(self, nominalVoltage: float) -> Enum:

@@ -142,7 +142,7 @@ class Notifier(Fake):
         self._callback = callback
         self._due: Any = None  # [s] when it runs once; None if it runs again and again
 
-    def _run(self) -> None:
+    def _run_when_due(self) -> None:
         if self._due is None:
             self._callback()
         elif WORLD.time >= self._due:
@@ -152,7 +152,7 @@ class Notifier(Fake):
     def _start(self, due: Any) -> None:  # may be unknown
         self._due = due
         self.stop()
-        WORLD.each_loop.append(self._run)
+        WORLD.each_loop.append(self._run_when_due)
 
     def startPeriodic(self, period: Any) -> None:  # a number or a measure
         self._start(None)
@@ -161,8 +161,8 @@ class Notifier(Fake):
         self._start(WORLD.time + in_seconds(delay))
 
     def stop(self) -> None:
-        if self._run in WORLD.each_loop:
-            WORLD.each_loop.remove(self._run)
+        if self._run_when_due in WORLD.each_loop:
+            WORLD.each_loop.remove(self._run_when_due)
 
     close = stop
 
@@ -174,7 +174,7 @@ class DigitalInput(Device):
     _value = False
 
     def __init__(self, channel: Any) -> None:
-        self._register("DIO", channel)
+        self._register_port("DIO", channel)
 
     def get(self) -> bool:
         return self._value

@@ -60,9 +60,9 @@ class _MotorLog(Fake):
 
     def value(self, name: str, value: float, unit: str) -> "_MotorLog":
         """Log a number without any conversion."""
-        return self._write(name, value, "", unit)
+        return self._log_signal(name, value, "", unit)
 
-    def _write(self, signal: str, value: Any, family: str, unit: str) -> "_MotorLog":
+    def _log_signal(self, signal: str, value: Any, family: str, unit: str) -> "_MotorLog":
         entry = LogEntry(self._motor, signal, value, family, unit, WORLD.where())
         WORLD.logged.append(entry)
         return self
@@ -76,11 +76,11 @@ def _make_method(name: str, constant: str, label: str) -> Callable[..., Any]:
 
     def log(self: _MotorLog, value: Any) -> _MotorLog:
         if isinstance(value, Unknown):
-            return self._write(signal, value, family, label)
+            return self._log_signal(signal, value, family, label)
         if WORLD.language == "python" and isinstance(value, int | float):
-            return self._write(signal, unit.toBaseUnits(value), family, label)
+            return self._log_signal(signal, unit.toBaseUnits(value), family, label)
         if WORLD.language == "java" and isinstance(value, unit._kind):
-            return self._write(signal, value._base, family, value._unit._name)
+            return self._log_signal(signal, value._base, family, value._unit._name)
         raise WrongArgument(f"{name} takes a value in units such as {constant}, not {_show(value)}")
 
     return log
@@ -147,11 +147,11 @@ class Config(Fake):
         self._line, self.recordState = WORLD.where(), recordState
         self._given: dict[str, Any] = {}
         self._problems: dict[str, str] = {}  # what was passed in place of a number of the kind
-        self.rampRate = self._take("ramp", rampRate, RAMP)
-        self.stepVoltage = self._take("step", stepVoltage, STEP)
-        self.timeout = self._take("timeout", timeout, TIMEOUT)
+        self.rampRate = self._read_setting("ramp", rampRate, RAMP)
+        self.stepVoltage = self._read_setting("step", stepVoltage, STEP)
+        self.timeout = self._read_setting("timeout", timeout, TIMEOUT)
 
-    def _take(self, name: str, value: Any, default: Measure) -> Any:
+    def _read_setting(self, name: str, value: Any, default: Measure) -> Any:
         """A setting as the program gave it, or WPILib's default."""
         java = WORLD.language == "java"
         standard = value is default or (java and value is None)
@@ -176,12 +176,12 @@ class ConfigV3(Config):
     def __init__(self, rampRate: Any, stepVoltage: Any, timeout: Any, recordState: Any) -> None:
         super().__init__(rampRate, stepVoltage, timeout, recordState)
 
-    def _take(self, name: str, value: Any, default: Measure) -> Any:
+    def _read_setting(self, name: str, value: Any, default: Measure) -> Any:
         if value is None:
             self._problems[name] = f"null for the {name}: Commands v3 takes no null there"
             self._given[name] = None
             return default
-        return super()._take(name, value, default)
+        return super()._read_setting(name, value, default)
 
     @staticmethod
     def useDataLog(rampRate: Any, stepVoltage: Any, timeout: Any) -> Config:
@@ -259,29 +259,29 @@ class Routine(SysIdRoutineLog):
         mechanism, state = self._mechanism, self.State(test)
 
         def run() -> None:
-            self._drive(output())
+            self._apply_volts(output())
             if mechanism._log is not None or WORLD.language == "python":
                 mechanism._log(self)
-            self._record(state)
+            self._record_state(state)
 
         def end() -> None:
-            self._drive(0.0)
-            self._record(self.State("none"))
+            self._apply_volts(0.0)
+            self._record_state(self.State("none"))
 
-        command = self._assemble(f"sysid-{state}-{mechanism._name}", start, run, end)
+        command = self._assemble_command(f"sysid-{state}-{mechanism._name}", start, run, end)
         WORLD.tests.append((test, command, WORLD.stack()))
         return command
 
-    def _drive(self, volts: Any) -> None:
+    def _apply_volts(self, volts: Any) -> None:
         if self._mechanism._drive is None:
             raise WrongArgument(f"the drive callback is {describe(None)}")
         self._mechanism._drive(VOLTS.of(volts) if WORLD.language == "java" else volts)
 
-    def _record(self, state: Enum) -> None:
+    def _record_state(self, state: Enum) -> None:
         WORLD.running[self._log_name, id(self)] = state.value
         (self._config.recordState or self.recordState)(state)
 
-    def _assemble(self, name: str, start: Any, run: Any, end: Any) -> Command:
+    def _assemble_command(self, name: str, start: Any, run: Any, end: Any) -> Command:
         subsystem = self._mechanism._subsystem
         if self._config._timeout is None:
             raise WrongArgument("withTimeout() takes seconds, not None")
@@ -309,7 +309,7 @@ class SysIdRoutineV3(Routine, SysIdRoutineLog2027):
 
     Config, SysIdMechanism, Direction = ConfigV3, SysIdMechanism, Direction2027
 
-    def _assemble(self, name: str, start: Any, run: Any, end: Any) -> Command:
+    def _assemble_command(self, name: str, start: Any, run: Any, end: Any) -> Command:
         subsystem = self._mechanism._subsystem
         test = FunctionalCommand(start, run, lambda _interrupted: end(), nothing, subsystem)
         return test.withName(name).withTimeout(self._config._timeout)

@@ -174,22 +174,22 @@ class _Controller(Fake):
 
     _kind: Any = BooleanEvent
 
-    def _make(self, used: str, number: Any, loop: Any, condition: Callable[..., Any]) -> Any:
-        self._hid._note(used, number)
+    def _make_event(self, used: str, number: Any, loop: Any, condition: Callable[..., Any]) -> Any:
+        self._hid._note_use(used, number)
         return self._kind(condition, loop=loop)
 
     def button(self, button: int, loop: EventLoop = None) -> BooleanEvent:
-        return self._make("button", button, loop, lambda: self._hid.getRawButton(button))
+        return self._make_event("button", button, loop, lambda: self._hid.getRawButton(button))
 
     def pov(
         self, *angle: Any
     ) -> BooleanEvent:  # the angle, or the hat's number, the angle and a loop
         degrees = angle[min(len(angle) - 1, 1)] if len(angle) > 2 else angle[0]  # noqa: PLR2004
         loop = angle[-1] if isinstance(angle[-1], EventLoop) else None
-        return self._make("pov", degrees, loop, lambda: self._hid.getPOV() == degrees)
+        return self._make_event("pov", degrees, loop, lambda: self._hid.getPOV() == degrees)
 
     def _compare(self, axis: int, loop: Any, test: Callable[..., Any]) -> Any:
-        return self._make("axis", axis, loop, lambda: test(self._hid.getRawAxis(axis)))
+        return self._make_event("axis", axis, loop, lambda: test(self._hid.getRawAxis(axis)))
 
     def axisLessThan(self, axis: int, threshold: float, loop: EventLoop = None) -> BooleanEvent:
         return self._compare(axis, loop, lambda value: value < threshold)
@@ -203,7 +203,7 @@ class _Controller(Fake):
         return self._compare(axis, loop, lambda value: abs(value) > threshold)
 
     def getRawAxis(self, axis: int) -> float:
-        self._hid._note("axis", axis)
+        self._hid._note_use("axis", axis)
         return read_joystick(self._hid._port).axes.get(axis, 0.0)
 
     def isConnected(self) -> bool:
@@ -234,22 +234,22 @@ class GenericHID(_Controller):
         ending = f" {kind}" if kind == "button" else ""
         return f"{name}{ending} ({_name_method(name)}())"
 
-    def _note(self, kind: str, number: Any) -> None:  # may be unknown
+    def _note_use(self, kind: str, number: Any) -> None:  # may be unknown
         self._used.setdefault((kind, number), WORLD.where())
 
     def getPort(self) -> int:
         return self._port
 
     def getRawButton(self, button: int) -> bool:
-        self._note("button", button)
+        self._note_use("button", button)
         return button in read_joystick(self._port).buttons
 
     def getRawButtonPressed(self, button: int) -> bool:
-        self._note("button", button)
+        self._note_use("button", button)
         return check_edge(self._port, button, pressed=True)
 
     def getRawButtonReleased(self, button: int) -> bool:
-        self._note("button", button)
+        self._note_use("button", button)
         return check_edge(self._port, button, pressed=False)
 
     def getPOV(self, pov: int = 0) -> int:
@@ -328,7 +328,7 @@ class JoystickButton(Trigger):
     """A button by its number (allwpilib v2026, .../command/button/JoystickButton.java)."""
 
     def __init__(self, joystick: GenericHID, buttonNumber: int) -> None:
-        joystick._note("button", buttonNumber)
+        joystick._note_use("button", buttonNumber)
         super().__init__(lambda: joystick.getRawButton(buttonNumber))
 
 
@@ -336,7 +336,7 @@ class POVButton(Trigger):
     """A direction of a hat (allwpilib v2026, .../command/button/POVButton.java)."""
 
     def __init__(self, joystick: GenericHID, angle: int, povNumber: int = 0) -> None:
-        joystick._note("pov", angle)
+        joystick._note_use("pov", angle)
         super().__init__(lambda: joystick.getPOV(povNumber) == angle)
 
 

@@ -87,12 +87,12 @@ class Unit(Fake):
     one = partialmethod(of, 1.0)
 
     def per(self, other: "Unit") -> "Unit":
-        return self._join(other, -1, " per ", "/")
+        return self._combine_units(other, -1, " per ", "/")
 
     def mult(self, other: "Unit") -> "Unit":
-        return self._join(other, 1, "-", "*")
+        return self._combine_units(other, 1, "-", "*")
 
-    def _join(self, other: Any, power: int, word: str, mark: str) -> Any:
+    def _combine_units(self, other: Any, power: int, word: str, mark: str) -> Any:
         if isinstance(other, Unknown):
             return other
         name = f"{self._name}{word}{other._name}"
@@ -146,10 +146,10 @@ class Measure(Fake):
 
     def _convert_to_base(self, other: Any, method: str) -> Any:
         """Another measure's value in base units, if it has the same dimension."""
-        self._require(getattr(other, "_unit", other), method)
+        self._require_same_dimension(getattr(other, "_unit", other), method)
         return other._base
 
-    def _require(self, unit: Any, method: str) -> Unit:
+    def _require_same_dimension(self, unit: Any, method: str) -> Unit:
         """A unit that measures the same."""
         mine = self._unit
         if isinstance(unit, Unknown) or getattr(unit, "_dimension", None) == mine._dimension:
@@ -160,7 +160,7 @@ class Measure(Fake):
         )
 
     def in_(self, unit: Unit) -> float:
-        return self._require(unit, "in").fromBaseUnits(self._base)
+        return self._require_same_dimension(unit, "in").fromBaseUnits(self._base)
 
     def magnitude(self) -> float:
         return self._unit.fromBaseUnits(self._base)
@@ -248,14 +248,14 @@ class MutableMeasure(Measure):
     def mut_setBaseUnitMagnitude(self, baseUnitMagnitude: float) -> "MutableMeasure":
         return self.mut_replace(self._unit.ofBaseUnits(baseUnitMagnitude))
 
-    def _change(self, method: str, other: Any, unit: Any = None) -> "MutableMeasure":
+    def _assign_result(self, method: str, other: Any, unit: Any = None) -> "MutableMeasure":
         """Replace its value by the result of one of its methods."""
         return self.mut_replace(getattr(self, method)(other if unit is None else unit.of(other)))
 
-    mut_plus = partialmethod(_change, "plus")
-    mut_minus = partialmethod(_change, "minus")
-    mut_times = partialmethod(_change, "times")
-    mut_div = mut_divide = partialmethod(_change, "div")
+    mut_plus = partialmethod(_assign_result, "plus")
+    mut_minus = partialmethod(_assign_result, "minus")
+    mut_times = partialmethod(_assign_result, "times")
+    mut_div = mut_divide = partialmethod(_assign_result, "div")
 
     def mut_acc(self, raw: float | Measure) -> "MutableMeasure":
         return self.mut_plus(raw if isinstance(raw, Measure) else self._unit.of(raw))

@@ -36,7 +36,7 @@ class Feedforward(Fake):
     What it computes is unknown: no test of SysId depends on it.
     """
 
-    def _register(self, **gains: Any) -> None:
+    def _register_gains(self, **gains: Any) -> None:
         self.kg = 0.0
         self.__dict__.update(gains)
         self._line = WORLD.where()
@@ -47,7 +47,7 @@ class SimpleMotorFeedforward(Feedforward):
     """Feedforward without gravity: allwpilib v2026.2.2, .../SimpleMotorFeedforward.java."""
 
     def __init__(self, kS: float, kV: float, kA: float = 0.0, dt: float = PERIOD) -> None:
-        self._register(ks=kS, kv=kV, ka=kA, dt=dt)
+        self._register_gains(ks=kS, kv=kV, ka=kA, dt=dt)
 
 
 class ElevatorFeedforward(Feedforward):
@@ -56,7 +56,7 @@ class ElevatorFeedforward(Feedforward):
     def __init__(
         self, kS: float, kG: float, kV: float, kA: float = 0.0, dt: float = PERIOD
     ) -> None:
-        self._register(ks=kS, kg=kG, kv=kV, ka=kA, dt=dt)
+        self._register_gains(ks=kS, kg=kG, kv=kV, ka=kA, dt=dt)
 
 
 class ArmFeedforward(ElevatorFeedforward):

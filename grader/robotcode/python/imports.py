@@ -139,10 +139,11 @@ class FakeModule(ModuleType):
 
 
 class FakeFinder:
-    """Finds modules for which there are fakes, or any module at all.
+    """Python's import looks here for the fakes of robot libraries.
 
     Args:
-        every: whether also a module that nobody knows is found, as a file that was not handed in.
+        every: whether there is an empty fake for any other module, too: it may be a file that was
+            not handed in.
     """
 
     def __init__(self, *, every: bool) -> None:

@@ -66,7 +66,7 @@ class PythonSubject(Subject):
             for node in tree.body
             if isinstance(node, ast.ClassDef)
         }
-        self.node = self._choose(wanted)
+        self.node = self._choose_class(wanted)
         self.name = self.node.name if self.node is not None else path.stem
         self.module = ModuleType("")
         if hasattr(signal, "setitimer"):
@@ -74,7 +74,7 @@ class PythonSubject(Subject):
 
     # -- its text ---------------------------------------------------------------------------
 
-    def _choose(self, wanted: str) -> ast.ClassDef | None:
+    def _choose_class(self, wanted: str) -> ast.ClassDef | None:
         """The class of the file that has a name of the pattern, itself or in its bases."""
         mine = [node for node in self.tree.body if isinstance(node, ast.ClassDef)]
         aliases = {
@@ -173,10 +173,10 @@ class PythonSubject(Subject):
             parameters = inspect.signature(cls).parameters
         for name, one in parameters.items():
             if one.default is one.empty and one.kind not in {one.VAR_POSITIONAL, one.VAR_KEYWORD}:
-                given[name] = self._fill(restore(name), hints.get(name), depth)
+                given[name] = self._make_argument(restore(name), hints.get(name), depth)
         return cls(**given)
 
-    def _fill(self, name: str, kind: Any, depth: int) -> Any:  # any annotation
+    def _make_argument(self, name: str, kind: Any, depth: int) -> Any:  # any annotation
         if isinstance(kind, type) and kind not in {Any, float} and depth < DEEP:
             simple = {int: 1, bool: False, str: "name"}
             return simple[kind] if kind in simple else self.make(kind, depth + 1)
@@ -247,7 +247,7 @@ class PythonSubject(Subject):
         if "name 'self' is not defined" in said:
             said += ": the body of a class has no self"
         elif kind in {"AttributeError", "NameError"} and "Did you mean" not in said:
-            said += self._suggest(said)
+            said += self._suggest_name(said)
         if isinstance(error, TypeError) and "Unknown" in str(error):
             return Outcome.CANNOT, f"the grader cannot know a value in line {line}", line, kind
         if isinstance(error, FileNotFoundError | PermissionError):
@@ -257,7 +257,7 @@ class PythonSubject(Subject):
             return Outcome.CANNOT, said, line, kind
         return Outcome.CRASHED, said, line, kind
 
-    def _suggest(self, said: str) -> str:
+    def _suggest_name(self, said: str) -> str:
         """The name of the program's own that is most like the one that is not there."""
         missing = re.findall(r"\w+", said.removesuffix(" is not defined"))[-1]
         names = list_names(self.tree) - {missing}

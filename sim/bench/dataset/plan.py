@@ -64,7 +64,7 @@ class LogJob:
 
     def draw_effects(self) -> list[tuple[str, float]]:
         """Name and size of each hidden effect."""
-        drawn = self._draw(self.table.effects, EFFECT)
+        drawn = self._draw_choices(self.table.effects, EFFECT)
         return [(draw_one(one.name, rng), one.size.draw(rng)) for one, rng in drawn]
 
     def draw_faults(self) -> list[tuple[FaultChoice, str, float, str | None]]:
@@ -76,10 +76,10 @@ class LogJob:
                 one.severity.draw(rng),
                 draw_one(one.test, rng) if one.test else None,
             )
-            for one, rng in self._draw(self.table.faults, FAULT)
+            for one, rng in self._draw_choices(self.table.faults, FAULT)
         ]
 
-    def _draw(
+    def _draw_choices(
         self, choices: Sequence[Choice], stream: int
     ) -> Iterator[tuple[Choice, np.random.Generator]]:
         """Those of the choices that this log gets, each with a random generator of its own."""

@@ -81,7 +81,7 @@ def watch(
             sys.stdout.flush()
         with suppress(KeyboardInterrupt):
             threading.Thread(target=load_engine, daemon=True).start()
-            _follow(live, session, as_json=as_json)
+            _follow_source(live, session, as_json=as_json)
         if not as_json:
             _show_end(live)
     return DONE
@@ -126,7 +126,7 @@ def _make_temporary_folder(prefix: str, stack: ExitStack) -> Path:
     return Path(stack.enter_context(temporary))
 
 
-def _follow(live: LiveFit, session: Session | None, *, as_json: bool) -> None:
+def _follow_source(live: LiveFit, session: Session | None, *, as_json: bool) -> None:
     """Poll the source and show each update, until an exception ends it."""
     status = ""
     while True:

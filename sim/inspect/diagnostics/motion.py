@@ -25,7 +25,7 @@ def check_r2_hides_misfit(features: LogFeatures) -> Iterator[Doubt]:
         found = fit(features.log, method="sysid")
     except Refusal:
         return
-    model = _model(found)
+    model = _make_baseline_model(found)
     if model is None or found.simulated_velocity_r2 < GOOD_R2:
         return
     worst, said = MISFIT, ""
@@ -44,7 +44,7 @@ def check_r2_hides_misfit(features: LogFeatures) -> Iterator[Doubt]:
     )
 
 
-def _model(found: Fit) -> BaselineModel | None:
+def _make_baseline_model(found: Fit) -> BaselineModel | None:
     """The fitted gains as a baseline model; None if kV or kA is not positive."""
     gains = found.gains
     if not (gains["kV"] > 0.0 and gains["kA"] > 0.0):

@@ -121,16 +121,16 @@ def _fit_slip(anomaly: Anomaly, period: float) -> tuple[float, float, int, int]:
 
 
 def _search_spans(anomaly: Anomaly, *, fading: bool, margin: int) -> tuple[float, float, int, int]:
-    """The best result of ``_measure_loss`` over all candidate spans of an anomaly."""
+    """The best result of ``_fit_speed_loss`` over all candidate spans of an anomaly."""
     best = (0.0, 0.0, 0, 1)
     for span in anomaly.list_candidate_spans(margin=margin):
-        best = max(best, _measure_loss(anomaly, span, fading=fading))
+        best = max(best, _fit_speed_loss(anomaly, span, fading=fading))
     for span in anomaly.refine_spans(best[2:], margin=margin):
-        best = max(best, _measure_loss(anomaly, span, fading=fading))
+        best = max(best, _fit_speed_loss(anomaly, span, fading=fading))
     return best
 
 
-def _measure_loss(
+def _fit_speed_loss(
     anomaly: Anomaly, span: tuple[int, int], *, fading: bool
 ) -> tuple[float, float, int, int]:
     """Fit a loss of speed: explained share of the anomaly, loss [share of the speed], samples.

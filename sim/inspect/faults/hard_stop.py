@@ -48,7 +48,7 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
     """Add a stop to the travel; the voltage stays on for ``PRESSED`` seconds times the severity."""
     pressed = PRESSED * strike.severity * rng.uniform(0.9, 1.1)
     run = log.runs[strike.run]
-    longer = _extend(run, until=float(run.time[0]) + strike.start + pressed)
+    longer = _extrapolate_run(run, until=float(run.time[0]) + strike.start + pressed)
     impact = int(np.searchsorted(longer.time, run.time[0] + strike.start, side="right"))
     end = int(np.searchsorted(longer.time, run.time[0] + strike.start + pressed, side="right"))
     if impact >= end - 1 or not np.any(longer.velocity[impact:end]):
@@ -153,7 +153,7 @@ def _find_impact(run: Run, *, speed: float, still: float) -> int | None:
     return impact
 
 
-def _extend(run: Run, *, until: float) -> Run:
+def _extrapolate_run(run: Run, *, until: float) -> Run:
     """The run, extrapolated until ``until`` [s] if it ends before."""
     period = float(np.median(np.diff(run.time)))
     count = int(np.ceil((until - float(run.time[-1])) / period))

@@ -58,7 +58,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
             said.append("the velocity has the sign opposite to the slope of the position")
         if said:
             unit = find_unit(features.log.units)
-            yield _damage(index, run, said, unit, velocity_only=against_slope)
+            yield _describe_damage(index, run, said, unit, velocity_only=against_slope)
 
 
 def _find_large(values: Array) -> Flags:
@@ -93,7 +93,9 @@ def _falls_by_gravity(run: Run, log: Log) -> bool:
     return False
 
 
-def _damage(index: int, run: Run, said: list[str], unit: Unit, *, velocity_only: bool) -> Damage:
+def _describe_damage(
+    index: int, run: Run, said: list[str], unit: Unit, *, velocity_only: bool
+) -> Damage:
     """The damage of a run; ``said`` are the observations."""
     volts, speed = _compute_median_of_large(run.voltage), _compute_median_of_large(run.velocity)
     cure = (

@@ -35,7 +35,9 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
     """Hold every reading of the sensor until its next frame."""
     held = max(STALE, 1 + round(ORDINARY * strike.severity))
     phases = rng.integers(held, size=len(log.runs))
-    runs = [_hold(run, held, int(phase)) for run, phase in zip(log.runs, phases, strict=True)]
+    runs = [
+        _repeat_samples(run, held, int(phase)) for run, phase in zip(log.runs, phases, strict=True)
+    ]
     return damage_runs(log, dict(enumerate(runs)))
 
 
@@ -49,7 +51,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
     for index, run in enumerate(features.log.runs):
         stale = {name: runs[index] for name, runs in held.items() if _is_stale(runs, index)}
         if stale:
-            yield _damage(index, run, stale)
+            yield _describe_damage(index, run, stale)
 
 
 def _count_held(values: Array, moving: Flags, *, step: float) -> Counts:
@@ -71,7 +73,7 @@ def _is_stale(runs: list[Counts], index: int) -> bool:
     )
 
 
-def _damage(index: int, run: Run, stale: dict[str, Counts]) -> Damage:
+def _describe_damage(index: int, run: Run, stale: dict[str, Counts]) -> Damage:
     """The damage of a run; ``stale`` is signal -> lengths of its repeated readings [samples]."""
     period = float(np.median(np.diff(run.time)))
     repeated = " and ".join(
@@ -100,7 +102,7 @@ def _damage(index: int, run: Run, stale: dict[str, Counts]) -> Damage:
     )
 
 
-def _hold(run: Run, held: int, phase: int) -> Run:
+def _repeat_samples(run: Run, held: int, phase: int) -> Run:
     """The run with frames of ``held`` samples, the first one shorter by ``phase``."""
     count = np.arange(len(run))
     latest = np.maximum((count + phase) // held * held - phase, 0)

@@ -68,7 +68,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
                 continue
             hidden = _compute_hidden_distance(run, int(first), last, step=features.position_step)
             if hidden > 0.0:
-                yield _damage(
+                yield _describe_damage(
                     index, run, int(first), last, hidden, unit=find_unit(features.log.units)
                 )
 
@@ -92,7 +92,9 @@ def _compute_hidden_distance(run: Run, first: int, last: int, *, step: float) ->
     return predicted if moved else 0.0
 
 
-def _damage(index: int, run: Run, first: int, last: int, hidden: float, *, unit: Unit) -> Damage:
+def _describe_damage(
+    index: int, run: Run, first: int, last: int, hidden: float, *, unit: Unit
+) -> Damage:
     """The damage of a freeze from sample ``first`` to ``last``, with its distance [m or rad]."""
     where = LogInterval.of_samples(index, run, first, last)
     return Damage(

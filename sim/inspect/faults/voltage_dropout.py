@@ -86,10 +86,10 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
                 for drop, answer in zip(drops, answers, strict=True)
                 if run.moving[max(drop.first - 1, 0)]  # only motion can contradict it
                 and answer < CLEAR
-                and not _launches(run, drop)
+                and not _is_at_launch(run, drop)
             ]
         for where, group in _group_drops(index, run, drops):
-            yield _damage(run, where, group, answer=float(np.median(answers)))
+            yield _describe_damage(run, where, group, answer=float(np.median(answers)))
 
 
 def find_dropouts(run: Run, period: float) -> list[Dropout]:
@@ -106,7 +106,7 @@ def find_dropouts(run: Run, period: float) -> list[Dropout]:
     ]
 
 
-def _launches(run: Run, drop: Dropout) -> bool:
+def _is_at_launch(run: Run, drop: Dropout) -> bool:
     """Whether it is at the start of a step, where a controller's limits may act."""
     return bool(0.0 <= run.time[drop.first] - run.time[find_step_start(run)] < LAUNCH)
 
@@ -132,7 +132,9 @@ def _group_drops(
     ]
 
 
-def _damage(run: Run, where: LogInterval, group: list[Dropout], *, answer: float) -> Damage:
+def _describe_damage(
+    run: Run, where: LogInterval, group: list[Dropout], *, answer: float
+) -> Damage:
     """The damage of some drop-outs; ``answer`` is the median loss of speed [share]."""
     lasts = 1e3 * sum(float(run.time[drop.last + 1] - run.time[drop.first]) for drop in group)
     deepest = min(

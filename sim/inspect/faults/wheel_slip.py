@@ -64,7 +64,7 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
         return DamagedLog(log, ())
     first = find_step_start(run)
     since = run.time - run.time[first]
-    speed = _smooth(np.abs(run.velocity))
+    speed = _smooth_by_three(np.abs(run.velocity))
     moves = (speed > features.still_speed) & (since > 0.0)
     if not moves.any():
         return DamagedLog(log, ())
@@ -168,7 +168,7 @@ def _fit_slip(features: LogFeatures, index: int, run: Run) -> Damage | None:
     )
 
 
-def _smooth(values: Array) -> Array:
+def _smooth_by_three(values: Array) -> Array:
     """(n,) running mean of three samples."""
     padded = np.pad(values, 1, mode="edge")
     return np.asarray((padded[:-2] + padded[1:-1] + padded[2:]) / 3.0)

@@ -29,7 +29,7 @@ def shortest_time(values: Mapping[str, float], gains: Mapping[str, float]) -> fl
     return gains["kA"] * values["slow"] / max(values["extra"], 1e-9)
 
 
-def narrowest_speed(values: Mapping[str, float]) -> float:
+def smallest_speed_scale(values: Mapping[str, float]) -> float:
     """[unit/s] speed over which the additional friction fades: ``slow`` itself."""
     return values["slow"]
 
@@ -64,5 +64,5 @@ EFFECT = Effect(
     start_values=find_start_values,
     hooks={"coulomb_friction": coulomb_friction},
     shortest_time=shortest_time,
-    narrowest_speed=narrowest_speed,
+    smallest_speed_scale=smallest_speed_scale,
 )

@@ -97,7 +97,7 @@ def compute_search_step_limits(model: Model) -> Array:
     """
     share = 2.0 * STEP_SHARE
     longest = min(SEARCHED, share * _find_shortest_time(model, places=False))
-    way, faster = share * _find_shortest_length(model), share * _find_narrowest_speed(model)
+    way, faster = share * _find_shortest_length(model), share * _find_smallest_speed_scale(model)
     return np.array([max(longest, LEAST_SEARCHED), way, LEAST_SEARCHED, faster])
 
 
@@ -120,7 +120,7 @@ def _find_shortest_length(model: Model) -> float:
     return min(scales, default=math.inf)
 
 
-def _find_narrowest_speed(model: Model) -> float:
+def _find_smallest_speed_scale(model: Model) -> float:
     """[unit/s] the smallest speed scale of the effects; infinite if none has one."""
-    scales = (EFFECTS[part.effect].narrowest_speed(part.parameters) for part in model.parts)
+    scales = (EFFECTS[part.effect].smallest_speed_scale(part.parameters) for part in model.parts)
     return min(scales, default=math.inf)

@@ -112,7 +112,13 @@ def sum_series(tables: Array, powers: int, span: float, to: int) -> None:
 
 
 def make_doubled_table(tables: Array, at: int, to: int) -> None:
-    """Make the table of twice the time of a table; ``to`` may be ``at``."""
+    """Compute the table of a step twice as long: the step of a table, taken two times.
+
+    Args:
+        tables: all tables, one after another.
+        at: index of the first number of the given table.
+        to: the same of the result; it may be ``at``.
+    """
     d0, v0, w0, b0, r0 = tables[at], tables[at + 1], tables[at + 2], tables[at + 3], tables[at + 4]
     d1, v1, w1 = tables[at + 5], tables[at + 6], tables[at + 7]
     b1, r1 = tables[at + 8], tables[at + 9]

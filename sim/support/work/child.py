@@ -95,7 +95,7 @@ class _Child:
         # A Dask worker is a daemon, which may have no children unless it says that it is none.
         multiprocessing.current_process().daemon = False
         self.process = CONTEXT.Process(
-            target=_serve, args=(work, other_end, memory), name=NAME, daemon=True
+            target=_serve_jobs, args=(work, other_end, memory), name=NAME, daemon=True
         )
         with _block_interrupt():
             self.process.start()
@@ -148,7 +148,7 @@ def _block_interrupt() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def _serve(work: Callable[[Any], Any], connection: Connection, memory: int | None) -> None:
+def _serve_jobs(work: Callable[[Any], Any], connection: Connection, memory: int | None) -> None:
     """Do jobs until the connection is closed."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     if hasattr(signal, "pthread_sigmask"):

@@ -134,13 +134,13 @@ def open_log(path: Path) -> IO[bytes]:
     stream.seek(0)
     with stream, ExitStack() as ends:
         unpacked = ends.enter_context(SpooledTemporaryFile(max_size=IN_MEMORY))
-        _unpack(stream, unpacked, where=str(path))
+        _decompress(stream, unpacked, where=str(path))
         unpacked.seek(0)
         ends.pop_all()  # the caller closes it
         return unpacked
 
 
-def _unpack(stream: IO[bytes], unpacked: IO[bytes], *, where: str) -> None:
+def _decompress(stream: IO[bytes], unpacked: IO[bytes], *, where: str) -> None:
     """Decompress a file that is compressed with xz.
 
     Raises:
