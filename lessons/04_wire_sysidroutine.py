@@ -625,14 +625,7 @@ print(f"Their factor is {per_rotation / per_radian:.4f}. 2π is {2 * math.pi:.4f
 # %% [markdown]
 # ## 4 The virtual robot: one mistake at a time
 #
-# Now you run seven programs on the simulated robot. Only one of them is correct. **Predict** before
-# you look:
-
-# %%
-display(ask_question("lesson4.gain"), ask_question("lesson4.factor"), ask_question("lesson4.score"))
-
-# %% [markdown]
-# These are the seven programs:
+# Now you run seven programs on the simulated robot. Only one of them is correct:
 #
 # | program | the mistake in the code |
 # |---|---|
@@ -643,6 +636,11 @@ display(ask_question("lesson4.gain"), ask_question("lesson4.factor"), ask_questi
 # | radians taken for turns | `circumference * radians` |
 # | encoder inverted | the encoder's `setReverseDirection(true)` forgotten |
 # | one motor of each pair | the second motor of each side gets no command |
+#
+# **Predict** before you run them:
+
+# %%
+display(ask_question("lesson4.gain"), ask_question("lesson4.factor"), ask_question("lesson4.score"))
 
 # %%
 CIRCUMFERENCE = math.pi * 0.1016  # [m] of a 4 inch wheel

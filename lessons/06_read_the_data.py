@@ -344,7 +344,8 @@ tabulate_fits(gallery, TRUTH)
 # > Brownouts, at one
 # > commit](https://github.com/wpilibsuite/frc-docs/blob/c6315dc0701cb74273487d6e303a8cc5098a8462/source/docs/software/roborio-info/roborio-brownouts.rst))
 # >
-# > **Try it:** in the menus above, choose each of the two brownouts and the plot "over time".
+# > **Try it:** in the menus above, choose the first of the two brownouts and the plot "over time".
+# > Go through the tests: in one, the voltage drops. In which test does the second one drop?
 # </details>
 #
 # ### How bad are timing gaps?
@@ -599,8 +600,8 @@ for gain in ("kS", "kV", "kA"):
 #
 # - The docs say that the acceleration R² "rarely goes above 0.5, even on very good datasets".
 # - A repaired log can have a **lower** R² than a wrong one. The fit no longer uses the wild
-#   readings of the repaired log. But for the score, SysId compares its simulation with all recorded
-#   samples, and the wild readings are among them.
+#   readings of the repaired log. But for the score, SysId compares its simulation with the
+#   recorded velocities, and the wild readings are among them.
 # - Each of these logs is only one simulation. Its errors also depend on luck, for example on
 #   where a gap is. So remember which *kind* of error a fault causes, not the exact
 #   numbers.

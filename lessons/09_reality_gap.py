@@ -667,8 +667,8 @@ display(ask_question("lesson9.quick"), enable_checkboxes())
 # <details><summary>More, if you like</summary>
 #
 # Hide two effects that both change with speed. In a terminal:
-# `sysid simulate drivetrain --hide drag --hide stribeck --step 1 -o slow.wpilog`. Then
-# `sysid reconcile slow.wpilog`. Do the same with `--step 7`. With which step are the two found?
+# `sysid simulate drivetrain --hide drag --hide stribeck --step 2 -o slow.wpilog`. Then
+# `sysid reconcile slow.wpilog`. Do the same with `--step 7`. Which of the two logs leaves a doubt?
 # </details>
 #
 # Now you can measure gains, say how far to trust them, and find out what is missing in your model.

@@ -214,7 +214,8 @@ Table(
 # and turn each wheel by hand, or compare the currents.
 #
 # So **compare the modules first, then pool them**. The mean of three good wheels and a worn wheel
-# is wrong for all four. `sysid fit` compares the modules for you and prints the kV and kA of each.
+# is wrong for all four. `sysid fit` compares the modules for you. If a gain differs too
+# much, it names the module with the smallest and the one with the largest.
 
 # %% [markdown]
 # ## 4 A slow spin: how large is a wheel?

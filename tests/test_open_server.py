@@ -398,7 +398,8 @@ def test_model_with_effects_keeps_the_warnings_about_the_log():
     plain = Fit.from_gains({"kS": 0.1, "kV": 2.0, "kA": 0.1}, type="simple", units="meters")
     plain = replace(plain, doubts=(log, misfit))
 
-    assert replace_gains(plain, {}, (), (moved,)).doubts == (log, moved)
+    assert replace_gains(plain, {}, (), (moved,), narrows=True).doubts == (log, moved)
+    assert replace_gains(plain, {}, (), (moved,), narrows=False).doubts == (log, misfit, moved)
 
 
 @pytest.mark.parametrize("preset", PRESETS)

@@ -228,7 +228,8 @@ def _explain_missing(facts: ButtonFacts, lacking: list[str], earned: float) -> N
         raise WrongAnswer(
             "no button runs a test",
             hint="Bind each of the four to a button. If you did: does the program reach that "
-            "line, or is there a return or a condition before it?",
+            "line, or is there a return or a condition before it? Of several classes, the one "
+            "that is named like the file is run.",
         )
     bound = [str(line) for line in sorted({line for line, _ in facts.bindings})]
     raise WrongAnswer(

@@ -9,7 +9,7 @@ from grader.answers.submission import NamedAnswers, read_answers
 from grader.checks.check import NotReachedError, WrongAnswer, check, make_check
 from grader.student_data.student_files import Made, format_log
 from sim.core.errors import Refusal
-from sim.core.log import FOUR_TESTS
+from sim.core.log import FOUR_TESTS, Log
 from sim.core.units import find_unit
 
 from .blame import blame
@@ -51,9 +51,27 @@ def read(path: Path, *, student: str) -> Answers:
     variant = draw(student)
     unit = find_unit(variant.mechanism.units)
     try:
-        return Answers(read_preparation(given, symbol=unit.symbol, si=unit.si), variant)
+        preparation = read_preparation(given, symbol=unit.symbol, si=unit.si)
+        _require_samples(preparation, variant.log)
     except WrongAnswer as wrong:
         return Answers(wrong, variant)
+    return Answers(preparation, variant)
+
+
+def _require_samples(preparation: Preparation, log: Log) -> None:
+    """Refuse times between which a test has no sample.
+
+    Raises:
+        WrongAnswer: they are the times of the log, say, and not since the test began.
+    """
+    for run in log.runs:
+        if not len(preparation.kept(run)):
+            first, last = preparation.keep[run.test]
+            raise WrongAnswer(
+                f"{run.test}: nothing is recorded from {first:g} to {last:g} s",
+                hint=f"This test lasts {run.time[-1] - run.time[0]:.2f} s. Count the times from "
+                "its beginning.",
+            )
 
 
 @check(points=2)

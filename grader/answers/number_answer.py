@@ -10,7 +10,13 @@ from typing import Any
 
 from grader.answers.asked_number import AskedNumber
 from grader.answers.quantity import NotAUnitError, read_number, read_unit
-from grader.answers.wrong_number import MANY, AnswerKey, WrongNumber, explain_wrong_number
+from grader.answers.wrong_number import (
+    MANY,
+    AnswerKey,
+    WrongNumber,
+    explain_wrong_number,
+    hedge,
+)
 from grader.checks.check import Check, WrongAnswer, make_check, shorten
 
 LARGEST = 1e300  # beyond it a number is infinite, or soon will be
@@ -214,7 +220,7 @@ def _describe_wrong_number(name: str, value: float, slips: tuple[WrongNumber, ..
             .replace("?; or about", "? Or it is about")
             .replace("?; or ", "? Or: ")
         )
-        return said if "?" in said or slips[0].code == "sign" else f"most likely, {said}"
+        return said if slips[0].code == "sign" else hedge(said)
     if value < 0:
         return (
             f"{name} cannot be negative. Check the signs in your calculation. If every gain of a "

@@ -35,6 +35,11 @@ class WrongNumber:
     misconception: str = ""
 
 
+def hedge(says: str) -> str:
+    """A sentence about a slip as a guess: a number alone proves none. A question stays one."""
+    return says if "?" in says else f"most likely, {says}"
+
+
 @dataclass(frozen=True)
 class Lookalike:
     """The number that a wrong method gives on the learner's own log."""

@@ -16,6 +16,7 @@ from sim.core.vocabulary import TESTS
 
 MIN_SAMPLES = 5  # [samples] shorter pieces of a run are left out, too
 MIN_SHARE_LEFT = 0.5  # [share of samples] a test of which less is left has a warning
+MOST_OF_IT = 0.9  # [share] of an interval; its ends may be marked a little off
 SPELLING = re.compile(r"(?P<test>[\w-]+?)(:(?P<start>[\d.]+)-(?P<end>[\d.]+))?")
 
 
@@ -66,8 +67,9 @@ class LeftOutPart:
         return f"{self.test}, {self.start:.2f} to {self.end:.2f} s"
 
     def covers(self, test: str, start: float, end: float) -> bool:
-        """Whether an interval of a test [s] lies within the part."""
-        return self.test == test and self.start <= start and self.end >= end
+        """Whether nearly all of an interval of a test [s] lies within the part."""
+        shared = min(self.end, end) - max(self.start, start)
+        return self.test == test and shared >= MOST_OF_IT * (end - start)
 
     def find(self, run: Run) -> NDArray[np.bool_]:
         """(n,) which samples of a run belong to the part."""

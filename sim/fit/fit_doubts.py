@@ -25,11 +25,12 @@ def warn_of_lags(window: float, lag: float) -> Iterator[Doubt]:
         lag: [s] delay from voltage to motion.
     """
     if window > LEAST_LAG:
+        averaged, late = (float(f"{one * 1000:.2g}") for one in (window, window / 2))
         yield Doubt(
             "velocity-lag",
-            f"The velocity is averaged over about {window * 1000:.0f} ms, so it is about "
-            f"{window * 500:.0f} ms late. The gains account for this delay. Your feedback "
-            "controller gets the same delay: shorten the filter of the motor controller.",
+            f"The velocity is averaged over about {averaged:g} ms, so it is about {late:g} ms "
+            "late. The gains account for this delay. Your feedback controller gets the same delay: "
+            "shorten the filter of the motor controller.",
         )
     if lag > LEAST_LAG:
         yield Doubt(

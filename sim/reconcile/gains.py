@@ -48,18 +48,21 @@ def replace_gains(
     gains: Mapping[str, ParameterEstimate],
     parts: tuple[Part, ...],
     doubts: tuple[Doubt, ...],
+    *,
+    narrows: bool,
 ) -> Fit:
     """A fit with the gains, effects and doubts of a model with effects, in the same unit.
 
-    That the model without effects misses the log says nothing about these gains, unless it is
-    grave; everything else that is doubted of the log still holds.
+    If the effects narrow the gap, what the model without them misses says nothing about these
+    gains, unless it is grave; everything else that is doubted of the log still holds.
     """
+    outdated = MISFIT if narrows else frozenset()
     return replace(
         plain,
         gains={name: one.value for name, one in gains.items()},
         errors={name: one.error for name, one in gains.items() if one.error is not None},
         parts=parts,
-        doubts=(*(one for one in plain.doubts if one.grave or one.code not in MISFIT), *doubts),
+        doubts=(*(one for one in plain.doubts if one.grave or one.code not in outdated), *doubts),
     )
 
 

@@ -6,10 +6,11 @@ from dataclasses import dataclass, replace
 from sim.core.doubt import Doubt
 from sim.core.log import Array
 from sim.estimation.likelihood import PredictionErrorProblem
+from sim.fit import Fit
 from sim.physics.model import Part
 from sim.reconcile.backward_elimination import refit_without_effect
 from sim.reconcile.candidates import Candidate
-from sim.reconcile.gains import estimate_gains
+from sim.reconcile.gains import estimate_gains, replace_gains
 from sim.reconcile.held_out import HeldOutLog
 from sim.reconcile.recordings import Recordings
 from sim.reconcile.story import ParameterEstimate
@@ -25,6 +26,7 @@ class ModelVariant:
         gap: [log's unit/s] RMS velocity error on the log that gaps are shown on.
         tracks: per run of the fitted log, (n, 2) simulated position and velocity [SI].
         doubts: warnings about its gains.
+        narrows: whether its effects narrow the gap clearly.
     """
 
     gains: Mapping[str, ParameterEstimate]
@@ -32,6 +34,11 @@ class ModelVariant:
     gap: float
     tracks: tuple[Array, ...]
     doubts: tuple[Doubt, ...] = ()
+    narrows: bool = False
+
+    def apply_to(self, plain: Fit) -> Fit:
+        """A fit in the log's unit, with the gains, effects and doubts of this model."""
+        return replace_gains(plain, self.gains, self.parts, self.doubts, narrows=self.narrows)
 
 
 @dataclass(frozen=True, eq=False)

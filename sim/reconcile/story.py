@@ -2,15 +2,18 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from numpy import bool_
 from numpy.typing import NDArray
 
 from sim.core.log import Array, Log
+from sim.fit.replay import SENSOR_LAGS
 from sim.gap.place import Place
 from sim.physics.model import Model
 from sim.reconcile.probability import JudgedEffect
+from sim.reconcile.thresholds import MAJOR_UNEXPLAINED
 from sim.support.printable import finite_or_none
 
 if TYPE_CHECKING:
@@ -156,6 +159,21 @@ class Story:
     def model(self) -> Model:
         """The model of the last chapter."""
         return self.chapters[-1].model
+
+    @property
+    def added(self) -> frozenset[str]:
+        """The effects that were added to the base model."""
+        return frozenset(chapter.added for chapter in self.chapters[1:])
+
+    @cached_property
+    def gap_with_lags(self) -> float:
+        """[log's unit/s] gap without the effects but the sensor's lags, which a fit has, too."""
+        lags = self.added & SENSOR_LAGS
+        return self.variants.refit(lags).gap if lags and self.variants else self.gap_before
+
+    def narrows(self, gap: float) -> bool:
+        """Whether a model of this gap misses clearly less than one of gains and sensor's lags."""
+        return gap < MAJOR_UNEXPLAINED * self.gap_with_lags
 
     def to_json(self) -> dict[str, Any]:
         """The result as ``sysid reconcile --json`` prints it."""

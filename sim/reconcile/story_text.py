@@ -161,7 +161,7 @@ def list_gain_doubts(story: Story) -> tuple[Doubt, ...]:
         text = "The model lacks something, so these gains may be off by more than their errors."
         return (Doubt("model-lacks", text, gains=tuple(story.gains)),)
     moved = [name for name, one in story.gains.items() if _differ(one, story.gains_without[name])]
-    if not moved or story.gap_after < MAJOR_UNEXPLAINED * story.gap_before:
+    if not moved or story.narrows(story.gap_after):
         return ()
     text = (
         f"The effects change {join_names(moved)} by far more than their errors allow. Before you "
@@ -175,21 +175,24 @@ def narrows_gap(story: Story) -> bool:
 
     Lags of the sensor do not count: the fit has estimated them, too.
     """
-    added = {one.added for one in story.chapters[1:]}
-    return bool(added - SENSOR_LAGS) and story.gap_after < MAJOR_UNEXPLAINED * story.gap_before
+    return bool(story.added - SENSOR_LAGS) and story.narrows(story.gap_after)
 
 
 def explain_unapplied_effects(story: Story) -> str:
     """Why the effects are not applied unasked; empty if they are."""
     if narrows_gap(story):
         return ""
-    if {one.added for one in story.chapters[1:]} <= SENSOR_LAGS:
+    if story.added <= SENSOR_LAGS:
         return (
             "The fit of the gains accounts for this delay of the sensor already, which the base "
             "model of the search does not. So the search has found nothing that the fit lacks."
         )
     share = 1.0 - MAJOR_UNEXPLAINED
-    return f"The effects narrow the gap by less than {share:.0%}, so they are not applied unasked."
+    lags = f" beside {join_names(sorted(lags))}" if (lags := story.added & SENSOR_LAGS) else ""
+    return (
+        f"The effects{lags} narrow the gap by less than {share:.0%}, so they are not applied "
+        "unasked."
+    )
 
 
 def list_outcomes(story: Story) -> dict[str, list[str]]:
@@ -243,11 +246,10 @@ def list_next_tests(story: Story) -> tuple[str, ...]:
 
 def list_remarks(story: Story) -> tuple[str, ...]:
     """Remarks: what remains, what the fit has beyond the base model, and the notes."""
-    added = {one.added for one in story.chapters[1:]}
-    lags = sorted(added & SENSOR_LAGS) if added - SENSOR_LAGS else []
+    lags = sorted(story.added & SENSOR_LAGS) if story.added - SENSOR_LAGS else []
     base = (
-        f"The base model has the gains alone. The fit has {join_names(lags)}, too, so its "
-        "simulation error is smaller."
+        f"The base model has the gains alone. With {join_names(lags)}, which a fit has, too, its "
+        f"simulation error is {format_gap(story.gap_with_lags, story)} times the noise."
     )
     return (*filter(None, (story.remains, base if lags else "")), *story.notes)
 

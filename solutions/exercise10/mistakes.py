@@ -179,7 +179,7 @@ MISTAKES = (
     Mistake("kS converted as well", PYTHON, change_gain("kS", lambda value: value + CONVERTED),
         "volts", "volts stay volts", "M-UNITS"),
     Mistake("kV as a share of the battery", JAVA, change_gain("kV",
-        lambda value: value + " / 12"), "kv", "wrong by a factor of 12. A", "M-DUTY"),
+        lambda value: value + " / 12"), "kv", "this is a factor of 12 off. A", "M-DUTY"),
     Mistake("kV and kA exchanged", JAVA, SWAPPED, "order", "kA is where", "M-ARGORDER"),
     Mistake("kV and kA exchanged, Python", PYTHON, SWAPPED, "order", "expects kV", "M-ARGORDER"),
     Mistake("gains by the alphabet", JAVA, sort_gains_by_name, "order", "kA is where",

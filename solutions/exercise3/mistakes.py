@@ -53,7 +53,7 @@ MISTAKES = (
             lambda right: right["arm_kG"] * math.cos(math.radians(right["arm_offset"])),
         ), "arm-kg", "where the encoder reads 0"),
     Mistake("degrees in the cosine", ANSWERS, change_number("arm_kG", convert_to_degrees), "arm-kg",
-        "it looks as if you put degrees", UNITS),
+        "did you put degrees", UNITS),
     Mistake("the offset turned around", ANSWERS,
         change_number("arm_offset", lambda right: -right["arm_offset"]), "arm-offset",
         "the sign is not"),

@@ -23,6 +23,7 @@ from grader.robotcode.checks.motor_names import (
     turn_independently,
 )
 
+TARGETS = frozenset({"closed-loop", "current"})  # commands that are no voltage, but a target
 FEW = 2  # loops that may differ: the first of a test, and one more
 SAME = 0.02  # [share] what two ratios of voltages may differ in that are the same
 A_LOOP = 0.5  # [rot] that a motor may turn in a loop, before a limit stops it
@@ -234,7 +235,7 @@ def _list_command_faults(
     name = motor.name
     sent = [one for run in runs.values() for one in run.sent]
     for one in sent:
-        if one.kind in {"closed-loop", "current"} and one.phase == "drive":
+        if one.kind in TARGETS and one.phase == "drive":
             yield fault("sends_closed_loop", one.line, name=name, method=one.method)
     for run in runs.values():
         if run.unknown:
@@ -331,21 +332,26 @@ def _describe_voltage(
     )  # fmt: skip
 
 
-def check_open_loop(facts: RoutineFacts) -> None:
-    """Raise ``WrongAnswer`` if the drive callback uses a closed loop or a duty cycle."""
-    sent = [
+def list_drive_commands(facts: RoutineFacts) -> list[Sent]:
+    """What the drive callback sends to the motors, in all tests."""
+    return [
         one
         for motor in (list_driven(facts) if facts.drive else ())
         for one in _list_sent(motor, facts)
         if one.phase == "drive"
     ]
+
+
+def check_open_loop(facts: RoutineFacts) -> None:
+    """Raise ``WrongAnswer`` if the drive callback uses a closed loop or a duty cycle."""
+    sent = list_drive_commands(facts)
     if not sent:
         check_compiles(facts)
         raise NotReachedError("checked after the drive callback moves a motor")
     for one in sent:
         if one.kind == "duty" and not one.method.startswith("setVoltage"):
             raise fault("uses_duty_cycle", one.line, method=one.method)
-        if one.kind in {"closed-loop", "current"}:
+        if one.kind in TARGETS:
             raise fault("uses_closed_loop", one.line, method=one.method)
 
 

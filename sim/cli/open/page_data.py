@@ -36,7 +36,6 @@ from sim.inspect.detect_faults import Inspection
 from sim.io.entries.entry import NUMBERS, SECOND, STRING, Entry
 from sim.physics.engine import engine_can_compile, engine_is_cached
 from sim.physics.motors import MOTORS, find_motor
-from sim.reconcile.gains import replace_gains
 from sim.reconcile.model_variant import ModelVariant
 from sim.reconcile.thresholds import LEAST_FLOOR
 from sim.report.fit_terminal import format_gains
@@ -83,7 +82,7 @@ def answer_request(
     answers: Mapping[str, Any] = {
         "summary": lambda: describe_log(one, reading),
         "entries": lambda: describe_entries(one.list_entries()),
-        "faults": lambda: describe_faults(one.inspect(reading), one),
+        "faults": lambda: describe_faults(one.inspect(reading), one, one.combine_runs(reading)),
         "fit": lambda: describe_fit(one, reading, chosen),
         "directions": lambda: describe_directions(one, reading),
         "code": lambda: write_code(one, reading, query, chosen),
@@ -161,15 +160,16 @@ def pack_entry(one: OpenLog, log: Log, name: str) -> bytes:
     return entry.numbers()[np.maximum(last, 0)].astype("<f8").tobytes()
 
 
-def describe_faults(found: Inspection, one: OpenLog) -> dict[str, Any]:
-    """The faults of a log with their times, and its other warnings."""
+def describe_faults(found: Inspection, one: OpenLog, log: Log) -> dict[str, Any]:
+    """The faults of a log with their times, and its other warnings, with those of its repair."""
     data = found.to_json()
     for fault, damage in zip(data["faults"], found.faults, strict=True):
         if isinstance(damage.advice, Action):
             fault["advice"] = damage.advice.on_page
         fault["evidence"] = _without_path(fault["evidence"], one)
         fault["sureness"] = name_confidence(fault["confidence"])
-    return data | {"doubts": _describe_doubts(found.doubts, one)}
+    doubts = tuple(dict.fromkeys((*found.doubts, *log.doubts)))
+    return data | {"doubts": _describe_doubts(doubts, one)}
 
 
 def describe_fit(
@@ -186,7 +186,8 @@ def describe_fit(
         Refusal: the log cannot be read or fitted.
     """
     pooled, log = one.fit(reading), one.combine_runs(reading)
-    found = _apply_model(pooled.found.in_log_units(), chosen)
+    plain = pooled.found.in_log_units()
+    found = chosen.apply_to(plain) if chosen else plain
     gains = [
         {
             "name": name,
@@ -223,12 +224,6 @@ def _list_tracks(chosen: ModelVariant, log: Log) -> list[list[float]]:
     tracks = [run[:, 1].tolist() for run in chosen.tracks]
     tracks *= len(log.runs) // max(len(tracks), 1)
     return tracks if list(map(len, tracks)) == list(map(len, log.runs)) else []
-
-
-def _apply_model(found: Fit, chosen: ModelVariant | None) -> Fit:
-    if chosen is None:
-        return found
-    return replace_gains(found, chosen.gains, chosen.parts, chosen.doubts)
 
 
 def _describe_verdict(found: Fit, log: Log) -> dict[str, str]:
@@ -299,7 +294,8 @@ def write_code(
     if not season.isdecimal():
         raise BadRequest("this season is not supported", advice="Choose 2026.")
     compared = one.fit(reading).found if chosen else one.compare_directions(reading)[0]
-    found = _apply_model(compared.in_log_units(), chosen)
+    plain = compared.in_log_units()
+    found = chosen.apply_to(plain) if chosen else plain
     moved = {name: value for name, value in read_moved_gains(query).items() if name in found.gains}
     errors = {name: error for name, error in found.errors.items() if name not in moved}
     # A value set by hand has no standard error

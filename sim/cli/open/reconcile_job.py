@@ -117,7 +117,8 @@ def refit_story(story: Story, effects: Collection[str]) -> ModelVariant:
     """
     if story.variants is None:
         raise BadRequest("no effect was found", advice="Use the gains of the fit.")
-    return replace(story.variants.refit(effects), doubts=list_gain_doubts(story))
+    variant = story.variants.refit(effects)
+    return replace(variant, doubts=list_gain_doubts(story), narrows=story.narrows(variant.gap))
 
 
 def describe_story(story: Story, said: Collection[str] = ()) -> dict[str, Any]:

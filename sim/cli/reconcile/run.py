@@ -19,7 +19,7 @@ from sim.fit import Fit, fit
 from sim.physics.engine import engine_can_compile
 from sim.reconcile import Story
 from sim.reconcile.gains import replace_gains
-from sim.reconcile.story_text import list_gain_doubts
+from sim.reconcile.story_text import list_gain_doubts, narrows_gap
 from sim.report.page_file import choose_page_path
 from sim.report.story_terminal import show_progress, show_story
 from sim.support.command_line import DONE, NOT_RIGHT, print_error
@@ -92,4 +92,7 @@ def _make_fit(story: Story, log: Log) -> Fit:
     plain = checked.in_log_units()
     if story.gains == story.gains_without:
         return plain
-    return replace_gains(plain, story.gains, story.model.parts, list_gain_doubts(story))
+    return replace_gains(
+        plain, story.gains, story.model.parts, list_gain_doubts(story),
+        narrows=narrows_gap(story),
+    )  # fmt: skip

@@ -32,7 +32,7 @@ def find_start_values(residual: VoltageResidual) -> Iterator[Mapping[str, float]
     duty = np.minimum(np.abs(residual.voltage) / BATTERY, 1.0)
     torque = residual.voltage - residual.gains["kV"] * residual.velocity
     (share,) = residual.fit_columns(torque * duty**2)
-    yield {"share": float(np.clip(share, 0.05, 30.0))}
+    yield {"share": float(np.clip(share, 0.05, 15.0))}
     yield {"share": 1.0}
     yield {"share": 6.0}
 
@@ -47,7 +47,7 @@ EFFECT = Effect(
     parameters=(
         # a good battery with good plugs has a tenth
         Parameter(
-            "share", "resistance of the battery / of the motors", "1", most=100.0, everyday=0.1
+            "share", "resistance of the battery / of the motors", "1", most=15.0, everyday=0.1
         ),
     ),
     fingerprint="Steps start more slowly than kA says, and larger steps even more so.",

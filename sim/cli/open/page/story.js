@@ -91,7 +91,7 @@ function gapBars({ gaps, findings }) {
   const most = Math.max(1, ...gaps.map(({ gap }) => gap ?? 0));
   const rows = gaps.map(({ name, text, gap }, k) => make("div", k === gaps.length - 1 && (gap ?? most) < (gaps[k - 1]?.gap ?? 0) ? "last" : "",
     make("span", "", name), make("i", { style: `--share: ${(gap ?? most) / most}` }), make("b", "", text)));
-  return make("div", "gaps", make("p", "quiet", `Simulation error at new samples${findings.some(({ kind }) => kind === "fault") ? " outside the damaged parts" : ""}, in times the noise of the velocity; above, it is over all samples`), rows);
+  return make("div", "gaps", make("p", "quiet", `Simulation error at samples with a new reading${findings.some(({ kind }) => kind === "fault") ? " outside the damaged parts" : ""}, in times the noise of the velocity; above, it is over all samples`), rows);
 }
 
 at("look").addEventListener("click", () => {

@@ -7,6 +7,7 @@ import { chart, listMarks } from "./stage.js";
 
 const MOST_SHOWN = 12; // faults in the list; further ones are collapsed
 const MOST_LINES = 3; // faults named under the verdict
+const MOST_OF_IT = 0.9; // [share] of a fault
 
 export function showFaults() {
   const log = shownLog();
@@ -24,7 +25,7 @@ export function showFaults() {
   const left = faults.filter((one) => !isLeftOut(log, one));
   const lines = left.slice(0, MOST_LINES).map((one) => {
     const words = `${titleOf(log, one)} (${one.sureness})${one.test ? `: ${nameOfTest(log, one)}` : ""}`;
-    return make("li", "grave", button("link", words, () => showFault(one)), canLeaveOut(log, one) && make("span", "leave", " · ", leaveButton(log, one, "link")));
+    return make("li", "grave", button("link", words, () => showFault(one)), isPlaced(one) && make("span", "leave", " · ", leaveButton(log, one, "link")));
   });
   if (left.length > MOST_LINES) lines.push(make("li", "busy", button("link", `${left.length - MOST_LINES} more below`, () => at("faults").scrollIntoView({ behavior: "smooth" }))));
   at("fault-lines").replaceChildren(...faults.length || log.faults.refused ? lines : [make("li", "well", none)], ...leftOutLines(log));
@@ -42,7 +43,8 @@ const titleOf = (log, one) => `${log.faults.faults.indexOf(one) + 1} ${one.fault
 const nameOfTest = (log, { run, test }) => `${log.runs[run]?.part ?? ""} ${test}`.trim();
 const partOf = (one) => ({ test: one.test, start: one.start_s, end: one.end_s });
 
-const isLeftOut = ({ leftOut }, one) => leftOut.some(({ test, start, end }) => test === one.test && start <= one.start_s && end >= one.end_s);
+/** Whether nearly all of a fault is left out; its ends may be marked a little off. */
+const isLeftOut = ({ leftOut }, one) => leftOut.some(({ test, start, end }) => test === one.test && Math.min(end, one.end_s) - Math.max(start, one.start_s) >= MOST_OF_IT * (one.end_s - one.start_s));
 
 function faultCard(log, one) {
   const where = one.run === null ? one.test : `${nameOfTest(log, one)}, ${one.start_s.toFixed(2)} to ${one.end_s.toFixed(2)} s`;
@@ -50,13 +52,10 @@ function faultCard(log, one) {
     make("h3", "", titleOf(log, one), make("span", "badge", one.sureness)),
     one.test && make("p", "where", where),
     make("p", "", prose(one.evidence)), make("p", "advice", prose(one.advice)),
-    isPlaced(one) && [button("button small", "Show", () => showFault(one)), " ",
-      canLeaveOut(log, one) ? leaveButton(log, one, "button small") : make("span", "quiet leave", "Too long to leave out.")]);
+    isPlaced(one) && [button("button small", "Show", () => showFault(one)), " ", leaveButton(log, one, "button small")]);
 }
 
 const isPlaced = (one) => one.test && one.run !== null;
-/** Whether most of a test is left without a fault. */
-const canLeaveOut = ({ runs }, one) => isPlaced(one) && runs[one.run].time.at(-1) - runs[one.run].time[0] > 2 * (one.end_s - one.start_s);
 
 function leaveButton(log, one, kind) {
   const out = isLeftOut(log, one);

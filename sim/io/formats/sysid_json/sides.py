@@ -161,11 +161,16 @@ def choose_side(
 
 
 def _find_signs(side: Array) -> tuple[int, int]:
-    """The signs of voltage and velocity while it moves: 1, -1, or 0 if unclear."""
-    voltage, _, velocity = side
+    """The signs of voltage and of motion: 1, -1, or 0 where unclear.
+
+    A motion is unclear, too, if the position goes against the velocity.
+    """
+    voltage, position, velocity = side
     moving = np.abs(voltage) > SIGNED * np.abs(voltage).max()
     moving &= np.abs(velocity) > SIGNED * np.abs(velocity).max()
-    return find_majority_sign(voltage[moving]), find_majority_sign(velocity[moving])
+    way = find_majority_sign(velocity[moving])
+    along = find_majority_sign(np.diff(position[moving]))
+    return find_majority_sign(voltage[moving]), way if way * along >= 0 else 0
 
 
 def _is_unsigned(side: Side) -> bool:
