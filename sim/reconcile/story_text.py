@@ -5,8 +5,10 @@ from collections.abc import Sequence
 
 from sim.core.doubt import Doubt
 from sim.core.units import find_unit
+from sim.fit import Fit
 from sim.fit.replay import SENSOR_LAGS
 from sim.physics.effects import EFFECTS
+from sim.reconcile.gains import replace_gains
 from sim.reconcile.story import (
     AMBIGUOUS,
     NOTHING_MISSING,
@@ -168,6 +170,14 @@ def list_gain_doubts(story: Story) -> tuple[Doubt, ...]:
         "use these gains, record another log, and compare."
     )
     return (Doubt("gains-move", text, gains=tuple(moved)),)
+
+
+def apply_story(story: Story, plain: Fit) -> Fit:
+    """A fit in the log's unit, with the gains, effects and doubts of a story's last model."""
+    if story.gains == story.gains_without:
+        return plain
+    doubts, narrows = list_gain_doubts(story), narrows_gap(story)
+    return replace_gains(plain, story.gains, story.model.parts, doubts, narrows=narrows)
 
 
 def narrows_gap(story: Story) -> bool:

@@ -18,8 +18,7 @@ from sim.core.log import Log
 from sim.fit import Fit, fit
 from sim.physics.engine import engine_can_compile
 from sim.reconcile import Story
-from sim.reconcile.gains import replace_gains
-from sim.reconcile.story_text import list_gain_doubts, narrows_gap
+from sim.reconcile.story_text import apply_story
 from sim.report.page_file import choose_page_path
 from sim.report.story_terminal import show_progress, show_story
 from sim.support.command_line import DONE, NOT_RIGHT, print_error
@@ -89,10 +88,4 @@ def _warn_uncompiled() -> None:
 def _make_fit(story: Story, log: Log) -> Fit:
     """The fit of a log, with the gains of a story's last model."""
     checked, _ = check_against_physics(fit(log, type=story.model.type), log, parts=None)
-    plain = checked.in_log_units()
-    if story.gains == story.gains_without:
-        return plain
-    return replace_gains(
-        plain, story.gains, story.model.parts, list_gain_doubts(story),
-        narrows=narrows_gap(story),
-    )  # fmt: skip
+    return apply_story(story, checked.in_log_units())

@@ -7,7 +7,6 @@ import { chart, listMarks } from "./stage.js";
 
 const MOST_SHOWN = 12; // faults in the list; further ones are collapsed
 const MOST_LINES = 3; // faults named under the verdict
-const MOST_OF_IT = 0.9; // [share] of a fault
 
 export function showFaults() {
   const log = shownLog();
@@ -25,7 +24,7 @@ export function showFaults() {
   const left = faults.filter((one) => !isLeftOut(log, one));
   const lines = left.slice(0, MOST_LINES).map((one) => {
     const words = `${titleOf(log, one)} (${one.sureness})${one.test ? `: ${nameOfTest(log, one)}` : ""}`;
-    return make("li", "grave", button("link", words, () => showFault(one)), isPlaced(one) && make("span", "leave", " · ", leaveButton(log, one, "link")));
+    return make("li", "grave", button("link", words, () => showFault(one)), canLeaveOut(log, one) && make("span", "leave", " · ", leaveButton(log, one, "link")));
   });
   if (left.length > MOST_LINES) lines.push(make("li", "busy", button("link", `${left.length - MOST_LINES} more below`, () => at("faults").scrollIntoView({ behavior: "smooth" }))));
   at("fault-lines").replaceChildren(...faults.length || log.faults.refused ? lines : [make("li", "well", none)], ...leftOutLines(log));
@@ -44,7 +43,7 @@ const nameOfTest = (log, { run, test }) => `${log.runs[run]?.part ?? ""} ${test}
 const partOf = (one) => ({ test: one.test, start: one.start_s, end: one.end_s });
 
 /** Whether nearly all of a fault is left out; its ends may be marked a little off. */
-const isLeftOut = ({ leftOut }, one) => leftOut.some(({ test, start, end }) => test === one.test && Math.min(end, one.end_s) - Math.max(start, one.start_s) >= MOST_OF_IT * (one.end_s - one.start_s));
+const isLeftOut = ({ leftOut }, one) => leftOut.some(({ test, start, end }) => test === one.test && Math.min(end, one.end_s) - Math.max(start, one.start_s) >= 0.9 * (one.end_s - one.start_s));
 
 function faultCard(log, one) {
   const where = one.run === null ? one.test : `${nameOfTest(log, one)}, ${one.start_s.toFixed(2)} to ${one.end_s.toFixed(2)} s`;
@@ -52,10 +51,13 @@ function faultCard(log, one) {
     make("h3", "", titleOf(log, one), make("span", "badge", one.sureness)),
     one.test && make("p", "where", where),
     make("p", "", prose(one.evidence)), make("p", "advice", prose(one.advice)),
-    isPlaced(one) && [button("button small", "Show", () => showFault(one)), " ", leaveButton(log, one, "button small")]);
+    isPlaced(one) && [button("button small", "Show", () => showFault(one)), " ",
+      canLeaveOut(log, one) ? leaveButton(log, one, "button small") : make("span", "quiet leave", "It is most of this test: record the test again.")]);
 }
 
 const isPlaced = (one) => one.test && one.run !== null;
+/** Whether most of a test is left without a fault, or the fault is left out already. */
+const canLeaveOut = (log, one) => isPlaced(one) && (isLeftOut(log, one) || log.runs[one.run].time.at(-1) - log.runs[one.run].time[0] > 2 * (one.end_s - one.start_s));
 
 function leaveButton(log, one, kind) {
   const out = isLeftOut(log, one);
@@ -83,8 +85,7 @@ export function showDoubts() {
   at("verdict-card").classList.toggle("wrong", Boolean(fitRefused) || bad);
   at("verdict-card").classList.toggle("well", word === "Usable");
   at("paste").classList.toggle("primary", !bad);
-  const measured = new Set(fit?.doubts.map(({ code }) => code)); // what the fit says of the log is more exact than what the inspection says
-  const said = [...fit?.doubts ?? [], ...faults?.doubts.filter(({ code }) => !measured.has(code)) ?? []].filter(({ code }) => !faults?.faults.some(({ fault }) => fault === code)).sort((a, b) => Number(b.grave) - Number(a.grave));
+  const said = [...fit?.doubts ?? [], ...faults?.doubts.filter((one) => !fit?.doubts.some(({ code }) => code === one.code)) ?? []].filter(({ code }) => !faults?.faults.some(({ fault }) => fault === code)).sort((a, b) => Number(b.grave) - Number(a.grave));
   const known = [...Map.groupBy(said, ({ code }) => code).values()].map((alike) =>
     ({ ...alike[0], message: [...new Set(alike.map(({ message }) => message))].join(" ") }));
   const notes = (fit?.notes ?? []).map((note) => foldedItem("well", "Note", note));
