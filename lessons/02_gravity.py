@@ -389,7 +389,7 @@ TILT = 25.0  # [deg] our encoder shows this much too much
 table = [(angle + TILT, low, high) for angle, low, high in measured]
 animate_charts(
     chart_offset,
-    knobs=(Knob("offset", "offset [deg]", low=-60.0, high=60.0, step=2.0, value=0.0),),
+    knobs=(Knob("offset", "offset [deg]", low=-60.0, high=60.0, step=2.5, value=0.0),),
 )
 
 # %% [markdown]

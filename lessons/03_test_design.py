@@ -547,9 +547,10 @@ Table(
 )
 
 # %% [markdown]
-# SysId uses only the rows up to 90 % of the final speed, so a long test does not make kA wrong. But
-# a long test needs a long room: look at the last column. After 3τ, the rows contain nothing new
-# about kA. (A fit that uses these rows finds a wrong kA: lesson 7.)
+# A test that is too short makes kA wrong: look at 0.2 s. SysId uses only the rows up to 90 % of the
+# final speed, so a long test does not make kA wrong. But it needs a long room: look at the last
+# column. After 3τ, the rows contain nothing new about kA. (A fit that uses these rows finds a wrong
+# kA: lesson 7.)
 #
 # <details><summary>For mentors: does a long dynamic test spoil kA?</summary>
 #
@@ -570,9 +571,8 @@ Table(
 # ## 9 Plan your tests
 #
 # Now plan a ramp test and a step test for the drivetrain. You let go of the button 0.3 s after the
-# robot passes the mark. Above the picture you see five of the seven rules of exercise 6. (The rule
-# for the smallest step is in section 7.) Find a plan that follows all five rules in a room of 4 m.
-# Then try a room of 2.5 m.
+# robot passes the mark. Above the picture you see five rules. (Exercise 6 has two more.) Find a
+# plan that follows all five rules in a room of 4 m. Then try a room of 2.5 m.
 #
 # **Choose your current limit first.** It protects the motors and the battery. If a step is too
 # large, the limit reduces the voltage at the start. So set the current limit that you will use in a
