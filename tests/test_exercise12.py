@@ -206,8 +206,8 @@ def test_effects_that_a_log_does_not_determine_are_drawn_again():
     drawn = sys.modules[OWN.module.draw.__module__]
     weak = ("drivetrain", (("cogging", 2.0), ("velocity-filter", 0.02)))
 
-    assert not drawn.is_determined(drawn.draw_recipe(np.random.default_rng(0), [weak]))
-    assert drawn.is_determined(OWN.module.draw("ada"))
+    assert not drawn.is_solvable(drawn.draw_recipe(np.random.default_rng(0), [weak]))
+    assert drawn.is_solvable(OWN.module.draw("ada"))
 
 
 def test_the_students_of_a_class_meet_many_effects():

@@ -52,7 +52,7 @@ def test_the_mean_of_all_middles_is_named_and_not_taken_for_an_edge(copy, studen
     assert "an edge" not in hint
 
 
-def test_a_cosine_that_multiplies_is_named_where_it_happens_to_equal_a_row(copy):
+def test_multiplying_by_the_cosine_is_named_even_if_the_result_equals_a_row_of_the_table(copy):
     found = OWN.module.draw("ada").found
     product = found["arm_kG"] * math.cos(math.radians(found["arm_offset"])) ** 2
 

@@ -83,7 +83,7 @@ def test_any_plan_that_keeps_the_rules_passes(copy):
             assert grade_answer(copy, **written(kind, plan))[kind].points == 1.5
 
 
-def test_at_half_a_volt_a_second_for_ten_seconds_the_facts_drivetrain_goes_nine_meters():
+def test_a_60_kg_drivetrain_goes_nine_meters_in_ten_seconds_at_half_a_volt_a_second():
     """Four Kraken X60 at 6.75:1 and 60 kg: 9.3 m, and at 1 V/s it is at 4.1 V after 10 feet."""
     machine = PLAN.Machine(
         "drivetrain", "m", 0.15, 2.524, 0.191, 0.0, 20.0, 366.0, 120.0, 0.01, 1.1, 0.3

@@ -211,7 +211,7 @@ def test_findings_do_not_depend_on_the_held_out_log():
     assert other.gap_after > 3.0 * story.gap_after
 
 
-def test_without_a_held_out_log_the_story_says_that_it_shows_the_validation():
+def test_without_a_held_out_log_the_validation_log_is_shown_and_the_story_says_so():
     sessions = logs(*PLAIN[:2], simple=True)
 
     story = told(sessions, held_out=None)

@@ -372,7 +372,7 @@ def test_yagsl_gets_volts_per_meter_of_the_wheel(units, per):
     assert "replaceSwerveModuleFeedforward(FEEDFORWARD)" in text
 
 
-def test_kp_is_that_of_sysid_per_unit_and_second_of_the_target():
+def test_kp_is_sysids_converted_to_the_units_of_the_target():
     fit = fit_in("simple", "meters")
     phoenix = values(write_robot_code(fit, target="phoenix6", radius=RADIUS))
     spark = values(write_robot_code(fit, target="revlib"))

@@ -109,7 +109,7 @@ def _judge_decision(row: Row, given: Mapping[str, object], variant: Variant) -> 
     """Judge whether to characterize a mechanism."""
     raw = given.get(row.name)
     found = read_choice(raw, DECISIONS, also=ALSO)
-    if row.argues(found, _read_reason(row, given, variant)):
+    if row.is_justified_exception(found, _read_reason(row, given, variant)):
         return "Accepted: with that reason, your choice may be the better one."
 
     def explain_wrong_choice(_: str) -> tuple[str, str]:
@@ -126,7 +126,7 @@ def _judge_reason(row: Row, given: Mapping[str, object], variant: Variant) -> No
         decided = read_choice(given.get(row.name), DECISIONS, also=ALSO)
     except WrongAnswer:
         raise NotReachedError("checked together with the decision") from None
-    if row.argues(decided, chosen):
+    if row.is_justified_exception(decided, chosen):
         return
     if chosen not in row.reasons:
         other = {"says": f"this is no reason for '{decided}' here: {row.told}. {row.ask}"}

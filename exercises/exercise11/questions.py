@@ -30,7 +30,7 @@ class Row:
     ask: str
     argued: tuple[list[str], ...] = ()
 
-    def argues(self, decision: str, reason: str) -> bool:
+    def is_justified_exception(self, decision: str, reason: str) -> bool:
         """Whether a decision that is not the usual one comes with a reason that carries it."""
         return [decision, reason] in [*self.argued]
 

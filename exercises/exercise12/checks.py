@@ -21,8 +21,8 @@ from sim.physics.model import Part
 from sim.reconcile.by_hand import HandSearch
 from sim.support.student_names import make_folder_name
 
-from .drawn import FLOOR, HIDDEN, Variant, draw, draw_determined, make_search
-from .patch import find_bound, read_names, read_parts
+from .drawn import FLOOR, HIDDEN, Variant, draw, draw_solvable, make_search
+from .patch import find_parameter_at_limit, read_names, read_parts
 
 __all__ = ["draw", "make_folder_name", "read_names"]  # what try_it.py uses, too
 
@@ -123,7 +123,7 @@ def draw_mystery(rng: np.random.Generator, *, level: int) -> Mystery:
         level: from 1.
     """
     count = min((level + 1) // 2, max(len(effects) for _, effects in HIDDEN))
-    variant = draw_determined(rng, [one for one in HIDDEN if len(one[1]) == count])
+    variant = draw_solvable(rng, [one for one in HIDDEN if len(one[1]) == count])
     return Mystery(
         logs={"log": variant.log, "validation": variant.validation},
         task=(
@@ -301,7 +301,7 @@ def justified(answers: Answers) -> None:
     except WrongAnswer:
         raise NotReachedError("checked after you write effects and their parameters") from None
     for part in parts:
-        if stuck := find_bound(part):
+        if stuck := find_parameter_at_limit(part):
             raise WrongAnswer(
                 f"{part.effect}.{stuck} is at its limit",
                 hint="there the effect does nothing, or stands in for another. Fit again from "

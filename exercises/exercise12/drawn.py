@@ -105,20 +105,20 @@ def make_search(variant: Variant) -> HandSearch:
 @cache_generated_data
 def draw(student: str) -> Variant:
     """A learner's mechanism, always the same one."""
-    return draw_determined(make_student_rng(student, "exercise12"), HIDDEN)
+    return draw_solvable(make_student_rng(student, "exercise12"), HIDDEN)
 
 
-def draw_determined(rng: np.random.Generator, among: Sequence[Recipe]) -> Variant:
+def draw_solvable(rng: np.random.Generator, among: Sequence[Recipe]) -> Variant:
     """A mechanism whose hidden effects its logs determine.
 
     Args:
         rng: the source of chance.
         among: what may be hidden, as in ``HIDDEN``.
     """
-    return draw_until(lambda _: draw_recipe(rng, among), is_determined, most=50)
+    return draw_until(lambda _: draw_recipe(rng, among), is_solvable, most=50)
 
 
-def is_determined(variant: Variant) -> bool:
+def is_solvable(variant: Variant) -> bool:
     """Whether a fit passes, and the gap widens without each effect, most without the first.
 
     Alone, the first must also narrow the gap more than any effect that looks like it: a learner

@@ -122,7 +122,7 @@ def _read_value(name: str, known: Parameter, raw: object, unit: Unit) -> float:
     return si
 
 
-def find_bound(part: Part) -> str:
+def find_parameter_at_limit(part: Part) -> str:
     """The parameter that has reached the limit of its range; empty if none has."""
     for one in find_effect(part.effect).parameters:
         value = part.parameters[one.name]

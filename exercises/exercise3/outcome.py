@@ -24,7 +24,7 @@ ROOM = {"elevator": (0.0, 1.3), "arm": (-math.pi / 4, math.pi / 2)}  # [m, rad f
 
 
 def find_outcome(given: Mapping[str, object], variant: Variant) -> Consequence | None:
-    """The motion under the numbers; None if all are right, or too few are answered."""
+    """The motion with the learner's kG, kS and offset; None if all are right, or too few given."""
     found = list(_follow_profiles(given, variant))
     return follow_profiles(found) if found else None
 

@@ -102,15 +102,15 @@ class Plan:
 
 @dataclass(frozen=True)
 class Test:
-    """One test of a plan, forward.
+    """The forward motion that a plan gives in one test.
 
     Args:
         machine: what moves.
-        push: [V] beyond what holds it.
-        ramp: [V/s].
-        still: [s] before it moves.
-        timeout: [s].
-        release: the mark.
+        push: [V] of a step beyond kS + kG; 0 in a ramp.
+        ramp: [V/s] 0 in a step.
+        still: [s] from the start of the test until it moves.
+        timeout: [s] after which the test ends.
+        release: how far from the start the button is let go.
     """
 
     __test__ = False  # no test of pytest's

@@ -110,7 +110,7 @@ def _draw_variant(kind: str, rng: np.random.Generator) -> Variant | None:
 
 
 def _is_solvable(variant: Variant) -> bool:
-    """Whether cuts by eye earn all points, and a preparation that lacks a part does not."""
+    """Whether rough cuts earn all points, and none do without cut, threshold or median."""
     log, asked, reference = variant.log, variant.asked, variant.reference
     full = POINTS * len(asked)
     if (

@@ -28,7 +28,14 @@ from sim.core.errors import Refusal
 from sim.inspect.faults import FAULTS
 from sim.physics.motors import find_motor
 
-from .measured import ANALYSES, Measured, make_team, measure_bench, measure_robot, read_noted_gain
+from .measured import (
+    ANALYSES,
+    Measured,
+    make_team,
+    measure_bench,
+    measure_robot,
+    read_right_gain_or_fitted,
+)
 
 HERE = Path(__file__).resolve().parent
 FILES = ("answers.toml",)
@@ -125,7 +132,7 @@ class Answers:
         """Exercise 10's reading of the constants, compared with the gains of this mechanism."""
         code = self._read("constants", TENTH)
         one = self.measured
-        shown = {name: read_noted_gain(name, self.given, one) for name in one.key.asked}
+        shown = {name: read_right_gain_or_fitted(name, self.given, one) for name in one.key.asked}
         kind = ANALYSES[one.fit.type]
         parts = (
             {}

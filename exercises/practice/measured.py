@@ -151,7 +151,7 @@ def make_team(measured: Measured, given: Mapping[str, object], team: ModuleType)
     if measured.parts is None:
         raise NotReachedError(measured.why)
     one = measured.parts
-    kv = read_noted_gain("kV", given, measured) * (
+    kv = read_right_gain_or_fitted("kV", given, measured) * (
         2.0 * math.pi if measured.units == "Radians" else 1.0
     )
     rpm = one.motor.free_speed * 30.0 / math.pi
@@ -160,7 +160,7 @@ def make_team(measured: Measured, given: Mapping[str, object], team: ModuleType)
     return team.Variant("own", built, kv, measured.fit.gains["kS"], 0.0, (), told)
 
 
-def read_noted_gain(name: str, given: Mapping[str, object], measured: Measured) -> float:
+def read_right_gain_or_fitted(name: str, given: Mapping[str, object], measured: Measured) -> float:
     """The gain that the learner wrote down if it is right, else the fitted gain."""
     asked = measured.key.asked[name]
     try:

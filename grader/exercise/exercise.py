@@ -232,9 +232,8 @@ class Exercise:
         Args:
             given: a file or a folder; None takes the exercise's own files.
             student: whose answer it is.
-            run: whether the learner's code may be run, where the exercise can; else what only
-                running can tell makes the exercise ungradable. Java of robots is interpreted by
-                the grader itself and graded in any case.
+            run: whether the learner's code may be run. If not, an exercise that needs a run is not
+                graded. Java robot code is graded in any case: the grader interprets it itself.
         """
         try:
             files = self.find_answer_files(given)

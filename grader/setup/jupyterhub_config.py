@@ -50,7 +50,7 @@ PACK = (  # a student's answers and data; what is larger than 20 MB is neither
 )
 
 
-def refuse_open_class() -> None:
+def refuse_unsafe_setup() -> None:
     """Stop with one sentence if students could not work, or could read forbidden files."""
     if sys.platform != "linux" or os.geteuid() != 0:
         sys.exit("Only root on Linux can give each student a system user: run jupyterhub as root.")
@@ -115,7 +115,7 @@ def load_codes(students: list[str]) -> dict[str, str]:
     return {normalize_name(name): code for name, code in codes.items()}
 
 
-refuse_open_class()
+refuse_unsafe_setup()
 load_engine()  # compiles it now, and not once more for each student
 try:
     STUDENTS = list(read_class_roster(CLASS / "roster.csv").rows)

@@ -13,7 +13,7 @@ from typing import TypeAlias
 from sim.cli.options import is_same_file
 from sim.core.errors import BadRequest
 from sim.core.log import Log
-from sim.inspect.log_units import doubt_units
+from sim.inspect.log_units import check_units
 from sim.io import read_motors, read_with
 from sim.io.format import ReadOptions
 from sim.io.motion import leave_out_falls, mend_motion, scale_velocity
@@ -85,7 +85,7 @@ class LogReader(ReadOptions):
 def _check_signals(log: Log) -> Log:
     """The log, repaired where that is possible, with doubts about wrong units."""
     mended = leave_out_falls(mend_motion(log))
-    return mended.add_doubts(*doubt_units(mended))
+    return mended.add_doubts(*check_units(mended))
 
 
 def mend_parts(parts: Parts) -> dict[str, Log]:

@@ -101,10 +101,10 @@ class KalmanFilter:
 
         Written with plain floats: a search does this for thousands of samples, again and again.
         """
-        steady_x, steady, _, steady_v = _as_four(self.predicted_cov)
-        process_x, process, _, process_v = _as_four(self.process_cov)
-        volt_x, volt, _, volt_v = _as_four(self.voltage_cov)
-        _, reach, _, decay = _as_four(self.transition)
+        steady_x, steady, _, steady_v = _flatten_matrix(self.predicted_cov)
+        process_x, process, _, process_v = _flatten_matrix(self.process_cov)
+        volt_x, volt, _, volt_v = _flatten_matrix(self.voltage_cov)
+        _, reach, _, decay = _flatten_matrix(self.transition)
         noise_x, noise_v = self.measured_var.tolist()
         near_x, near_v = (1.0 + RELEVANT) * steady_x, (1.0 + RELEVANT) * steady_v
         variances = np.square(voltage_error).tolist()
@@ -168,7 +168,7 @@ def make_steady_state_filter(
         )
     # the covariance of the prediction solves X = A X Aᵀ - A X (X + R)⁻¹ X Aᵀ + Q, the Riccati
     # equation that is the dual of a regulator's
-    a, g, h = map(_as_four, (transition.T, np.diag(1.0 / variance), process_cov))
+    a, g, h = map(_flatten_matrix, (transition.T, np.diag(1.0 / variance), process_cov))
     predicted = np.array(solve_riccati(a, g, h)).reshape(2, 2)
     steady = np.ascontiguousarray(predicted @ np.linalg.inv(predicted + np.diag(variance)))
     return KalmanFilter(steady, predicted, variance, transition, process_cov, voltage_cov)
@@ -187,6 +187,6 @@ def _compute_voltage_covariance(rate: float, period: float) -> Array:
     return np.asarray(2.0 * (np.outer(early, early) + np.outer(late, late)))
 
 
-def _as_four(matrix: Array) -> Matrix:
+def _flatten_matrix(matrix: Array) -> Matrix:
     a, b, c, d = matrix.ravel().tolist()
     return a, b, c, d

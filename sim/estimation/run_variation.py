@@ -215,14 +215,14 @@ def _run_information(
         begins = np.diff((time - time[0]) // INTERVAL, prepend=-1.0)
         starts = 2 * np.flatnonzero(begins)  # two measurements to a sample
         scores = np.add.reduceat(free.T * innovations[rows], starts, axis=1).T
-        excess = max(_compute_excess_variance(information, scores), 1.0)
+        excess = max(_compute_overdispersion(information, scores), 1.0)
         whole = np.vstack([free, np.sqrt(known)[:, None] * shares])
         root = np.asarray(np.linalg.qr(whole, mode="r"))
         runs.append(RunInformation(root / math.sqrt(excess), score / excess))
     return runs
 
 
-def _compute_excess_variance(information: Array, scores: Array) -> float:
+def _compute_overdispersion(information: Array, scores: Array) -> float:
     """[1] variance of the intervals' scores, divided by that of independent innovations.
 
     Args:

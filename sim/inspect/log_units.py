@@ -92,7 +92,7 @@ def find_unit_errors(features: LogFeatures) -> Iterator[UnitError]:
     yield from _check_speed(features)
 
 
-def doubt_units(log: Log) -> tuple[Doubt, ...]:
+def check_units(log: Log) -> tuple[Doubt, ...]:
     """A warning if a signal of a log is in a wrong unit or scale, the most certain one.
 
     Args:

@@ -217,9 +217,9 @@ def _make_views(joined: Mapping[str, Array], variance: Array, log: Log) -> Resid
             table = np.ones((at.size, 1))
         columns.append(table)
         views[name] = replace(
-            view, explains=_compute_share(table, missing, variance, beyond=beyond)
+            view, explains=_compute_explained_share(table, missing, variance, beyond=beyond)
         )
-    rest = 1.0 - _compute_share(np.hstack(columns), missing, variance, beyond=beyond)
+    rest = 1.0 - _compute_explained_share(np.hstack(columns), missing, variance, beyond=beyond)
     return ResidualViews(views, rest, min(float(np.sum(variance)) / total, 1.0))
 
 
@@ -231,7 +231,9 @@ def _make_columns(view: ResidualView) -> Array:
     return table[:, np.isfinite(view.mean)]
 
 
-def _compute_share(table: Array, missing: Array, variance: Array, *, beyond: float) -> float:
+def _compute_explained_share(
+    table: Array, missing: Array, variance: Array, *, beyond: float
+) -> float:
     """Share of the squared residual beyond noise that regressors explain; noise fits a little."""
     if not table.shape[1]:
         return 0.0

@@ -60,7 +60,7 @@ def _judge_run(index: int, log: Log, *, found: Fit | None, inspection: Inspectio
     faults = [one for one in inspection.faults if one.where.run == index]
     stop = next((one for one in faults if one.fault == "hard-stop"), None)
     if stop is not None and run.kind == "dynamic":
-        return _repeat_within_travel(run, stop, found=found)
+        return _advise_smaller_step(run, stop, found=found)
     if faults:
         worst = max(faults, key=lambda one: one.confidence)
         return f"Repeat {run.test}: {worst.evidence} {worst.advice}"
@@ -99,7 +99,7 @@ def find_voltage_limit(run: Run) -> tuple[float, float] | None:
     return float(run.time[first + count] - run.time[first]), float(size[:count].min())
 
 
-def _repeat_within_travel(run: Run, stop: Damage, *, found: Fit | None) -> str:
+def _advise_smaller_step(run: Run, stop: Damage, *, found: Fit | None) -> str:
     """Advice for a step that ended at a hard stop: a smaller step that settles before it."""
     first = find_step_start(run)
     after = max(stop.where.start - float(run.time[first]), 0.0)

@@ -91,7 +91,7 @@ MISTAKES = (
         "Read that line of your morning once more"),
     Mistake("room without a look at brake or coast", ANSWERS, turn_around("travel"), "checklist",
         "In coast mode the robot rolls on"),
-    Mistake("a decision that is none", ANSWERS, make_wrong_answer("check_guard", '"perhaps"'),
+    Mistake("a decision not on the list", ANSWERS, make_wrong_answer("check_guard", '"perhaps"'),
         "checklist", "Choose one of: go, no-go"),
     Mistake("gains before they are looked at", ANSWERS,
         make_wrong_answer(

@@ -34,7 +34,7 @@ from grader.robotcode.java.scope import (
 from grader.robotcode.java.static_types import (
     KINDS,
     StaticTypes,
-    is_sure,
+    has_known_members,
     join_codes,
     member_names,
     promoted,
@@ -696,7 +696,7 @@ class ExpressionCompiler(StaticTypes):
         if self.frame.static:
             return self.refuse(unknown_name("method", name, member_names(self.owner), ""), node)
         base = self.owner.library_base
-        if isinstance(base, Unknown) or not is_sure(self.owner):
+        if isinstance(base, Unknown) or not has_known_members(self.owner):
             unknown = Unknown(name)
             return Code(
                 lambda env: getattr(env[THIS], runtime.python_name(name), unknown)(*args.run(env))

@@ -52,7 +52,7 @@ def _round_with(change: Callable[[float], int]) -> Callable[[float], float]:
     return lambda x: math.copysign(change(x), x) if math.isfinite(x) else x
 
 
-def _lift_choice(pick: Callable[..., Any]) -> Callable[[Any, Any], Any]:
+def _make_min_or_max(pick: Callable[..., Any]) -> Callable[[Any, Any], Any]:
     def run(a: Any, b: Any) -> Any:
         found = pick(require_number(a), require_number(b))
         return found if type(a) is type(b) else float(found)
@@ -69,7 +69,7 @@ def _round_down(operate: Callable[[int, int], int]) -> Callable[[Any, Any], Any]
     return run
 
 
-_larger, _smaller = _lift_choice(max), _lift_choice(min)
+_larger, _smaller = _make_min_or_max(max), _make_min_or_max(min)
 _SAME = "sin cos tan asin acos atan sinh cosh tanh atan2 sqrt cbrt exp log10 pow"
 _REALS: dict[str, Callable[..., float]] = {
     **{name: getattr(math, name) for name in _SAME.split()},

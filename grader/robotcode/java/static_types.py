@@ -102,13 +102,15 @@ class StaticTypes:
         return ""
 
 
-def is_sure(cls: Any) -> bool:
+def has_known_members(cls: Any) -> bool:
     """Whether all members of a class, and all classes above it, are known."""
     if isinstance(cls, JavaClass):
         above = [one for up in cls.ancestors() for one in (up.parent, *up.interfaces)]
         if any(up.uses_lombok for up in cls.ancestors()):
             return False
-        return all(isinstance(one, JavaClass) or one is None or is_sure(one) for one in above)
+        return all(
+            isinstance(one, JavaClass) or one is None or has_known_members(one) for one in above
+        )
     return isinstance(cls, type) and issubclass(cls, Fake) and cls.fake_complete
 
 

@@ -33,7 +33,7 @@ LIBRARY_METHOD = re.compile(r"(get|set|is)([A-Z_]\w*)?$")
 
 
 def refuse_tampering(path: Path) -> None:
-    """Refuse a Python program that can change what reading and running it show.
+    """Refuse a Python program that could forge its grade, as by replacing a method of WPILib.
 
     Args:
         path: the learner's file; what it imports from its own folders is looked at, too.

@@ -177,7 +177,8 @@ def _check_ka(found: Fit, parts: Parts) -> Iterator[Doubt]:
     if share + unsure < LIGHT:
         yield Doubt(
             "ka-below-theory",
-            f"{said}. Rotors can only make kA larger: {where}.",
+            f"{said}. Rotors can only make kA larger, so the fit or a part that you gave is wrong: "
+            f"{where}.",
             grave=True,
         )
     elif share - unsure > HEAVY:
