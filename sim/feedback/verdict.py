@@ -42,13 +42,16 @@ class Verdict:
         return self.kind == "settles"
 
     @property
+    def overshoots(self) -> bool:
+        """Whether it goes past the target by more than the band in which it settles."""
+        return self.overshoot > BAND
+
+    @property
     def description(self) -> str:
         """The verdict as a clause in words."""
         match self.kind:
             case "settles" | "rings":
-                past = (
-                    f", goes {self.overshoot:.0%} past the target" if self.overshoot > BAND else ""
-                )
+                past = f", goes {self.overshoot:.0%} past the target" if self.overshoots else ""
                 return (
                     f"reaches 90% of the target after {_format_time(self.reached)}{past} and "
                     f"settles after {_format_time(self.settled)}"
