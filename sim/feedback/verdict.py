@@ -42,18 +42,17 @@ class Verdict:
         return self.kind == "settles"
 
     @property
-    def overshoots(self) -> bool:
-        """Whether it goes past the target by more than the band in which it settles."""
-        return self.overshoot > BAND
+    def past_target(self) -> str:
+        """A clause if it goes past the target by more than the band in which it settles."""
+        return f", goes {self.overshoot:.0%} past the target" if self.overshoot > BAND else ""
 
     @property
     def description(self) -> str:
         """The verdict as a clause in words."""
         match self.kind:
             case "settles" | "rings":
-                past = f", goes {self.overshoot:.0%} past the target" if self.overshoots else ""
                 return (
-                    f"reaches 90% of the target after {_format_time(self.reached)}{past} and "
+                    f"reaches 90% of the target after {_format_time(self.reached)}{self.past_target} and "
                     f"settles after {_format_time(self.settled)}"
                 )
             case "oscillates":

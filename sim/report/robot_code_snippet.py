@@ -283,15 +283,10 @@ def _list_feedback(
         held = per if trial.loop == "position" else f"({per}/s)"
         rate = f"({per}/s)" if trial.preset.normalized else f"({per}/ms)"
         prefix = f"k{trial.loop.capitalize() if chosen.is_wpilib else ''}"
-        past = (
-            f"; goes {trial.verdict.overshoot:.0%} past the target"
-            if trial.verdict.overshoots
-            else ""
-        )
         for letter, value, unit in (("P", trial.gains.kp, held), ("D", trial.gains.kd, rate)):
             if value:
                 start = round_to_error(float(f"{value:.{LEAST_DIGITS}g}"), math.nan)
-                comment = f"[{chosen.output}/{unit}] of the {trial.loop} loop, to start from{past}"
+                comment = f"[{chosen.output}/{unit}] of the {trial.loop} loop, to start from{trial.verdict.past_target}"
                 yield trial.loop, Constant(prefix + letter, start + converted.times, comment)
 
 
