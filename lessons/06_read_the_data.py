@@ -320,7 +320,7 @@ tabulate_fits(gallery, TRUTH)
 #   position is not filtered.
 # - **Wheel slip.** The velocity jumps up, stays there for a moment, then rises slowly: the wheels
 #   turned faster than the robot moved.
-# - **Stale samples.** The curve looks like stairs: it shows the same value two or three times, and
+# - **Stale samples.** The curve looks like stairs: it shows the same value several times, and
 #   then it jumps.
 #
 # <details><summary>Four more faults, which are easy to see</summary>
@@ -344,8 +344,8 @@ tabulate_fits(gallery, TRUTH)
 # > Brownouts, at one
 # > commit](https://github.com/wpilibsuite/frc-docs/blob/c6315dc0701cb74273487d6e303a8cc5098a8462/source/docs/software/roborio-info/roborio-brownouts.rst))
 # >
-# > **Try it:** in the menus above, choose the first of the two brownouts and the plot "over time".
-# > Go through the tests: in one, the voltage drops. In which test does the second one drop?
+# > **Try it:** in the menus above, choose "brownout, applied voltage", the plot "over time", and
+# > one test after the other. In which of them does the voltage drop?
 # </details>
 #
 # ### How bad are timing gaps?

@@ -106,7 +106,7 @@ def test_everyday_ripple_is_no_finding_however_much_gap_it_closes():
     )
 
     assert story.findings == ()
-    assert any("there is also cogging" in note for note in story.notes)
+    assert any("also has cogging" in note for note in story.notes)
     assert story.gap_after < MAJOR * story.gap_before  # but for its size it would be major
     assert story.verdict == "nothing-missing"
 

@@ -174,9 +174,17 @@ def ka(seen: Seen) -> None:
 def _check_value(gain: str, seen: Seen) -> None:
     constant = _get_constant(gain, seen)
     value = seen.get_value(constant.value, _describe(constant))
-    if not seen.variant.accepts(gain, value):
+    if not _is_right(constant, value, seen):
         slip = find_constant_slip(value, gain, seen.variant, text=constant.text)
         raise explain(_describe(constant), slip)
+
+
+def _is_right(constant: GainConstant, value: float, seen: Seen) -> bool:
+    """Whether a constant is the gain in a unit of this robot, or in the unit of its comment."""
+    told = seen.variant.list_units_of(constant.gain, value)
+    return seen.variant.accepts(constant.gain, value) or any(
+        judge_comment(constant.comment, unit, name=constant.name) for unit in told
+    )
 
 
 def _get_constant(gain: str, seen: Seen) -> GainConstant:
@@ -218,6 +226,8 @@ def units(seen: Seen) -> None:
 def _is_unit_told(one: GainConstant, seen: Seen) -> bool | None:
     """Whether a gain's unit is told; where the number itself is not right, either will do."""
     units_ = seen.variant.list_matching_units(one.gain, one.value)
+    if one.value is not None:
+        units_ += seen.variant.list_units_of(one.gain, one.value)
     verdicts = {judge_comment(one.comment, unit, name=one.name) for unit in units_}
     if True in verdicts or (
         verdicts == {False} and any(judge_comment(seen.facts.general, u) for u in units_)
@@ -275,14 +285,15 @@ def conversion(seen: Seen) -> None:
 
 def _check_converted(gain: str, one: Gains, given: float | None, seen: Seen) -> None:
     at = f"{one.kind} in line {one.line}"
-    if given == 0 or gain not in one.gains:
-        raise WrongAnswer(f"{at} gets no {gain}", hint="Pass it, too.")
-    value = seen.get_value(given, f"{gain} of {at}")
-    if near(value, seen.variant.needed(gain)):
+    passed = given != 0 and gain in one.gains
+    value = seen.get_value(given, f"{gain} of {at}") if passed else 0.0
+    if passed and near(value, seen.variant.needed(gain)):
         return
     constant = seen.facts.find_constant(gain)
-    if constant and constant.value is not None and not seen.variant.accepts(gain, constant.value):
+    if constant and constant.value is not None and not _is_right(constant, constant.value, seen):
         raise WrongAnswer(_describe(constant), hint=f"Correct the constant {gain} first.")
+    if not passed:
+        raise WrongAnswer(f"{at} gets no {gain}", hint="Pass it, too.")
     slip = find_handed_slip(value, gain, seen.variant)
     raise explain(f"{at} gets {gain} = {value:.4g}", slip)
 

@@ -116,6 +116,19 @@ class Variant:
             return True
         return gain in SCALED and near(value, self.convert_to_code_unit(gain))
 
+    def list_units_of(self, gain: str, value: float) -> list[str]:
+        """The units in which a number is this gain, of all in which its velocity may be given."""
+        if gain not in SCALED:
+            return []
+        turns = [one for one in UNITS if one not in LENGTHS]
+        lengths = [*LENGTHS, *(["Rotations"] if self.radius else [])]
+        fitting = (
+            one
+            for one in (lengths if self.shown_in in LENGTHS else turns)
+            if near(value, self.shown[gain] * self.get_factor_to(one))
+        )
+        return [self._format_unit(gain, one) for one in fitting]
+
     def convert_to_code_unit(self, gain: str) -> float:
         """The gain kV or kA in the unit that the robot's code uses."""
         return self.shown[gain] * self.get_factor_to(self.coded_in or self.used_in)

@@ -52,8 +52,8 @@ class Verdict:
         match self.kind:
             case "settles" | "rings":
                 return (
-                    f"reaches 90% of the target after {_format_time(self.reached)}{self.past_target} and "
-                    f"settles after {_format_time(self.settled)}"
+                    f"reaches 90% of the target after {_format_time(self.reached)}"
+                    f"{self.past_target} and settles after {_format_time(self.settled)}"
                 )
             case "oscillates":
                 return (

@@ -49,8 +49,8 @@ def list_remarks(
     remarks = []
     if inside := [name for name in rest if name in kept]:
         what = " and ".join(inside)
-        why = "no more than on other robots, or without it the gap is hardly wider"
-        remarks.append(f"In the last model there is also {what}: {why}.")
+        why = "it is no larger than on most robots, or the gap is hardly wider without it"
+        remarks.append(f"The last model also has {what}, which is no finding: {why}.")
     unlikely = {
         one.effect: one.probability for one in judged if one.probability < LEAST_PROBABILITY
     }

@@ -163,7 +163,7 @@ def list_gain_doubts(story: Story) -> tuple[Doubt, ...]:
         text = "The model lacks something, so these gains may be off by more than their errors."
         return (Doubt("model-lacks", text, gains=tuple(story.gains)),)
     moved = [name for name, one in story.gains.items() if _differ(one, story.gains_without[name])]
-    if not moved or story.narrows(story.gap_after):
+    if not moved or story.added <= SENSOR_LAGS or story.narrows(story.gap_after):
         return ()
     text = (
         f"The effects change {join_names(moved)} by far more than their errors allow. Before you "

@@ -286,7 +286,8 @@ def _list_feedback(
         for letter, value, unit in (("P", trial.gains.kp, held), ("D", trial.gains.kd, rate)):
             if value:
                 start = round_to_error(float(f"{value:.{LEAST_DIGITS}g}"), math.nan)
-                comment = f"[{chosen.output}/{unit}] of the {trial.loop} loop, to start from{trial.verdict.past_target}"
+                comment = f"[{chosen.output}/{unit}] of the {trial.loop} loop, to start from"
+                comment += trial.verdict.past_target
                 yield trial.loop, Constant(prefix + letter, start + converted.times, comment)
 
 

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 CLOSE = 1e-3  # [V] what two voltages may differ in that are the same
 JUMP = 0.5  # [share of its range] by which a position changes where its sensor begins anew
 ENDS = 2  # loops in which a program may settle
+ROUNDING = 1e-9  # [share of a signal's range] of computed values
 TRUE = 2e-3  # [share of a signal's range] that a logged value may be off
 HICCUP = 0.995  # [share of a voltage] below which a motor was limited
 
@@ -140,7 +141,7 @@ def _compare_motion(
                 truth = _pair_with_truth(pairs, rows, motor, part, lag)
                 error, slope, offset = _fit_line(truth)
                 errors[name] = min(error, errors.get(name, error))
-                if error < best[0] * 0.99:
+                if error < best[0] * 0.99 - ROUNDING:  # else a rise fits its own shift as exactly
                     best = (error, name, slope, offset, False)
                 error, slope, offset = _fit_line([(abs(t), v) for t, v in truth])
                 if slope and error < best[0] * 0.5 and min(t for t, _ in truth) < 0:

@@ -57,12 +57,12 @@ class Binding:
     how: str
     command: Any
     line: int
-    before: bool = False
+    before: Any = False  # in Python a condition may give an object that is asked later, too
 
     def poll(self) -> None:
         """Start or stop the command, if the trigger has changed."""
-        now = self.trigger.getAsBoolean()
-        action = ACTIONS[self.how][0 if now else 1] if now != self.before else ""
+        now = self.trigger.ask()
+        action = ACTIONS[self.how][0 if now else 1] if bool(now) != bool(self.before) else ""
         self.before = now
         if action:
             self.trigger._bind_action(action, self.command, self.line)
@@ -86,16 +86,19 @@ class BooleanEvent(Fake):
     def _derive(self, condition: Callable[..., Any]) -> Any:  # of the same kind
         return BooleanEvent(condition, loop=self._loop)
 
+    def ask(self) -> Any:  # in Python, what the condition gives
+        return self._condition() if WORLD.language == "python" else bool(self._condition())
+
     def getAsBoolean(self) -> bool:
-        return bool(self._condition())
+        return bool(self.ask())
 
     get = __call__ = __bool__ = getAsBoolean
 
     def and_(self, trigger: Callable[..., Any]) -> "BooleanEvent":
-        return self._derive(lambda: self.getAsBoolean() and bool(trigger()))
+        return self._derive(lambda: self.ask() and trigger())
 
     def or_(self, trigger: Callable[..., Any]) -> "BooleanEvent":
-        return self._derive(lambda: self.getAsBoolean() or bool(trigger()))
+        return self._derive(lambda: self.ask() or trigger())
 
     def negate(self) -> "BooleanEvent":
         return self._derive(lambda: not self.getAsBoolean())
@@ -127,7 +130,7 @@ def _bind(how: str) -> Callable[..., Any]:
         if command is None or inspect.isroutine(command):
             raise WrongArgument(f"{how} needs a command. Call a method that returns one.")
         binding = Binding(self, how, command, WORLD.where())
-        binding.before = self.getAsBoolean()
+        binding.before = self.ask()
         WORLD.bindings.append(binding)
         self._loop.bind(binding.poll)
         return self

@@ -8,7 +8,7 @@ from sim.core.doubt import Doubt
 from sim.core.errors import Refusal
 from sim.core.log import Array, Run
 from sim.fit import Fit, fit
-from sim.inspect.baseline_model import BaselineModel
+from sim.inspect.baseline_model import SLOWEST, BaselineModel
 from sim.inspect.log_features import MIN_SAMPLES, LogFeatures
 
 GOOD_R2 = 0.9  # simulated velocity R² that WPILib's documentation calls good
@@ -158,7 +158,7 @@ def check_ramp_rate(features: LogFeatures) -> Iterator[Doubt]:
         return
     rate = float(np.median([_measure_ramp_rate(run) for run in ramps]))
     shift = features.baseline.timescale * rate
-    if shift < INTERCEPT:
+    if shift < INTERCEPT or features.baseline.timescale >= SLOWEST:  # then it is not measured
         return
     yield Doubt(
         "fast-ramp",
