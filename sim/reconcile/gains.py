@@ -15,6 +15,11 @@ from sim.physics.model import Part
 from sim.reconcile.recordings import Recordings
 from sim.reconcile.story import ParameterEstimate
 
+STILL_MISSES = (
+    "These effects do not narrow the gap clearly, so a simulation with these gains still misses "
+    "the velocity by more than the sensor noise."
+)
+
 
 def estimate_gains(
     problem: PredictionErrorProblem, point: Estimate, unit: Unit
@@ -53,16 +58,19 @@ def replace_gains(
 ) -> Fit:
     """A fit with the gains, effects and doubts of a model with effects, in the same unit.
 
-    If the effects narrow the gap, what the model without them misses says nothing about these
-    gains, unless it is grave; everything else that is doubted of the log still holds.
+    What the model without effects misses says nothing about these gains, unless it is grave; but
+    if the effects do not narrow the gap, they miss the log, too. Everything else that is doubted of
+    the log still holds.
     """
-    outdated = MISFIT if narrows else frozenset()
+    missed = not narrows and any(one.code in MISFIT for one in plain.doubts)
+    kept = (one for one in plain.doubts if one.grave or one.code not in MISFIT)
+    still = (Doubt("small-misfit", STILL_MISSES),) if missed else ()
     return replace(
         plain,
         gains={name: one.value for name, one in gains.items()},
         errors={name: one.error for name, one in gains.items() if one.error is not None},
         parts=parts,
-        doubts=(*(one for one in plain.doubts if one.grave or one.code not in outdated), *doubts),
+        doubts=(*kept, *still, *doubts),
     )
 
 
