@@ -135,8 +135,8 @@ def _list_faults(one: Press, facts: ButtonFacts) -> Iterator[tuple[bool, str, st
                 f"{' and '.join(one.inputs)} runs {list_tests([one.test, *one.together])}"
             ),
             (
-                "Both tests would start at the same time and fight for the motors. Give each its "
-                "own button."
+                "Both need the motors, so one interrupts the other, and only one ever runs. Give "
+                "each its own button."
             ),
         )
     if one.stayed:
@@ -211,8 +211,8 @@ def _explain_missing(facts: ButtonFacts, lacking: list[str], earned: float) -> N
     for test, line in facts.released:
         raise WrongAnswer(
             f"{list_tests([test])} starts when the button is let go (line {line})",
-            hint="Then it runs as long as nobody presses the button. It must run while you hold "
-            "the button: whileTrue().",
+            hint="Then it runs while nobody holds the button, and with onFalse a press does not "
+            "stop it. It must run while you hold the button: whileTrue().",
             earned=earned,
         )
     for said, line in facts.elsewhere:

@@ -33,7 +33,7 @@ MISTAKES = (
     Mistake("started by one press and stopped by another", JAVA,
         replace_text(("whileTrue", "toggleOnTrue")), "held", "You need a second press to stop"),
     Mistake("running while nobody holds the button", PYTHON,
-        replace_text(("whileTrue", "whileFalse")), "held", "runs as long as nobody presses"),
+        replace_text(("whileTrue", "whileFalse")), "held", "runs while nobody holds the button"),
     Mistake("handed to the scheduler, and let go", JAVA,
         replace_text(
             (
