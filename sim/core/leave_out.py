@@ -16,7 +16,7 @@ from sim.core.vocabulary import TESTS
 
 MIN_SAMPLES = 5  # [samples] shorter pieces of a run are left out, too
 MIN_SHARE_LEFT = 0.5  # [share of samples] a test of which less is left has a warning
-MOST_OF_IT = 0.9  # [share] of an interval; its ends may be marked a little off
+MOST_OF_IT = 0.9  # [share] of an interval that counts as all of it: nobody marks the ends exactly
 SPELLING = re.compile(r"(?P<test>[\w-]+?)(:(?P<start>[\d.]+)-(?P<end>[\d.]+))?")
 
 

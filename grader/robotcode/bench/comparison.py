@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 CLOSE = 1e-3  # [V] what two voltages may differ in that are the same
 JUMP = 0.5  # [share of its range] by which a position changes where its sensor begins anew
 ENDS = 2  # loops in which a program may settle
-ROUNDING = 1e-9  # [share of a signal's range] of computed values
+ROUNDING = 1e-9  # [share of a signal's range] two errors that differ by less are equal
 TRUE = 2e-3  # [share of a signal's range] that a logged value may be off
 HICCUP = 0.995  # [share of a voltage] below which a motor was limited
 

@@ -236,7 +236,7 @@ def _find_wrong_owners(
 
 
 def _find_owners(name: str, signals: Mapping[str, list[Signal]]) -> dict[str, str]:
-    """Signal -> its motor; of several, one that fits the name, and of those one of the rest."""
+    """Signal -> its motor. If several fit, one on the side of the name, as the other signals."""
     could = {
         signal: set.intersection(
             *[set(one.owners) for one in many if one.owners or one.follows] or [set()]

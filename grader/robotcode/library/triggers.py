@@ -61,7 +61,7 @@ class Binding:
 
     def poll(self) -> None:
         """Start or stop the command, if the trigger has changed."""
-        now = self.trigger.ask()
+        now = self.trigger.evaluate()
         action = ACTIONS[self.how][0 if now else 1] if bool(now) != bool(self.before) else ""
         self.before = now
         if action:
@@ -86,19 +86,19 @@ class BooleanEvent(Fake):
     def _derive(self, condition: Callable[..., Any]) -> Any:  # of the same kind
         return BooleanEvent(condition, loop=self._loop)
 
-    def ask(self) -> Any:  # in Python, what the condition gives
+    def evaluate(self) -> Any:  # in Python, what the condition gives
         return self._condition() if WORLD.language == "python" else bool(self._condition())
 
     def getAsBoolean(self) -> bool:
-        return bool(self.ask())
+        return bool(self.evaluate())
 
     get = __call__ = __bool__ = getAsBoolean
 
     def and_(self, trigger: Callable[..., Any]) -> "BooleanEvent":
-        return self._derive(lambda: self.ask() and trigger())
+        return self._derive(lambda: self.evaluate() and trigger())
 
     def or_(self, trigger: Callable[..., Any]) -> "BooleanEvent":
-        return self._derive(lambda: self.ask() or trigger())
+        return self._derive(lambda: self.evaluate() or trigger())
 
     def negate(self) -> "BooleanEvent":
         return self._derive(lambda: not self.getAsBoolean())
@@ -130,7 +130,7 @@ def _bind(how: str) -> Callable[..., Any]:
         if command is None or inspect.isroutine(command):
             raise WrongArgument(f"{how} needs a command. Call a method that returns one.")
         binding = Binding(self, how, command, WORLD.where())
-        binding.before = self.ask()
+        binding.before = self.evaluate()
         WORLD.bindings.append(binding)
         self._loop.bind(binding.poll)
         return self

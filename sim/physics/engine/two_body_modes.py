@@ -112,7 +112,7 @@ def sum_series(tables: Array, powers: int, span: float, to: int) -> None:
 
 
 def make_doubled_table(tables: Array, at: int, to: int) -> None:
-    """Compute the table of a step twice as long: the step of a table, taken two times.
+    """Compute the table of a step twice as long, by applying the step of a table twice.
 
     Args:
         tables: all tables, one after another.
