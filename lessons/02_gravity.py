@@ -98,8 +98,7 @@ print(f"0 V: after 0.4 s the carriage moves at {let_go(0.0):.2f} m/s. A minus si
 # direction: +1 up, −1 down.)
 #
 # Compare the first two terms. The kS term changes its sign with the direction, because friction
-# always acts *against* the motion. The kG term does not change its sign, because gravity always
-# pulls down.
+# always acts *against* the motion. The kG term keeps its sign, because gravity always pulls down.
 #
 # **Predict:**
 

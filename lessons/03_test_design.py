@@ -354,10 +354,10 @@ Table(("runs", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "simulated velocity R²
 
 # %% [markdown]
 # A fit of one direction alone gives good gains. A fit of both directions together has only one kS
-# for both. So its kA becomes much too large. And its kS becomes nearly 0: in a ramp, kS and the
-# volts for the acceleration look the same, and the large kA takes nearly all of them (lesson 7,
-# section 8). The simulated velocity R² (SysId's score; 1 is perfect, lesson 7) stays high. So
-# compare the gains of the forward runs with the gains of the reverse runs.
+# for both. So its kA becomes much too large. And its kS becomes nearly 0: during a ramp, kS and
+# kA·a both add a constant voltage, and the large kA takes nearly all of it (lesson 7, section 8).
+# The simulated velocity R² (SysId's score; 1 is perfect, lesson 7) stays high. So compare the gains
+# of the forward runs with the gains of the reverse runs.
 #
 # Without the reverse runs you would know only the first row of the table. In reverse, your
 # feedforward would give only a third of the voltage that friction needs.

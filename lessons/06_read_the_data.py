@@ -428,7 +428,7 @@ for who, method in (("SysId's recipe", "sysid"), ("sysid fit", "output-error")):
 # SysId's window has three settings: *Velocity Threshold* (quasistatic tests only), *Window Size*
 # (the median filter) and *Test Duration* (dynamic tests only). None of them sets where a ramp ends,
 # but a slider below does. Below is a log with a hard stop, a noisy standstill and three wild
-# readings. Which setting repairs which fault?
+# readings. Set the sliders so that the gains become as true as you can get them.
 #
 # <details><summary>For mentors: trimming in SysId, with source</summary>
 #
@@ -443,8 +443,8 @@ for who, method in (("SysId's recipe", "sysid"), ("sysid fit", "output-error")):
 # > [SysId's source:
 # > FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/tree/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
 # >
-# > **Try it:** below is a log with a hard stop, a noisy standstill and three wild readings. Which
-# > setting repairs which fault?
+# > **Try it:** below is a log with a hard stop, a noisy standstill and three wild readings. Only
+# > the slider *until* ends its ramp.
 # </details>
 
 # %%
@@ -599,9 +599,9 @@ for gain in ("kS", "kV", "kA"):
 # <details><summary>Want to know more?</summary>
 #
 # - The docs say that the acceleration R² "rarely goes above 0.5, even on very good datasets".
-# - A repaired log can have a **lower** R² than a wrong one. The fit no longer uses the wild
-#   readings of the repaired log. But for the score, SysId compares its simulation with the
-#   recorded velocities, and the wild readings are among them.
+# - A repaired log can have a **lower** R² than a wrong one. The median filter
+#   keeps the wild readings out of the fit. The score still counts them, because SysId compares its
+#   simulation with the velocities as recorded.
 # - Each of these logs is only one simulation. Its errors also depend on luck, for example on
 #   where a gap is. So remember which *kind* of error a fault causes, not the exact
 #   numbers.

@@ -138,8 +138,8 @@ plot_voltage_velocity(log, lines={"straight line": Line(intercept, slope)})
 # <details><summary>Want to know why? The last hundredth of a volt</summary>
 #
 # A row contains the current speed and the voltage for the *next* 20 ms. So the voltage is on
-# average half a loop, 10 ms, ahead. That adds 10 ms times the ramp. The remaining difference comes
-# from noise. Section 4 shows how noise changes the slope of a line.
+# average 10 ms (half a loop) newer than the speed. In a ramp, that adds 10 ms times its slope. The
+# remaining difference comes from noise. Section 4 shows how noise changes the slope of a line.
 # </details>
 #
 # So this plot is only good for a *first look*. For kS and kA we need all three terms. SysId also
@@ -904,9 +904,9 @@ display(ask_question("lesson7.quick"), enable_checkboxes())
 #
 # <details><summary>Answer</summary>
 #
-# For the flywheel: five samples are 100 ms, a quarter of its time constant. The turret reaches its
-# speed within a few samples, so the filter destroys its kA. Even without a filter, one sample every
-# 20 ms is too slow for the turret.
+# For the flywheel: from its first to its fifth sample, the window is 80 ms long, a fifth of the
+# time constant. The turret reaches its speed within a few samples, so the filter destroys its kA.
+# Even without a filter, one sample every 20 ms is too slow for the turret.
 # </details>
 #
 # **5.** A teammate pastes SysId's kP and the drivetrain shakes. "So SysId is wrong." Is it?

@@ -352,11 +352,12 @@ Table(
 # </details>
 
 # %% [markdown]
-# ## 6 When your data cannot decide
+# ## 6 A gentle log and a strong one
 #
 # The drivetrain of another team *does* have a current limit: its motors cannot push with more than
-# a certain force. The volts above the back-EMF make the force, so the model limits these volts. The
-# team records a gentle log with a 2.5 V step. Later it records a 6 V step.
+# a certain force. What pushes is the part of the voltage that the back-EMF does not use up, so the
+# model limits these volts. The team records a gentle log with a 2.5 V step. Later it records a 6 V
+# step.
 #
 # In the next picture you choose the limit in the model. Above each plot is the gap of that log.
 #
