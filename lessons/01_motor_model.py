@@ -482,9 +482,9 @@ Table(("motor", "theoretical kV [V·s/m]", "2.68 is above it by"), tuple(rows))
 # milliseconds.
 #
 # After a step of voltage, the velocity rises fast, then slower and slower. After one τ the velocity
-# has reached 63 % of the final speed. In each further τ it gains 63 % of what is still missing. (Such a
-# curve is called *exponential*.) After 3 τ the velocity has almost reached the final speed. In the
-# picture, four mechanisms get the same step of 4 V, in slow motion. Which has the longest τ?
+# has reached 63 % of the final speed. In each further τ it gains 63 % of what is still missing.
+# (Such a curve is called *exponential*.) After 3 τ the velocity has almost reached the final speed.
+# In the picture, four mechanisms get the same step of 4 V, in slow motion. Which has the longest τ?
 
 # %%
 KINDS = ["drivetrain", "shooter", "intake", "turret"]
