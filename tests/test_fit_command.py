@@ -121,7 +121,7 @@ def test_a_direction_that_differs_is_reported_with_numbers(fit, tmp_path):
     _, data, _ = fit(tmp_path / "odd.wpilog", "--json")
 
     (doubt,) = [line for line in said.splitlines() if "kV is" in line]
-    assert "2.52 forward and 2.8" in doubt
+    assert re.search(r"kV is 2\.52\d* ± [\d.]+ forward and 2\.80\d* ± [\d.]+ V·s/m reverse", doubt)
     assert "reverse, 11% apart" in doubt
     assert "directions-differ" not in [one["code"] for one in json.loads(data)["warnings"]]
 

@@ -14,8 +14,7 @@ from sim.fit.feedback_trial import OWN, FeedbackTrial, format_gain_pair
 from sim.fit.result import Fit, format_gain_unit
 from sim.report.gain_verdicts import judge_gains, write_gain_verdict
 from sim.report.terminal import VERDICT_STYLES, WARNING, WRONG, WrappedPrinter
-
-FINEST = 1e-4  # [1] relative error; carpet, battery and heat change a gain by more
+from sim.support.printable import format_error, format_value
 
 
 def show_fit(
@@ -108,29 +107,3 @@ def _show_trials(tried: Sequence[FeedbackTrial], per: Unit, say: WrappedPrinter)
             indent=2,
             hang=2,
         )
-
-
-def format_error(value: float, error: float) -> str:
-    """A standard error as text: two digits, ``not known``, or that it is negligible."""
-    if not math.isfinite(error):
-        return "not known"
-    if error < FINEST * abs(value):
-        return f"< {FINEST:.2%} of it"
-    return _write_rounded(error, _count_places(value, error))
-
-
-def format_value(value: float, error: float) -> str:
-    """A value as text, with as many decimals as its error has: 0.250 for an error of 0.013."""
-    if not math.isfinite(error):
-        return f"{value:.4g}"
-    return _write_rounded(value, _count_places(value, error))
-
-
-def _count_places(value: float, error: float) -> int:
-    """Decimal places that show two digits of an error; negative for an error of 100 or more."""
-    error = max(error, FINEST * abs(value))
-    return 1 - math.floor(math.log10(error)) if error > 0.0 else 0
-
-
-def _write_rounded(number: float, places: int) -> str:
-    return f"{round(number, places):.{max(places, 0)}f}"

@@ -8,6 +8,7 @@ KEPT = "\n\t"
 DIRECTIONS = frozenset("\u061c\u200e\u200f\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069")
 REPLACEMENT = "\ufffd"  # the Unicode replacement character
 SHOWN = 5  # names in one line
+FINEST = 1e-4  # [1] relative error; carpet, battery and heat change a gain by more
 
 
 def make_printable(text: str) -> str:
@@ -58,3 +59,34 @@ def finite_or_none(number: float | None) -> float | None:
 def write_minus_sign(number: str) -> str:
     """A number as text with a minus sign (−); a power of ten keeps its hyphen, to be copied."""
     return number if "e" in number else number.replace("-", "−")
+
+
+def format_error(value: float, error: float) -> str:
+    """A standard error as text: two digits, ``not known``, or that it is negligible."""
+    if not math.isfinite(error):
+        return "not known"
+    if error < FINEST * abs(value):
+        return f"< {FINEST:.2%} of it"
+    return _write_rounded(error, _count_places(value, error))
+
+
+def format_value(value: float, error: float) -> str:
+    """A value as text, with as many decimals as its error has: 0.250 for an error of 0.013."""
+    if not math.isfinite(error):
+        return f"{value:.4g}"
+    return _write_rounded(value, _count_places(value, error))
+
+
+def format_with_error(value: float, error: float) -> str:
+    """A value and its standard error: ``0.250 ± 0.013``."""
+    return f"{format_value(value, error)} ± {format_error(value, error)}"
+
+
+def _count_places(value: float, error: float) -> int:
+    """Decimal places that show two digits of an error; negative for an error of 100 or more."""
+    error = max(error, FINEST * abs(value))
+    return 1 - math.floor(math.log10(error)) if error > 0.0 else 0
+
+
+def _write_rounded(number: float, places: int) -> str:
+    return f"{round(number, places):.{max(places, 0)}f}"

@@ -10,6 +10,7 @@ from sim.core.log import Log
 from sim.fit import Fit
 from sim.fit.physics import compare_parts
 from sim.fit.pooled import pool_fits
+from sim.support.printable import format_with_error, join_names
 
 SIDE, MOTOR, FILE = "side", "motor", "file"
 SIDES = ("left", "right")
@@ -104,10 +105,10 @@ def _describe_agreement(fits: Mapping[str, Fit], kind: str) -> str:
     if len(alike) > MOST_LISTED:
         order = sorted(alike, key=lambda name: alike[name].gains["kV"])
         alike = {name: alike[name] for name in (order[0], order[-1])}
-    gains = [
-        f"{gain} {' and '.join(f'{one.gains[gain]:{digits}}' for one in alike.values())}"
-        for gain, digits in (("kV", ".4g"), ("kA", ".3g"))
-    ]
+    gains = []
+    for gain in ("kV", "kA"):
+        known = [format_with_error(one.gains[gain], one.errors[gain]) for one in alike.values()]
+        gains.append(f"{gain} {join_names(known)}")
     values = [one.gains["kV"] for one in fits.values()]
     apart = (max(values) - min(values)) / abs(sum(values) / len(values))
     tolerance = SIGNIFICANT * max(one.errors["kV"] / abs(one.gains["kV"]) for one in fits.values())

@@ -11,6 +11,7 @@ from sim.core.units import find_unit
 from sim.fit.output_error import fit_output_error
 from sim.fit.physics.parts import SURELY, fit_in_si
 from sim.fit.result import Fit, format_gain_unit
+from sim.support.printable import format_with_error
 
 APART = 0.05  # [share of a gain] by which two sides or directions may differ
 NOTICED = 0.03  # [V] a smaller difference of kS or kG does not matter
@@ -92,8 +93,10 @@ def _doubt_differing_gain(
     if one.type != "simple" and what == "direction":  # a spring pulls one way
         why = f"a spring, a counterweight or tubing, then {why}"
     share = abs(a - b) / max(0.5 * abs(a + b), 1e-300)
+    first = format_with_error(a * size, one.errors[gain] * size)
+    second = format_with_error(b * size, other.errors[gain] * size)
     text = (
-        f"{gain} is {a * size:.3g} {names[0]} and {b * size:.3g} {format_gain_unit(gain, per)} "
-        f"{names[1]}, {share:.0%} apart; one gain for both is wrong for each: check {why}."
+        f"{gain} is {first} {names[0]} and {second} {format_gain_unit(gain, per)} {names[1]}, "
+        f"{share:.0%} apart; one gain for both is wrong for each: check {why}."
     )
     yield Doubt(f"{what}s-differ", text, gains=(gain,))
