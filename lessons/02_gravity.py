@@ -609,8 +609,8 @@ Table(("log", "kS ± [%]", "kG ± [%]"), tuple(rows), caption="± is one standar
 # 2026.2.2](https://pypi.org/project/robotpy-commands-v2/2026.2.2/)) Set the motors to *Brake*: then
 # they slow the falling carriage down. The next cell computes how fast it still falls. In *Coast*
 # mode they do not, and the carriage falls freely. A TalonFX is in *Coast* mode until you change it.
-# ([`MotorOutputConfigs` of phoenix6 26.3.0](https://pypi.org/project/phoenix6/26.3.0/)) When you
-# let go of the button, the subsystem's default command takes over: lesson 5, section 8.
+# ([`MotorOutputConfigs` of phoenix6 26.3.0](https://pypi.org/project/phoenix6/26.3.0/)) As soon
+# as a test ends, the program's usual command drives the motors again: lesson 5, section 8.
 #
 # <details><summary>For mentors: are reverse tests needed for gravity mechanisms?</summary>
 #

@@ -355,9 +355,9 @@ Table(("runs", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "simulated velocity R²
 # %% [markdown]
 # A fit of one direction alone gives good gains. A fit of both directions together has only one kS
 # for both. So its kA becomes much too large. And its kS becomes nearly 0: during a ramp, kS and
-# kA·a both add a constant voltage, and the large kA takes nearly all of it (lesson 7, section 8).
-# The simulated velocity R² (SysId's score; 1 is perfect, lesson 7) stays high. So compare the gains
-# of the forward runs with the gains of the reverse runs.
+# kA·a are both constant voltages, so a fit can put nearly all of them into kA (lesson 7, section
+# 8). The simulated velocity R² (SysId's score; 1 is perfect, lesson 7) stays high. So compare the
+# gains of the forward runs with the gains of the reverse runs.
 #
 # Without the reverse runs you would know only the first row of the table. In reverse, your
 # feedforward would give only a third of the voltage that friction needs.
@@ -547,10 +547,10 @@ Table(
 )
 
 # %% [markdown]
-# A test that is too short makes kA wrong: look at 0.2 s. SysId uses only the rows up to 90 % of the
-# final speed, so a long test does not make kA wrong. But it needs a long room: look at the last
-# column. After 3τ, the rows contain nothing new about kA. (A fit that uses these rows finds a wrong
-# kA: lesson 7.)
+# kA is nearly the same in all rows: the first 0.2 s already show it. (0.1 s would be too few
+# samples for a fit.) A longer test does not change kA, because SysId uses only the samples up to 90
+# % of the final speed. But it needs a longer room: look at the last column. (A fit that uses the
+# later samples, too, finds a wrong kA: lesson 7.)
 #
 # <details><summary>For mentors: does a long dynamic test spoil kA?</summary>
 #
@@ -564,7 +564,7 @@ Table(
 # > [SysId's source:
 # > FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/tree/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
 # >
-# > **Try it:** compare kA in the rows "0.2 s" and "7 s" of the table.
+# > **Try it:** compare kA, and the rows used, in the rows "0.2 s" and "7 s" of the table.
 # </details>
 
 # %% [markdown]

@@ -248,8 +248,8 @@ animate_mechanism(
 # `Mechanism` has an optional fourth argument: the name in the log. If you leave it out, the log
 # uses the name of the subsystem.
 #
-# If you give the state to a logger of your own in Python, use `SysIdRoutineLog.stateEnumToString`.
-# It makes the word that the analyzer looks for; `str(state)` makes another word.
+# In Python, a logger of your own must write the state with `SysIdRoutineLog.stateEnumToString`. The
+# analyzer looks for the words that this function writes. `str(state)` writes other words.
 #
 # The log callback of `Mechanism` may be `null` too, but only if another logger records the motors
 # for you: CTRE's SignalLogger, URCL for REV, or AdvantageKit. Lesson 5 shows how. In Python, `None`

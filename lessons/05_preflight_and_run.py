@@ -359,7 +359,7 @@ Table(("skipped", "found in the log", "kS ÷ true", "kV ÷ true", "kA ÷ true"),
 #   applied voltage drops to 0 again and again.
 # - **3 encoder.** On the floor, *everything looks normal*. No person notices the mistake until
 #   every gain is negative; `sysid inspect` finds the `sign-flip`.
-# - **4 log.** The tests went well, but nothing was recorded: there is no log.
+# - **4 log.** The tests went well, but you cannot find the log, so you have nothing to fit.
 # - **5 guard.** In the step test the robot hits the wall, and may hurt somebody. The log of later
 #   tests is good, and does not show this accident.
 

@@ -169,8 +169,8 @@ print(f", {slope[later] / slope[early]:.0%} of it")
 #
 # A *fault* is something that makes a log wrong: it *contaminates* the log. The table lists four
 # classic faults, five more that are common on real robots, and four that are easy to see. Exercise
-# 7 and `sysid inspect` use the same names, with a hyphen: `encoder-slip`. They do not have
-# *velocity filter* and *current limit*: `sysid effects` lists these two.
+# 7 and `sysid inspect` use the same names, with a hyphen: `encoder-slip`. Only *velocity filter*
+# and *current limit* are not among theirs: `sysid effects` lists these two.
 #
 # | fault | what happened | what to do |
 # |---|---|---|
@@ -407,9 +407,11 @@ for who, method in (("SysId's recipe", "sysid"), ("sysid fit", "output-error")):
     print(f"{who}: kA is {fit(log, method=method).gains['kA'] / TRUTH['kA']:.2f} times the true kA")
 
 # %% [markdown]
-# Between two equal measurements, SysId computes an acceleration of zero. So log at the rate of the
-# status frames, or set faster frames for the test. (`sysid fit` finds the repeated measurements and
-# leaves them out.)
+# Where a measurement repeats, SysId computes an acceleration of zero, and drops these rows. Only
+# the rows next to each new measurement remain. There, a change that took four rows counts as the
+# change of two rows. So the acceleration is twice as large as it should be, and kA only half as
+# large. Log at the rate of the status frames, or set faster frames for the test. (`sysid fit` finds
+# the repeated measurements and leaves them out.)
 
 # %% [markdown]
 # ## 4 Doing it: trim what the model does not describe
@@ -426,9 +428,9 @@ for who, method in (("SysId's recipe", "sysid"), ("sysid fit", "output-error")):
 # - A noisy part looks ugly, but the equation is true there: **keep it.**
 #
 # SysId's window has three settings: *Velocity Threshold* (quasistatic tests only), *Window Size*
-# (the median filter) and *Test Duration* (dynamic tests only). None of them sets where a ramp ends,
-# but a slider below does. Below is a log with a hard stop, a noisy standstill and three wild
-# readings. Set the sliders so that the gains become as true as you can get them.
+# (the median filter) and *Test Duration* (dynamic tests only). No setting says where a ramp ends.
+# The picture below has a slider for this, too. Its log has a hard stop, a noisy standstill and
+# three wild readings. Set the sliders so that the gains become as true as you can get them.
 #
 # <details><summary>For mentors: trimming in SysId, with source</summary>
 #
@@ -578,10 +580,10 @@ animate_charts(
 passing = [case for case in wrong if case.has_good_r2]
 print(f"{len(passing)} of {len(wrong)} wrong logs have a {SIM} above {GOOD:g}.")
 damage = [case for case in wrong if abs(case.compute_gain_error("kV")) < 0.2]
-print(f"In {len(damage)} of them, kV is less than 20 % off. In half of these, the errors are above")
+print(f"In {len(damage)} of them, kV is less than 20 % off. Their median errors:")
 for gain in ("kS", "kV", "kA"):
-    half = np.median([abs(case.compute_gain_error(gain)) for case in damage])
-    print(f"  {gain}: {100 * half:.1f} %")
+    median = np.median([abs(case.compute_gain_error(gain)) for case in damage])
+    print(f"  {gain}: {100 * median:.1f} %")
 
 # %% [markdown]
 # ### Explain

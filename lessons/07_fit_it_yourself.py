@@ -139,7 +139,7 @@ plot_voltage_velocity(log, lines={"straight line": Line(intercept, slope)})
 #
 # A row contains the current speed and the voltage for the *next* 20 ms. So the voltage is on
 # average 10 ms (half a loop) newer than the speed. In a ramp, that adds 10 ms times its slope. The
-# remaining difference comes from noise. Section 4 shows how noise changes the slope of a line.
+# rest of the hundredth comes from noise. Section 4 shows how noise changes the slope of a line.
 # </details>
 #
 # So this plot is only good for a *first look*. For kS and kA we need all three terms. SysId also
@@ -401,7 +401,8 @@ animate_charts(lambda: chart_curves(NOISE, by_side, levels={"the truth": truth["
 # 2. **Median filter** of the velocity, if you switch it on (*Window Size*, up to 15 samples). It
 #    sorts each value and its neighbors by size, and keeps the middle one.
 # 3. **Acceleration**: SysId takes the velocity one row later minus the velocity one row earlier. It
-#    divides this difference by twice the **mean** time step of the test.
+#    divides this difference by twice the **mean** time step of the test. Then it drops the rows
+#    with an acceleration of exactly 0.
 # 4. **Trim the dynamic tests** (*Test Duration*): unless you change the setting, SysId keeps only
 #    the rows from the largest acceleration to 90 % of the top speed.
 #
@@ -936,7 +937,7 @@ display(ask_question("lesson7.quick"), enable_checkboxes())
 # <details><summary>More, if you like</summary>
 #
 # - Fit the forward tests alone and the reverse tests alone. Print how much the gains differ.
-# - Fit a log of the shooter with a median window of 15. Why are its gains still good?
+# - Fit logs of the shooter and of the turret with a median window of 5. Why is only one kA good?
 # - Give the robot an encoder that is noisy at rest, and a slow ramp. Find the threshold that gives
 #   the best kA:
 #

@@ -572,8 +572,9 @@ tabulate_gains(
 #
 # ### ProfiledPIDController and Motion Magic: the same sum
 #
-# `ProfiledPIDController` makes the profile itself. You only add the feedforward. Its feedback uses
-# the setpoint of the next loop, so our elevator is about a centimeter ahead.
+# `ProfiledPIDController` makes the profile itself. You only add the feedforward. Its feedback
+# compares the position with the setpoint of the *next* loop. So our elevator runs about a
+# centimeter ahead of the profile.
 #
 # <details><summary>The code in Java</summary>
 #
@@ -868,8 +869,8 @@ display(ask_question("lesson8.one"), ask_question("lesson8.two"))
 #    sysid fit my_log.wpilog --type arm
 #    ```
 #
-#    The first lines name the unit of the gains: it is the unit of the log. Step 3 converts an arm's
-#    gains to radians. For other mechanisms convert yourself (lesson 1, section 8).
+#    The first lines name the unit of the gains: it is the unit of the log. For an arm, step 3
+#    converts them to radians. For other mechanisms, convert them yourself (lesson 1, section 8).
 #
 # 3. Let it write the code, and paste it into a new file:
 #

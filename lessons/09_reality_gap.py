@@ -184,7 +184,7 @@ for name, gap in search.gaps.items():
 # | time since the voltage jumped | something late: a delay, a filter |
 # | battery voltage | volts that did not reach the motor |
 # | position | something that is at a place: a spring, a bump in the gears |
-# | direction | something that pulls in one direction only |
+# | direction | something that acts differently forward and backward |
 #
 # First practice on four robots with **one** effect each. Here we use the true gains, so the
 # residual shows nothing but this effect.
@@ -298,7 +298,7 @@ search
 # **What the bars show:**
 #
 # - An effect that the robot does not have can make the gap on the *log* smaller: it fits some of
-#   the noise. (The gap can also grow: the fit uses velocity and position, the gap only velocity.)
+#   the noise. (It can also make it larger: a fit looks at position, too, and the gap does not.)
 # - The gap on the *validation* log is measured with a model that was fitted to the log alone. It
 #   shows which models are really better.
 #
@@ -355,9 +355,8 @@ Table(
 # ## 6 A gentle log and a strong one
 #
 # The drivetrain of another team *does* have a current limit: its motors cannot push with more than
-# a certain force. What pushes is the part of the voltage that the back-EMF does not use up, so the
-# model limits these volts. The team records a gentle log with a 2.5 V step. Later it records a 6 V
-# step.
+# a certain force. The back-EMF uses up a part of the voltage, and the rest pushes. So the model
+# limits this rest. The team records a gentle log with a 2.5 V step. Later it records a 6 V step.
 #
 # In the next picture you choose the limit in the model. Above each plot is the gap of that log.
 #
@@ -411,8 +410,8 @@ animate_charts(
 #
 # `sim.reconcile` does what you did, with the same fit and the same gap, and with all effects that
 # it knows: fit, simulate, try every effect, keep the effect that the *validation* confirms, and
-# repeat until no further effect helps. The last column of the next table shows the gap of
-# the held-out log twice: without this one effect, and with all effects.
+# repeat until no further effect helps. In the next table, the last column shows the gap of
+# the held-out log without the effect of this row, and then with all effects.
 
 # %%
 story = reconcile(log, validation=validation, held_out=held_out, type="simple")
@@ -655,6 +654,8 @@ display(ask_question("lesson9.quick"), enable_checkboxes())
 #
 # submit("exercise12", effects=["delay"], delay={"lag": 0.03}, gap_before=6.5, gap_after=1.2)
 # ```
+#
+# Outside quotes, write the name of an effect with `_` instead of `-`: `velocity_filter={…}`.
 # </details>
 #
 # If you use an editor, `grade watch exercise12` grades each time you save. Each time you run `grade

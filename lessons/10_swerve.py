@@ -345,8 +345,8 @@ for doubt in found["half the trackwidth, T/2"].doubts:
 #
 # ### Why 5.2 and not 5.0?
 #
-# The motors must also speed up wheels, gears and rotors. They add to both kA values, but not by the
-# same amount. Usually they act like an additional mass of 3 to 10 %. Then the result is a few
+# The motors must also speed up wheels, gears and rotors. So both kA are larger, but not by the same
+# share. Usually wheels, gears and rotors count like 3 to 10 % more mass. Then the result is a few
 # percent too large. So do not trust the third digit.
 #
 # <details><summary>Want to know why? How much the rotors change</summary>
@@ -526,8 +526,11 @@ Table(
 # </details>
 #
 # kS, kV and kA do not go into a planner. They go into your drive code (lesson 8). In CTRE's program
-# they are the gains of the drive motor, per rotation of the *motor*. In AdvantageKit's template
-# they are per rotation of the *wheel*. In YAGSL and WPILib they are per meter.
+# they are the gains of the drive motor, per rotation of the *motor*. In AdvantageKit's templates
+# they belong to the *wheel*: with TalonFX motors per rotation, with Spark motors per radian
+# ([DriveConstants.java, at one
+# commit](https://github.com/Mechanical-Advantage/AdvantageKit/blob/e5c8db7e21fd42cfc73eda13f9536ed878b72df4/template_projects/sources/spark_swerve/src/main/java/frc/robot/subsystems/drive/DriveConstants.java)).
+# In YAGSL and WPILib they are per meter.
 #
 # ### Now you write it
 #
@@ -646,10 +649,10 @@ Table(
 #
 # <details><summary>For mentors: AdvantageKit and YAGSL</summary>
 #
-# AdvantageKit's templates have only one routine: it drives the robot straight. AdvantageKit's page
-# shows which two lines you change so that the modules point at right angles to the diagonals. The
-# first drives open loop. The second steers each module to the angle of its place plus 90°. Then a
-# *voltage* turns the robot, and the log contains this voltage. ([TalonFX Swerve Template, at one
+# AdvantageKit's templates have only one SysId routine: it drives the robot straight. AdvantageKit's
+# page shows which two lines you change so that the modules point at right angles to the diagonals.
+# The first drives open loop. The second steers each module to the angle of its place plus 90°. Then
+# a *voltage* turns the robot, and the log contains this voltage. ([TalonFX Swerve Template, at one
 # commit](https://github.com/Mechanical-Advantage/AdvantageKit/blob/e847e20eb8a173e60140599ba35fc0c27a7d1d9b/docs/docs/getting-started/template-projects/talonfx-swerve-template.md))
 # YAGSL's `SwerveDriveTest` has a drive routine and an angle routine. The drive routine first
 # centers the modules, and the log of each module is in meters. The gyro's angle is not in the log,

@@ -205,6 +205,26 @@ def test_method_that_takes_its_direction_by_name_makes_tests(tmp_path):
     assert {one.status for one in found.values()} == {"passed"}
 
 
+def test_trigger_that_binds_nothing_is_not_called_asked_only_once(tmp_path):
+    checks = graded(tmp_path, ("m_subsystem.", "m_misspelt."))
+
+    assert not any("only once" in one.seen for one in checks.values())
+
+
+def test_neighbour_that_does_not_parse_is_named_as_the_cause(tmp_path):
+    top, _, subsystem = solution(JAVA).partition("/** One motor")
+    imports = top.partition("/**")[0]
+    broken = subsystem.replace("new TalonFX(1);", "new TalonFX(1)")
+    assert broken != subsystem
+    (tmp_path / "ExampleSubsystem.java").write_text(f"{imports}/** One motor{broken}", "utf-8")
+    (tmp_path / JAVA).write_text(top, "utf-8")
+
+    checks = EXERCISE.grade(tmp_path / JAVA, student="ann").checks
+
+    assert "of ExampleSubsystem.java: a ';' is missing" in checks[0].seen
+    assert not any("no file here" in one.seen for one in checks)
+
+
 def test_feedback_asks_for_a_missing_file_and_does_not_call_it_wrong(tmp_path):
     text = solution(JAVA)
     container = text.partition("/** One motor, and a routine")[0]

@@ -19,7 +19,7 @@ def list_lookalikes(variant: Variant) -> Numbers:
     asked = {name: one.expected for name, one in variant.asked.items()}
     radius, inertia, lever = asked["worn_radius"], asked["inertia"], asked["lever"]
     turning, straight, mass = asked["kA_turning"], asked["kA"], variant.mass
-    side = variant.trackwidth
+    side, stall = variant.trackwidth, BATTERY / variant.drive.motor.resistance
     found = {
         "worn_radius": {
             "coded-radius": variant.radius,
@@ -45,6 +45,7 @@ def list_lookalikes(variant: Variant) -> Numbers:
         "slip_current": {"four-currents": 4.0 * asked["slip_current"]},
         "top_speed": {"rate": asked["top_speed"] / lever},
         "max_torque": {
+            "stall-torque": variant.drive.motor.torque_constant * stall,
             "wheel-torque": asked["max_torque"] * variant.ratio,
             "four-torques": 4.0 * asked["max_torque"],
         },
@@ -94,7 +95,6 @@ def list_rarer_slips(variant: Variant) -> Numbers:
             "free-share": PROPOSED * motor.free_speed * variant.radius / variant.ratio,
         },
         "max_torque": {
-            "stall-torque": torque,
             "turned-torque": torque * stall / slip,
             "geared-torque": asked["max_torque"] / variant.ratio,
             "pound-feet": asked["max_torque"] / 1.3558,

@@ -31,9 +31,9 @@ MUCH = (
 )
 HIGH = "Your threshold drops good samples, in which the mechanism moves."
 LOW = (
-    "You keep samples in which the mechanism stands, before it moves or at a stop: there, the "
-    "voltage causes neither speed nor acceleration. How large is the noise of the velocity while "
-    "the position does not change?"
+    "Of all your choices, another threshold helps this gain most. Do you keep samples in which the "
+    "mechanism stands, before it moves or at a stop? There, the voltage causes neither speed nor "
+    "acceleration. How large is the noise of the velocity while the position does not change?"
 )
 
 

@@ -25,7 +25,7 @@ LITTLE = 2.0  # [wider bands] a number that is off by more is far outside
 ROUNDED = "Did you round too early?"
 KA_ALONE = (
     "Your kV is right. kA comes from the first moments of a dynamic test: check that your fit uses "
-    "all of them, and that the velocity is not smoothed too much"
+    "all of them, and that no filter changes the velocity"
 )
 START_AGAIN = "Check the numbers you started from, and their units"
 CALCULATION = re.compile(r"[-+*/·^]+\s*[\d(]")  # how the rest of a number begins that is a sum

@@ -13,6 +13,7 @@ from grader.answers.submission import read_text
 from grader.checks.check import NotReachedError, NotRunError, WrongAnswer
 from grader.robotcode.bench import find_bench
 from grader.robotcode.bench.simulation import Mount
+from grader.robotcode.checks.causes import check_compiles
 from grader.robotcode.library.world import WORLD
 from grader.robotcode.source import detect_language
 
@@ -91,6 +92,7 @@ def judge_runs(runs: Runs, judge: Callable[[Any], str | None]) -> str | None:
         return notes[0]
     assumed, why = next(iter(wrong.items()))
     if notes and isinstance(why, WrongAnswer):
+        check_compiles(runs[0], earned=why.earned)  # an error may be why it is not known
         text, line = next(iter(runs[0].unknown.items()), ("a condition", 0))
         raise WrongAnswer(
             f"the grader cannot know whether {text} is true (line {line}), and it matters here",

@@ -46,7 +46,7 @@ MISTAKES = (
     Mistake("no filter", ANSWERS, make_wrong_answer("median", "1"), "ka",
         "Single readings are far off"),
     Mistake("no threshold", ANSWERS, make_wrong_answer("threshold", "0"), "ks",
-        "You keep samples in which the mechanism stands"),
+        "Do you keep samples in which the mechanism stands"),
     Mistake("the rise of the steps is cut away", ANSWERS, set_windows("0.3 to 0.6", *STEPS),
         "reach", "A step contains kA only in its", "M-TRIM-PRETTY"),
     Mistake("the fast half of the ramps is cut away", ANSWERS, set_windows("0 to 2.5", *RAMPS),

@@ -72,6 +72,21 @@ def ask_for_files(unknown: Mapping[str, int], earned: float = 0.0) -> None:
         raise fault("missing_file", line, name=name.rpartition(".")[2], earned=earned)
 
 
+def check_swapped(facts: ProgramFacts, *, earned: float = 0.0) -> None:
+    """Raise ``WrongAnswer`` if the drive callback treats the voltage as a log.
+
+    Args:
+        facts: the run.
+        earned: points that are given in spite of it.
+    """
+    said = [(one.message, one.line, one.file) for one in facts.errors]
+    said += [(facts.stop.said, facts.stop.line, "")] if facts.stop is not None else []
+    for message, line, file in said:
+        if re.search(r"(Voltage|float'|Measure) (has no|object has no attribute) '?motor", message):
+            other = f" in {file}" if file else ""
+            raise fault("callbacks_swapped", 0 if file else line, other=other, earned=earned)
+
+
 def check_compiles(facts: ProgramFacts, *, earned: float = 0.0) -> None:
     """Raise ``WrongAnswer`` if a compiler, or Python itself, would stop at an error.
 
@@ -79,6 +94,7 @@ def check_compiles(facts: ProgramFacts, *, earned: float = 0.0) -> None:
         facts: the run.
         earned: points that are given in spite of it.
     """
+    check_swapped(facts, earned=earned)
     if facts.errors:
         one, count = facts.errors[0], len(facts.errors)
         java = facts.language == "java"

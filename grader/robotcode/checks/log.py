@@ -12,6 +12,7 @@ from grader.robotcode.checks.causes import (
     ask_for_files,
     check_compiles,
     check_stop,
+    check_swapped,
     explain_doubt,
     fault,
     list_tests,
@@ -24,13 +25,7 @@ from grader.robotcode.checks.motor_names import (
     find_side,
     turn_independently,
 )
-from grader.robotcode.checks.routine import (
-    FEW,
-    TARGETS,
-    check_swapped,
-    list_drive_commands,
-    list_driven,
-)
+from grader.robotcode.checks.routine import FEW, TARGETS, list_drive_commands, list_driven
 from grader.robotcode.library.world import GEARING
 
 NEEDED = ("voltage", "position", "velocity")  # of every motor, for a fit

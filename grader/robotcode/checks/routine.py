@@ -1,7 +1,6 @@
 """Checks of a SysIdRoutine: its Config, the voltages that its motors get, and its parts."""
 
 import math
-import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
@@ -11,6 +10,7 @@ from grader.robotcode.checks.causes import (
     ask_for_files,
     check_compiles,
     check_stop,
+    check_swapped,
     explain_doubt,
     fault,
     list_tests,
@@ -31,15 +31,6 @@ PATIENCE = 0.04  # [s] a callback may keep the loop waiting
 NOMINAL = (12.0, 12.5, 13.0, 10.0)  # [V] by which programs divide a voltage to get a duty cycle
 
 Advice = Callable[[float], tuple[str, str]]
-
-
-def check_swapped(facts: RoutineFacts) -> None:
-    """Raise ``WrongAnswer`` if the drive callback treats the voltage as a log."""
-    said = [(one.message, one.line) for one in facts.errors]
-    said += [(facts.stop.said, facts.stop.line)] if facts.stop is not None else []
-    for message, line in said:
-        if re.search(r"(Voltage|float'|Measure) (has no|object has no attribute) '?motor", message):
-            raise fault("callbacks_swapped", line)
 
 
 def check_routine_found(facts: RoutineFacts) -> None:

@@ -147,12 +147,16 @@ class Program:
         return found
 
     def _find_unit(self, path: Path) -> Unit | None:
-        """A neighbour, parsed; None if it cannot be read without doubt."""
+        """A neighbour, parsed; None if it cannot be read without doubt: a mistake is an error."""
         if path not in self._units:
             self._units[path] = None
             try:
                 source = Source(path, read_source(path))
-                self._units[path] = Unit(self, source) if source.problem is None else None
+                problem = source.problem
+                if problem is None:
+                    self._units[path] = Unit(self, source)
+                else:
+                    self.error(problem.message, At(problem.line, path.name))
             except UnreadableFile:
                 pass
         return self._units[path]

@@ -48,6 +48,8 @@ def _find_way(direction: Any) -> str:
 
 def _show(value: Any) -> str:
     """A value for a message: a measure with its unit, anything else as in other messages."""
+    if isinstance(value, Measure) and isinstance(size := value.magnitude(), int | float):
+        return f"{size:g} {value._unit._symbol}"  # WPILib writes 5.000e-01 V
     return str(value) if isinstance(value, Measure) else describe(value)
 
 

@@ -130,7 +130,9 @@ def _bind(how: str) -> Callable[..., Any]:
         if command is None or inspect.isroutine(command):
             raise WrongArgument(f"{how} needs a command. Call a method that returns one.")
         binding = Binding(self, how, command, WORLD.where())
+        asked = WORLD.asked.copy()
         binding.before = self.evaluate()
+        WORLD.asked = asked  # this is the trigger's question, not one of the program
         WORLD.bindings.append(binding)
         self._loop.bind(binding.poll)
         return self
