@@ -81,7 +81,7 @@ def test_gain_that_a_warning_is_about_is_not_usable():
 
     said = write_gain_verdict(sure, LOG)
 
-    assert said == f"{USABLE}; kA not usable (± 2 %): see the warnings."
+    assert said == f"{USABLE}; kA not usable (± 2 %): the warnings or the faults say why."
     assert judge_gains(sure) == "Check first"
     every = replace(sure, doubts=(Doubt("x", "It is.", gains=("kS", "kV", "kA")),))
     assert judge_gains(every) == "Not usable"

@@ -47,7 +47,7 @@ def test_a_test_of_which_little_is_left_has_a_warning(until, warns):
 
     said = [doubt.message for doubt in left.doubts if doubt.code == "little-left"]
     assert bool(said) == warns
-    assert all("of quasistatic-forward is left" in one for one in said)
+    assert all("of quasistatic-forward. What" in one for one in said)
 
 
 def test_parts_that_overlap_are_left_out_together():

@@ -119,8 +119,8 @@ def _doubt_rest(log: Log, left: Log) -> Iterator[Doubt]:
         if after < MIN_SHARE_LEFT * before:
             yield Doubt(
                 "little-left",
-                f"Only {after / before:.0%} of {test} is left. What this test shows is missing in "
-                "the gains. Leave out less of it, or record it again.",
+                f"The fit uses only {after / before:.0%} of {test}. What this test shows is "
+                "missing in the gains. Leave out less of it, or record it again.",
             )
 
 

@@ -40,7 +40,7 @@ def write_headline(story: Story) -> str:
 def _write_verdict(story: Story) -> str:
     found = [one for one in story.findings if one.kind == FAULT]
     remains = story.remainder and story.verdict != NOTHING_MISSING
-    remains = remains and not story.gap_after <= story.noise_floor  # nothing is seen to remain
+    remains = remains and not _hides_in_noise(story)
     added = {one.added for one in story.chapters[1:]}
     suspected = [one for one in found if one.size == MINOR and remains and one.effect not in added]
     faults = [one for one in found if one not in suspected]
@@ -62,7 +62,7 @@ def _write_verdict(story: Story) -> str:
         return _describe_complete_model(story)
     else:
         rest = "nothing big is missing"
-        if story.remainder:
+        if remains:
             rest = "something is missing that no known effect explains"
         if not story.complete:
             rest = "it has found nothing so far"
@@ -261,7 +261,14 @@ def list_remarks(story: Story) -> tuple[str, ...]:
         f"The base model has the gains alone. With {join_names(lags)}, which a fit has, too, its "
         f"simulation error is {format_gap(story.gap_with_lags, story)} times the noise."
     )
-    return (*filter(None, (story.remains, base if lags else "")), *story.notes)
+    damaged = any(one.kind == FAULT for one in story.findings)
+    remains = "" if damaged and _hides_in_noise(story) else story.remains
+    return (*filter(None, (remains, base if lags else "")), *story.notes)
+
+
+def _hides_in_noise(story: Story) -> bool:
+    """Whether the last gap is no larger than the noise, so that nothing is seen to remain."""
+    return story.gap_after <= story.noise_floor
 
 
 def _describe_complete_model(story: Story) -> str:

@@ -20,7 +20,7 @@ only while the speed changes.
 """
 VOLTS = 0.05  # [V] largest standard error of a usable kS or kG; carpet and heat change them more
 ANGLE = 0.05  # [rad] largest standard error of a usable angle of an arm
-READ = "see the warnings"  # advice for a gain that a warning is about
+READ = "the warnings or the faults say why"  # for a gain that one of them is about
 SMALL_STEP = 3.0  # [V] in smaller dynamic tests, friction is large compared with the voltage
 
 

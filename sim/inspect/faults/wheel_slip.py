@@ -131,7 +131,7 @@ def _find_event(features: LogFeatures, index: int, run: Run) -> Damage | None:
     return Damage(
         where=LogInterval(index, run.test, start, end),
         confidence=1.0 - 0.5 * LEAST / event.size,
-        evidence=f"The speed rises to {event.speed:.3g} m/s, {happened}, at about "
+        evidence=f"By the position, the speed rises to {event.speed:.3g} m/s, {happened}, at about "
         f"{volts:.1f} V: the wheels spin, and the robot catches up later.",
         advice=f"Run the dynamic tests again with half the step, {0.5 * volts:.1f} V, on the "
         "carpet it will drive on. If the speed still drops or pauses, look for a slack "
