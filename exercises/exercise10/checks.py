@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import wraps
 from pathlib import Path
 
+from grader.answers.quantity import read_unit
 from grader.checks.check import Check, NotReachedError, WrongAnswer, check
 from grader.checks.consequence import Consequence
 from grader.robotcode.bench.gains_run import GainConstant, Gains
@@ -218,7 +219,7 @@ def units(seen: Seen) -> None:
         if not verdict:
             hint = "This is the right kind of unit, but not the unit of this number."
             if other:
-                hint = f"This unit does not belong to {one.name}. Each gain times what it "
+                hint = f"This unit does not belong to this {one.name}. Each gain times what it "
                 hint += "is multiplied by gives volts."
             raise WrongAnswer(f"{shown}, line {one.line}", hint=hint, misconception="M-UNITS")
 
@@ -229,9 +230,10 @@ def _is_unit_told(one: GainConstant, seen: Seen) -> bool | None:
     if one.value is not None:
         units_ += seen.variant.list_units_of(one.gain, one.value)
     verdicts = {judge_comment(one.comment, unit, name=one.name) for unit in units_}
-    if True in verdicts or (
-        verdicts == {False} and any(judge_comment(seen.facts.general, u) for u in units_)
-    ):
+    # Volts and seconds are the same per meter and per rotation.
+    kinds = {read_unit(unit).powers[:2] for unit in units_}
+    own = any(said.powers[:2] in kinds for said in find_commented_units(one.comment, one.name))
+    if True in verdicts or (not own and any(judge_comment(seen.facts.general, u) for u in units_)):
         return True
     # per meter, where per rotation is right
     elsewhere = seen.variant.list_matching_units(one.gain, None)

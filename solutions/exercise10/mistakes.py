@@ -210,7 +210,7 @@ MISTAKES = (
         write_spark_config({"kS": "kS", "kV": "kA", "kA": "kV"}), "order",
         "kA is where FeedForwardConfig expects kV", "M-ARGORDER"),
     Mistake("kV in volts", JAVA, changed(r"(?<=// V)·s/.*$", ""), "units",
-        "This unit does not belong to kV", "M-UNITS"),
+        "This unit does not belong to this kV", "M-UNITS"),
     Mistake("no units", JAVA, changed(r" // V.*$", ""), "units", "no unit of kS"),
     Mistake("no units, Python", PYTHON, changed(r"  # V·s/.*$", ""), "units", "no unit of kV"),
     Mistake("kP as it was suggested", JAVA, change_gain("kP", lambda value: value.split(" ")[0]),

@@ -34,7 +34,7 @@ MISTAKES = (
     make_wrong_choice("step_length", "The log has five times", "still gets faster", "M-LONG-DYN"),
     make_wrong_choice("step_length", "SysId can no longer", "90 %", "M-LONG-DYN"),
     make_wrong_choice("null_consumer", "To the Driver", "Many teams copied a comment"),
-    make_wrong_choice("status_frames", "Use SysId's kA", "partly from repeated values",
+    make_wrong_choice("status_frames", "Use SysId's kA", "several rows contain the same value",
         "M-MORE-ROWS"),
     make_wrong_choice("status_frames", "Write the log every 1 ms", "would be even smaller",
         "M-MORE-ROWS"),

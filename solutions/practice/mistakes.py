@@ -49,6 +49,9 @@ MISTAKES = (
                 "CharacterizationConstants.kA, CharacterizationConstants.kV",
             )
         ), "constants-order", "kA is where SimpleMotorFeedforward expects kV", "M-ARGORDER"),
+    Mistake("a unit per rotation beside a kV per meter", "ExampleSubsystem.java",
+        replace_text(("// V·s/m\n", "// V·s/rot\n")), "constants-units",
+        "This unit does not belong to this kV", "M-UNITS"),
     Mistake("turns for the log's meters", "ExampleSubsystem.java",
         replace_text(
             (
