@@ -348,8 +348,8 @@ def _list_wrong_loops() -> list[tuple[float, str]]:
         (
             forward - feedback,
             (
-                "pid.calculate takes the measurement first, then the target. In the other "
-                "order, it pushes away from the target."
+                "Your feedback pushes away from the target. pid.calculate takes the measurement "
+                "first, then the target, and its result is added."
             ),
         ),
         (
@@ -382,6 +382,10 @@ def _list_wrong_loops() -> list[tuple[float, str]]:
         (
             forward + pid.kP * (now.velocity - EXAMPLE.velocity),
             "This loop controls a position: pid.calculate needs positions.",
+        ),
+        (
+            forward + pid.kP * (now.velocity - measured),
+            "The target of pid.calculate is a position here, not a velocity.",
         ),
     ]
 
