@@ -678,9 +678,9 @@ display(ask_question("lesson1.quick"), enable_checkboxes())
 #
 # <details><summary>Answer</summary>
 #
-# The intake has nearly reached its final speed before the log has its second row. The log hardly
-# shows any acceleration, so kA is uncertain. kV is not affected. Let the robot write more rows each
-# second.
+# In 20 ms, the intake reaches three quarters of its final speed. So at most one or two rows of the
+# log show an acceleration, and kA is uncertain. kV is not affected. Let the robot write more rows
+# each second.
 # </details>
 
 # %% [markdown]

@@ -355,8 +355,8 @@ Table(
 # ## 6 A gentle log and a strong one
 #
 # The drivetrain of another team *does* have a current limit: its motors cannot push with more than
-# a certain force. The back-EMF uses up a part of the voltage, and the rest pushes. So the model
-# limits this rest. The team records a gentle log with a 2.5 V step. Later it records a 6 V step.
+# a certain force. A motor's current depends on the voltage minus the back-EMF. So the model limits
+# this difference. The team records a gentle log with a 2.5 V step. Later it records a 6 V step.
 #
 # In the next picture you choose the limit in the model. Above each plot is the gap of that log.
 #
@@ -410,8 +410,8 @@ animate_charts(
 #
 # `sim.reconcile` does what you did, with the same fit and the same gap, and with all effects that
 # it knows: fit, simulate, try every effect, keep the effect that the *validation* confirms, and
-# repeat until no further effect helps. In the next table, the last column shows the gap of
-# the held-out log without the effect of this row, and then with all effects.
+# repeat until no further effect helps. The last column of the next table compares two gaps of the
+# held-out log: without this effect, and with all effects.
 
 # %%
 story = reconcile(log, validation=validation, held_out=held_out, type="simple")

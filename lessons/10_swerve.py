@@ -345,9 +345,9 @@ for doubt in found["half the trackwidth, T/2"].doubts:
 #
 # ### Why 5.2 and not 5.0?
 #
-# The motors must also speed up wheels, gears and rotors. So both kA are larger, but not by the same
-# share. Usually wheels, gears and rotors count like 3 to 10 % more mass. Then the result is a few
-# percent too large. So do not trust the third digit.
+# The motors must also speed up wheels, gears and rotors. So both kA are too large, one by a larger
+# share than the other. Usually wheels, gears and rotors count like 3 to 10 % more mass. Then the
+# result is a few percent too large. So do not trust the third digit.
 #
 # <details><summary>Want to know why? How much the rotors change</summary>
 #

@@ -175,7 +175,7 @@ def check_order(one: Gains, seen: Seen, *, points: float) -> None:
     if lacking and not any(constant and constant.value == 0 for constant in constants):
         raise WrongAnswer(
             f"{_describe_place(one)} has no {' and no '.join(lacking)}",
-            hint="A missing argument counts as 0.",
+            hint="Is it 0, or left out? A missing argument counts as 0.",
             earned=points / 2 if lacking == ["kA"] else 0.0,
         )
 

@@ -315,7 +315,7 @@ def justified(answers: Answers) -> None:
                 part.effect,
                 hint=f"without it, the gap of the validation is {without / whole:.3g} times as "
                 "large. So it does not help, or its parameters are not those of your log. More "
-                "effects always fit the fitted log better, but may predict other runs worse",
+                "effects mostly fit the fitted log better, but may predict other runs worse",
             )
 
 

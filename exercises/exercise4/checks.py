@@ -80,7 +80,7 @@ def ramp(runs: Runs) -> str | None:
 
 def _explain_ramp(facts: RoutineFacts, value: float) -> tuple[str, str]:
     if (value, facts.step.value) == (STEP.value, RAMP.value):
-        return "Ramp and step are swapped: the ramp comes first.", "M-ARGORDER"
+        return "The numbers of ramp and step are swapped.", "M-ARGORDER"
     if 0 < value < RAMP.value:
         return "Slower is not safer.", "M-SLOW-SAFE"
     return "", ""

@@ -10,9 +10,15 @@ from .preparation import Preparation, fit_prepared
 
 HELPS = 0.9  # [times the error] what leaves more than that is not to blame
 
-PARTS = ("median", "threshold", *FOUR_TESTS)
+BEGIN, END = range(2)
+WHOLE = (0.0, float("inf"))  # [s] the window of a test that is kept whole
 
+Part = str | tuple[str, int]  # a setting, or a test and which end of its window
 Said = tuple[str, str]  # what to say, and the misconception's code, or empty
+
+PARTS: tuple[Part, ...] = (
+    "median", "threshold", *((test, end) for test in FOUR_TESTS for end in (BEGIN, END))
+)  # fmt: skip
 
 LONG = (
     "A median of so many samples flattens the rise of the steps: how many samples does the "
@@ -40,7 +46,7 @@ LOW = (
 def blame(gain: str, variant: Variant, preparation: Preparation) -> Said:
     """Feedback about a wrong gain: the part whose repair helps most, or that alone harms most."""
     reference = variant.reference
-    errors = {
+    errors: dict[Part, float] = {
         part: _compute_error(gain, variant, _copy_part(part, reference, preparation))
         for part in PARTS
     }
@@ -66,24 +72,23 @@ def _compute_error(gain: str, variant: Variant, preparation: Preparation) -> flo
     return abs(found - variant.asked[gain].expected)
 
 
-def _copy_part(part: str, source: Preparation, target: Preparation) -> Preparation:
-    """The target with one part of the source: a setting, or the window of a test."""
-    if part == "median":
-        return replace(target, median=source.median)
-    if part == "threshold":
-        return replace(target, threshold=source.threshold)
-    keep = {test: window for test, window in target.keep.items() if test != part}
-    if part in source.keep:
-        keep[part] = source.keep[part]
-    return replace(target, keep=keep)
+def _copy_part(part: Part, source: Preparation, target: Preparation) -> Preparation:
+    """The target with one part of the source: a setting, or an end of a test's window."""
+    if isinstance(part, str):
+        return replace(target, **{part: getattr(source, part)})
+    test, end = part
+    window = list(target.keep.get(test, WHOLE))
+    window[end] = source.keep.get(test, WHOLE)[end]
+    keep = {**target.keep, test: (window[BEGIN], window[END])}
+    return replace(target, keep={one: span for one, span in keep.items() if span != WHOLE})
 
 
-def _explain_part(part: str, reference: Preparation, given: Preparation) -> Said:
+def _explain_part(part: Part, reference: Preparation, given: Preparation) -> Said:
     if part == "median":
         return _explain_median(reference, given)
-    if part == "threshold":
+    if isinstance(part, str):
         return _explain_threshold(reference, given)
-    return _explain_window(part, reference, given)
+    return _explain_window(*part, reference, given)
 
 
 def _explain_median(reference: Preparation, given: Preparation) -> Said:
@@ -96,13 +101,15 @@ def _explain_threshold(reference: Preparation, given: Preparation) -> Said:
     return (HIGH, "M-TRIM-PRETTY") if given.threshold > reference.threshold else (LOW, "")
 
 
-def _explain_window(test: str, reference: Preparation, given: Preparation) -> Said:
-    begin, end = given.keep.get(test, (0.0, float("inf")))
-    if end > reference.keep.get(test, (0.0, float("inf")))[1]:
-        return (f"{test}: you keep samples in which a hard stop holds the mechanism.", "")
-    if test.startswith("dynamic") and begin > 0.0:
+def _explain_window(test: str, end: int, reference: Preparation, given: Preparation) -> Said:
+    late = given.keep.get(test, WHOLE)[end] > reference.keep.get(test, WHOLE)[end]
+    if end == END and late:
+        return f"{test}: do you keep samples in which a hard stop holds the mechanism?", ""
+    if end == BEGIN and not late:
+        return f"{test}: do you keep samples from before it moves?", ""
+    if end == BEGIN and test.startswith("dynamic"):
         return (
             f"{test}: you cut away its first rise, or a part of it. Only this rise contains kA.",
             "M-TRIM-PRETTY",
         )
-    return (f"{test}: you cut away good samples.", "M-TRIM-PRETTY")
+    return f"{test}: you cut away good samples.", "M-TRIM-PRETTY"

@@ -76,8 +76,8 @@ def _describe_remainder(
     """A sentence about a wide gap, or a sign that the model is wrong; empty if there is none."""
     if floors > VISIBLE_FLOORS:
         return (
-            f"The last model misses the log by {floors:.1f} times the noise of the velocity, "
-            "and no effect in the catalogue makes that smaller."
+            "The last model still misses the log by more than its noise, and the search accepts "
+            "no effect that makes that smaller."
         )
     if likely := list_blocked_candidates(rounds[-1].candidates):
         return (

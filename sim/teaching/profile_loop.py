@@ -343,8 +343,8 @@ def _list_wrong_loops() -> list[tuple[float, str]]:
     feedback = pid.calculate(measured, now.position)
     acceleration = (after.velocity - now.velocity) / ff.period
     return [
-        (forward, "The feedback is missing: add pid.calculate(measured, wanted)."),
-        (feedback, "The feedforward is missing: add ff.calculateWithVelocities(…)."),
+        (forward, "The feedback adds nothing. Is it pid.calculate(measured, wanted)?"),
+        (feedback, "The feedforward adds nothing. Is it ff.calculateWithVelocities(…)?"),
         (
             forward - feedback,
             (

@@ -177,7 +177,7 @@ MISTAKES = (
         ), "ramp", "Config takes the ramp first", "M-ARGORDER"),
     Mistake("ramp and step swapped, Python", PYTHON,
         replace_text(("rampRate=0.5, stepVoltage=3.5", "rampRate=3.5, stepVoltage=0.5")), "ramp",
-        "Ramp and step are swapped", "M-ARGORDER"),
+        "The numbers of ramp and step are swapped", "M-ARGORDER"),
     Mistake("a decimal comma", JAVA, replace_text(("Volts.of(0.5)", "Volts.of(0,5)")), "ramp",
         "has a point, not a comma"),
     Mistake("the voltage of the battery in the log", JAVA,

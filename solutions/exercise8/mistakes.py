@@ -39,7 +39,7 @@ MISTAKES = (
             make_wrong_answer("median", "1"),
         ), "ka", "comes out"),
     Mistake("the stops are kept", ANSWERS, set_windows("all", *RAMPS, *STEPS), "ka",
-        "you keep samples in which a hard"),
+        "do you keep samples in which a hard"),
     Mistake("a median filter that suits only a plot", ANSWERS,
         make_wrong_answer("median", "15"), "ka", "A median of so many samples flattens",
         "M-FILTER-FREE"),

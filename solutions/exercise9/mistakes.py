@@ -131,7 +131,7 @@ MISTAKES = (
         ANSWERS,
         change_number(R2, lambda right: 1 - (1 - right[R2]) ** 2),
         "metrics",
-        "That is the R² of textbooks",
+        "Is that the R² of textbooks",
         "M-R2",
     ),
     Mistake(
