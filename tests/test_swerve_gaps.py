@@ -35,7 +35,7 @@ def test_right_formulas_are_reported_and_used():
     [
         ({"radius": lambda *_: ...}, "Formula 1: still empty"),
         ({"radius": lambda turned, lever, turns: turned * lever / turns}, "Formula 1: not yet."),
-        ({"inertia": lambda *_: None}, "Formula 2: not yet. kA of turning"),
+        ({"inertia": lambda *_: None}, "Formula 2: not yet. Is kA of turning"),
         ({"inertia": lambda mass, lever, a, b: mass * lever * b / a}, "Formula 2: not yet."),
         ({"grip": lambda *_: 1 / 0}, "Formula 3: it stops with an error: division by zero"),
         ({"grip": lambda torque, ratio, *_: torque * ratio}, "Formula 3: not yet. torque"),

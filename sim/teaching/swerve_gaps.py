@@ -73,14 +73,14 @@ def check_formulas(*, radius: Formula, inertia: Formula, grip: Formula) -> Fille
             inertia,
             compute_inertia,
             TURNS,
-            "kA of turning belongs above the fraction bar, and the unit must be kg·m².",
+            "Is kA of turning above the fraction bar? Is the lever in it once? The unit is kg·m².",
         ),
         Gap(
             grip,
             compute_grip,
             PUSH,
-            "torque · ratio / radius is the push of one wheel. There are four, and they hold "
-            "µ · mass · 9.81.",
+            "torque · ratio / radius is the push of one wheel. All four "
+            "together push with µ · mass · 9.81.",
         ),
     )
     return FilledFormulas(first, second, third, report)
