@@ -143,7 +143,7 @@ def make_loop(
         (lambda *_: ..., "still empty"),
         (lambda *_: nothing, "stops with an error"),  # noqa: F821 - meant
         (lambda ff, _, one: make_loop()(ff, PIDController(0.0), one), "The feedback adds nothing"),
-        (lambda _, pid, one: pid.calculate(one.position, one.now.position), "The feedforward is"),
+        (lambda _, pid, one: pid.calculate(one.position, one.now.position), "The feedforward adds"),
         (make_loop(measured="now.position", wanted="position"), "takes the measurement first"),
         (make_loop(after="now.velocity"), "kA does nothing"),
         (make_loop(now="after.velocity", after="now.velocity"), "velocities are swapped"),
