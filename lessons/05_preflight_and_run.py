@@ -434,19 +434,22 @@ Table(
 
 # %% [markdown]
 # The picture shows the battery voltage just after a step, while the motors still stand and take
-# most current. (The line gets flat where the motors' limit of 120 A acts.) Set your own battery, as
-# the battery tester shows it. From which step on is there a brownout, if at all?
+# most current. (The line gets flat where the motors' limit of 120 A acts. It ends where the battery
+# cannot give more power.) Set your own battery, as the battery tester shows it. From which step on
+# is there a brownout, if at all?
 
 
 # %%
 def battery_chart(rest: float, resistance: float) -> Chart:
-    """The battery voltage just after a step of each voltage; half of ``rest`` is its limit."""
+    """The battery voltage just after a step of each voltage, until half of ``rest``."""
     steps = np.arange(0.0, 7.01, 0.25)
     currents = np.minimum(steps / ROBOT.motor.resistance, ROBOT.stator)
     power = ROBOT.motor_count * ROBOT.motor.resistance * currents**2
-    bus = (rest + np.sqrt(np.maximum(rest**2 - 4e-3 * resistance * power, 0.0))) / 2
+    root = rest**2 - 4e-3 * resistance * power
+    can = root >= 0.0
+    bus = (rest + np.sqrt(root[can])) / 2
     brownout = Curve("brownout of a roboRIO 2", [0.0, 7.0], [6.75, 6.75], "dashed")
-    return Chart("step [V]", "battery voltage [V]", (Curve("battery", steps, bus), brownout))
+    return Chart("step [V]", "battery voltage [V]", (Curve("battery", steps[can], bus), brownout))
 
 
 animate_charts(

@@ -169,8 +169,8 @@ print(f", {slope[later] / slope[early]:.0%} of it")
 #
 # A *fault* is something that makes a log wrong: it *contaminates* the log. The table lists four
 # classic faults, five more that are common on real robots, and four that are easy to see. Exercise
-# 7 and `sysid inspect` use the same names, with a hyphen: `encoder-slip`. Only *velocity filter*
-# and *current limit* are not among theirs: `sysid effects` lists these two.
+# 7 and `sysid inspect` use the same names, with a hyphen: `encoder-slip`. (Two of them do not occur
+# there, *velocity filter* and *current limit*. `sysid effects` lists these two.)
 #
 # | fault | what happened | what to do |
 # |---|---|---|
@@ -253,12 +253,17 @@ def look(log: str, plot: str, test: str) -> Chart:
     run = gallery[log].list_runs_of_test(test)[0]
     run = run.select(run.time - run.time[0] <= (0.6 if test == STEP else 6.0))
     against = "against" in plot
-    curves = []
+    curves, ends = [], None
+    if plot in {"acceleration against velocity", "velocity and position's slope"}:
+        shown = np.concatenate([y for _, y in PLOTS[plot](run, run.time).values()])
+        low, high = np.percentile(shown, (1, 99))  # single wild values stay outside
+        ends = (low - 0.1 * (high - low), high + 0.1 * (high - low))
     for color, (name, (x, y)) in enumerate(PLOTS[plot](run, run.time - run.time[0]).items()):
         kept = decimate_cloud(x, y, most=120)
         style = "dots" if against or "step" in name else "line"
         curves.append(Curve(name, x[kept], y[kept], style, color))
-    return Chart("velocity [m/s]" if against else f"time in the {test} test [s]", plot, curves)
+    xlabel = "velocity [m/s]" if against else f"time in the {test} test [s]"
+    return Chart(xlabel, plot, curves, y=ends)
 
 
 animate_charts(
@@ -407,11 +412,11 @@ for who, method in (("SysId's recipe", "sysid"), ("sysid fit", "output-error")):
     print(f"{who}: kA is {fit(log, method=method).gains['kA'] / TRUTH['kA']:.2f} times the true kA")
 
 # %% [markdown]
-# Where a measurement repeats, SysId computes an acceleration of zero, and drops these rows. Only
-# the rows next to each new measurement remain. There, a change that took four rows counts as the
-# change of two rows. So the acceleration is twice as large as it should be, and kA only half as
-# large. Log at the rate of the status frames, or set faster frames for the test. (`sysid fit` finds
-# the repeated measurements and leaves them out.)
+# Where a measurement repeats, SysId computes an acceleration of zero, and drops these rows. In the
+# rows next to a new measurement, it divides the change by the time of two rows. But the change took
+# four rows. So the acceleration is twice as large as it should be, and kA only half as large. Log
+# at the rate of the status frames, or set faster frames for the test. (`sysid fit` finds the
+# repeated measurements and leaves them out.)
 
 # %% [markdown]
 # ## 4 Doing it: trim what the model does not describe

@@ -291,8 +291,8 @@ Table(("module", "turns of the motor", "radius of the wheel [mm]"), tuple(rows))
 #   drive motor instead.
 # - The gyro (Pigeon 2) logs **degrees**. Motors log rotations. The formula needs **radians**.
 #
-# (CTRE also writes that the angle must be "scaled by pi/180", and that you need `MotorVoltage` for
-# the moment of inertia: see `SysIdSwerveRotation` in [Phoenix 6, release
+# (CTRE also writes that the angle must be "scaled by pi/180", and that `MotorVoltage` "can be
+# useful" for the moment of inertia: see `SysIdSwerveRotation` in [Phoenix 6, release
 # 26.3.0](https://pypi.org/project/phoenix6/26.3.0/))
 #
 # ### Which lever?

@@ -175,12 +175,17 @@ def test_files_may_have_names_of_their_own(tmp_path, solved):
     assert own["routine-step"].status == "passed"
 
 
-def test_a_wrong_gain_costs_no_points_for_right_constants(tmp_path, solved):
-    texts = {**solved, "answers.toml": scale_numbers(2.0, "kV")(solved["answers.toml"])}
+@pytest.mark.parametrize(
+    ("gain", "factor", "status"), [("kV", 2.0, "failed"), ("kA", 1.1, "passed")]
+)
+def test_a_gain_that_is_written_down_differently_costs_no_points_for_right_constants(
+    tmp_path, solved, gain, factor, status
+):
+    texts = {**solved, "answers.toml": scale_numbers(factor, gain)(solved["answers.toml"])}
     results = grade_answer(tmp_path, texts)
 
-    assert results["gains-kv"].status == "failed"
-    assert results["constants-kv"].status == "passed"
+    assert results[f"gains-{gain.lower()}"].status == status
+    assert results[f"constants-{gain.lower()}"].status == "passed"
 
 
 def test_the_files_to_fill_in_and_the_log_are_one_mechanism(tmp_path, solved):

@@ -289,14 +289,15 @@ def _check_converted(gain: str, one: Gains, given: float | None, seen: Seen) -> 
     at = f"{one.kind} in line {one.line}"
     passed = given != 0 and gain in one.gains
     value = seen.get_value(given, f"{gain} of {at}") if passed else 0.0
-    if passed and near(value, seen.variant.needed(gain)):
+    variant = seen.convert_for_place(one)
+    if passed and near(value, variant.needed(gain)):
         return
     constant = seen.facts.find_constant(gain)
     if constant and constant.value is not None and not _is_right(constant, constant.value, seen):
         raise WrongAnswer(_describe(constant), hint=f"Correct the constant {gain} first.")
     if not passed:
         raise WrongAnswer(f"{at} gets no {gain}", hint="Pass it, too.")
-    slip = find_handed_slip(value, gain, seen.variant)
+    slip = find_handed_slip(value, gain, variant)
     raise explain(f"{at} gets {gain} = {value:.4g}", slip)
 
 

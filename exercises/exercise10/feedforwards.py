@@ -31,11 +31,13 @@ class Seen:
     @cached_property
     def variant(self) -> Variant:
         """The mechanism, with its gains in the unit of the place where this code puts them."""
-        kinds = [one.kind for one in self.facts.feedforwards]
-        inside = [kind for kind in kinds if kind in PLACES]
-        return self.drawn.convert_for_class(
-            inside[0] if inside and len(inside) == len(kinds) else ""
-        )
+        made = self.facts.feedforwards
+        inside = made and all(one.kind in PLACES for one in made)
+        return self.convert_for_place(made[0]) if inside else self.drawn
+
+    def convert_for_place(self, one: Gains) -> Variant:
+        """The mechanism, with its gains in the unit in which this place takes them."""
+        return self.drawn.convert_for_class(one.kind)
 
     @property
     def feedforwards(self) -> list[Gains]:

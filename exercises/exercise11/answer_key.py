@@ -11,7 +11,7 @@ from grader.answers.wrong_number import AnswerKey
 from grader.checks.check import NotReachedError, WrongAnswer, shorten
 
 from .drawn import Variant, draw
-from .question import judge_choice
+from .question import SHORTEST, judge_choice, normalize
 from .questions import DECISIONS, QUESTIONS, REASONS, ROWS, STORIES, WRONG_REASONS, Row
 
 __all__ = ["QUESTIONS", "ROWS", "draw", "format_questions", "judge_answer"]
@@ -146,9 +146,12 @@ def _read_reason(
     """The reason that was given, a key of ``REASONS``; empty if none was, unless it is asked."""
     raw = given.get(f"{row.name}_reason")
     letters = variant.reasons
-    text = raw.strip().strip(".)").lower() if isinstance(raw, str) else ""
+    text = normalize(raw) if isinstance(raw, str) else ""
     if text in letters:
         return letters[text]
+    like = [one for one in letters.values() if normalize(REASONS[one]).startswith(text)]
+    if len(text) >= SHORTEST and len(like) == 1:
+        return like[0]
     if not asked:
         return ""
     seen = (

@@ -21,8 +21,8 @@ PARTS: tuple[Part, ...] = (
 )  # fmt: skip
 
 LONG = (
-    "A median of so many samples flattens the rise of the steps: how many samples does the "
-    "rise take? Use the shortest window that removes the wrong readings."
+    "How many samples does the rise of the steps take? A median of as many samples flattens it. "
+    "Use the shortest window that removes the wrong readings."
 )
 SHORT = (
     "Single readings are far off, also in the steps, and SysId takes one of them for the "
@@ -35,7 +35,7 @@ EVEN = (
 MUCH = (
     "You cut away too much of more than one test: compare your times with the length of each test."
 )
-HIGH = "Your threshold drops good samples, in which the mechanism moves."
+HIGH = "Does your threshold drop good samples, in which the mechanism moves?"
 LOW = (
     "Of all your choices, another threshold helps this gain most. Do you keep samples in which the "
     "mechanism stands, before it moves or at a stop? There, the voltage causes neither speed nor "

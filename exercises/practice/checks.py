@@ -129,18 +129,28 @@ class Answers:
 
     @cached_property
     def constants(self) -> Any:  # noqa: ANN401 - of a module that is loaded by path
-        """Exercise 10's reading of the constants, compared with the gains of this mechanism."""
+        """Exercise 10's reading of the constants, compared with the gains of this mechanism.
+
+        A constant may be the gain of the log's fit, or as the learner wrote it down.
+        """
         code = self._read("constants", TENTH)
         one = self.measured
-        shown = {name: read_right_gain_or_fitted(name, self.given, one) for name in one.key.asked}
         kind = ANALYSES[one.fit.type]
         parts = (
             {}
             if one.parts is None
             else {"ratio": one.parts.ratio, "radius": one.parts.diameter / 2}
         )
-        variant = TENTH.Variant("own", kind, shown, one.units, one.units, duty=False, **parts)
-        return replace(code, variant=variant)  # type: ignore[type-var]  # loaded by path
+        fitted = {name: asked.expected for name, asked in one.key.asked.items()}
+        variant = TENTH.Variant("own", kind, fitted, one.units, one.units, duty=False, **parts)
+        held = {each.gain: each.value for facts in code.runs for each in facts.constants}
+        shown = {
+            name: value
+            if isinstance(held.get(name), int | float) and variant.accepts(name, held[name])
+            else read_right_gain_or_fitted(name, self.given, one)
+            for name, value in fitted.items()
+        }
+        return replace(code, variant=replace(variant, shown=shown))
 
     @cached_property
     def theory(self) -> Any:  # noqa: ANN401 - of a module that is loaded by path

@@ -41,7 +41,7 @@ MISTAKES = (
     Mistake("the stops are kept", ANSWERS, set_windows("all", *RAMPS, *STEPS), "ka",
         "do you keep samples in which a hard"),
     Mistake("a median filter that suits only a plot", ANSWERS,
-        make_wrong_answer("median", "15"), "ka", "A median of so many samples flattens",
+        make_wrong_answer("median", "15"), "ka", "A median of as many samples flattens",
         "M-FILTER-FREE"),
     Mistake("no filter", ANSWERS, make_wrong_answer("median", "1"), "ka",
         "Single readings are far off"),
