@@ -804,7 +804,7 @@ tabulate_fits({name: log for name, (log, _) in programs.items()}, truth)
 # - [ ] The log holds **applied** voltage, position and velocity. Position and velocity are those of
 #   the mechanism, not of the motor.
 # - [ ] When you push the mechanism forward by hand, the position **grows** and the velocity is
-#   positive. A small positive voltage also moves the mechanism forward.
+#   positive. A positive voltage also moves the mechanism forward, as soon as it is large enough.
 # - [ ] Four different commands are on four buttons, with `whileTrue`, and a **guard** locks them.
 # - [ ] The limits in the motor controller are set, the timeout fits the room, and somebody has a
 #   hand on *Disable*.

@@ -486,10 +486,10 @@ animate_charts(
 #
 # Disable the robot and push the mechanism **forward** by hand. On the dashboard or in
 # AdvantageScope, the position must **rise** smoothly, and the velocity must be positive. Then
-# enable the robot, and hold the button *quasistatic forward* for a second: its voltage is still
-# small, and the mechanism must move forward, too. The most important check is that a positive
-# voltage gives a positive velocity. SysId's score R² stays
-# high even if the velocity has the wrong sign (lesson 6).
+# enable the robot, and hold the button *quasistatic forward* until the mechanism begins to move: it
+# must move forward, too. (An elevator or an arm moves up only above kG + kS.) The most important
+# check is that a positive voltage gives a positive velocity. SysId's score R² stays high even if
+# the velocity has the wrong sign (lesson 6).
 #
 # ### Log
 #

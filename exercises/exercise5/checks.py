@@ -13,7 +13,7 @@ from sim.support.printable import join_names
 from .explained import check_comment
 
 FILES = ("RobotContainer.java", "robotcontainer.py")
-READ = "checked after you bind a test"
+READ = "checked after a held button runs a test"
 TIMEOUT = 10.0  # [s] of the routine in the file to fill in
 LATE = 1.5  # [s] a test may wait for its steering, or for a button to settle
 EARLY = 0.9  # [share] of the timeout that a held test has to run
@@ -235,9 +235,9 @@ def _explain_missing(facts: ButtonFacts, lacking: list[str], earned: float) -> N
     raise WrongAnswer(
         f"no button runs {list_tests(lacking) if facts.presses else 'a test'}",
         hint="Four tests, four buttons: two kinds, each forward and reverse. Every button was "
-        "pressed alone and together with a second one, in test mode and in teleop. Is the guard "
-        f"true there{f' (lines {join_names(bound)})' if bound else ''}? A button that is the guard "
-        "must start no test itself.",
+        "held for 0.6 s, alone and together with a second one, in test mode and in teleop. Is the "
+        f"guard true there{f' (lines {join_names(bound)})' if bound else ''}? A button that is the "
+        "guard must start no test itself.",
         earned=earned,
     )
 

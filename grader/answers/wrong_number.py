@@ -36,8 +36,13 @@ class WrongNumber:
 
 
 def hedge(says: str) -> str:
-    """A sentence about a slip as a guess: a number alone proves none. A question stays one."""
-    return says if "?" in says else f"most likely, {says}"
+    """What is said of a slip as a guess: a number alone proves none. A question stays one.
+
+    A claim about the answer is a guess also where a question comes after it.
+    """
+    first = says.partition(". ")[0]
+    asks = "?" in (first if first.startswith(("this is", "that is")) else says)
+    return says if asks else f"most likely, {says}"
 
 
 @dataclass(frozen=True)
