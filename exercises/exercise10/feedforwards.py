@@ -36,7 +36,7 @@ class Seen:
         return self.convert_for_place(made[0]) if inside else self.drawn
 
     def convert_for_place(self, one: Gains) -> Variant:
-        """The mechanism, with its gains in the unit in which this place takes them."""
+        """The mechanism, its gains in the unit that this class or setting expects."""
         return self.drawn.convert_for_class(one.kind)
 
     @property

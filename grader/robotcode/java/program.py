@@ -147,7 +147,7 @@ class Program:
         return found
 
     def _find_unit(self, path: Path) -> Unit | None:
-        """A neighbour, parsed; None if it cannot be read without doubt: a mistake is an error."""
+        """Parse another file of the program; None if it cannot be read. Its syntax errors are told."""
         if path not in self._units:
             self._units[path] = None
             try:
