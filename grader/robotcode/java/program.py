@@ -147,7 +147,7 @@ class Program:
         return found
 
     def _find_unit(self, path: Path) -> Unit | None:
-        """Parse another file of the program; None if it cannot be read. Its syntax errors are told."""
+        """Another file, parsed; None if it cannot be read. A syntax error in it is recorded."""
         if path not in self._units:
             self._units[path] = None
             try:
