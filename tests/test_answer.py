@@ -1,10 +1,12 @@
 """Numbers as people write them, the bands they are judged by, and the slips behind wrong ones."""
 
 import math
+import re
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from places import ROOT
 
 from grader.answers.asked_number import BANDS, FAST_KA, ask_gains
 from grader.answers.number_answer import judge_number, read_answer_number
@@ -12,6 +14,7 @@ from grader.answers.quantity import NotAUnitError, read_number, read_unit
 from grader.answers.wrong_number import AnswerKey, Lookalike, Scene, WrongNumber
 from grader.checks.check import WrongAnswer
 from grader.checks.misconception import MISCONCEPTIONS
+from grader.checks.texts import read_texts
 
 TURN = 2 * math.pi
 GAINS = {"kS": 0.15, "kV": 2.4, "kA": 0.3}
@@ -304,3 +307,14 @@ def test_no_message_contains_the_right_answer(value):
         told = caught.seen + caught.hint
         if not math.isclose(abs(value), 2.4371, rel_tol=1e-3):  # what was typed is repeated
             assert "2.437" not in told
+
+
+@pytest.mark.parametrize("number", [1, 2, 3, 9, 11, 13])
+def test_a_slip_that_only_a_number_suggests_is_asked_not_said(number):
+    texts = read_texts(ROOT / "exercises" / f"exercise{number}" / "slips.toml")
+    tables = [texts, *(one for one in texts.values() if isinstance(one, dict))]
+    said = {code: one for t in tables for code, one in t.items() if isinstance(one, str)}
+
+    assert said
+    assert [code for code, one in said.items() if code != "sign" and "?" not in one] == []
+    assert [code for code, one in said.items() if re.match("(this|that) is ", one)] == []

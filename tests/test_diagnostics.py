@@ -119,3 +119,14 @@ def test_clean_log_gets_no_diagnostic(name, seed, period):
     codes = set(doubts_by_code(log))
 
     assert codes == ({"short-rise"} if "short-rise" in codes and too_quick else set())
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_noise_in_the_velocity_of_one_direction_is_no_other_back_emf_and_no_other_friction(seed):
+    def spoil(run):
+        noise = 0.15 * run.top_speed * np.random.default_rng(seed).standard_normal(len(run))
+        return replace(run, velocity=run.velocity + noise * (run.direction == "forward"))
+
+    codes = set(doubts_by_code(each(drawn("drivetrain", seed), spoil)))
+
+    assert not codes & {"back-emf-differs", "friction-differs"}

@@ -67,7 +67,7 @@ def test_feedback_names_missing_speed_impossible_voltage_and_swapped_gains(copy,
     gains, at = variant.gains, variant.moments["braking"]
     crossed = gains["kS"] + gains["kV"] * at.acceleration + gains["kA"] * at.velocity
     cases = (
-        ("accelerating", kick + push, "kV·v is missing"),
+        ("accelerating", kick + push, "is kV·v missing"),
         ("forward", 243.5, "no battery"),
         ("braking", crossed, "did you swap kV and kA?"),
     )

@@ -237,7 +237,7 @@ def test_a_kp_per_meter_in_the_motor_controller_is_named(checked, kind):
     wrong = inside.get_factor_to("Meters") / inside.times
     found = checked(in_place(student, "Slot0Configs", kp=wrong), student=student)["kp"]
 
-    assert "this value is per m, but Slot0Configs counts rotations" in found.hint
+    assert "is this value per m? Slot0Configs counts rotations" in found.hint
     assert (found.status, found.misconception) == ("failed", "M-UNITS")
 
 

@@ -81,7 +81,7 @@ def test_gains_of_the_wrong_log_are_named(copy, student):
 
     graded = grade_answer(copy, f"kS = {ks:.5g}", student=student)["ks"]
 
-    assert "this is the kS of turning on the spot" in graded.hint
+    assert "is this the kS of turning on the spot" in graded.hint
 
 
 @pytest.mark.parametrize("student", TWO)

@@ -56,7 +56,7 @@ def test_gains_per_rotation_of_wheel_or_motor_are_named(solved, tmp_path):
         found = grade_answer(tmp_path, solved, **gains)
 
         for check in ("gains-kv", "gains-ka"):
-            assert found[check].hint.startswith(f"most likely, this is per rotation of the {what}")
+            assert found[check].hint.startswith(f"is this per rotation of the {what}")
 
 
 def robot(folder, *, noise=0.0):

@@ -7,7 +7,6 @@ from functools import partial
 from grader.answers.number_answer import read_answer_number
 from grader.answers.quantity import NotAUnitError, read_unit
 from grader.answers.submission import StudentAnswers
-from grader.answers.wrong_number import hedge
 from grader.checks.check import WrongAnswer, check, make_check
 from grader.checks.consequence import Consequence
 from grader.student_data.student_files import Made
@@ -77,8 +76,6 @@ def _judge_voltage(name: str, answers: StudentAnswers) -> None:
     hint = hint.replace("?; ", "? ")
     if found and len(found[0]) > 1:
         hint = f"maybe there are two mistakes: {hint}"
-    elif found and found[0][0].code != "sign":
-        hint = hedge(hint)
     if not hint:
         far = "" if abs(value - asked.expected) <= LITTLE * abs(asked.expected) else "far "
         hint = f"{far}outside the accepted ±2 %. Write down the three terms one by one"

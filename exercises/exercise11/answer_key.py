@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 from grader.answers.choice_answer import check_choice, read_choice
 from grader.answers.number_answer import judge_number, read_answer_number
-from grader.answers.wrong_number import AnswerKey, hedge
+from grader.answers.wrong_number import AnswerKey
 from grader.checks.check import NotReachedError, WrongAnswer, shorten
 
 from .drawn import Variant, draw
@@ -98,7 +98,7 @@ def _judge_volts(raw: object, variant: Variant, *, points: float) -> str | None:
             if abs(value - one.value) <= ROUNDED * one.value:
                 slip = one.slip
                 raise WrongAnswer(
-                    f"{value:.4g} V", hint=hedge(slip.says), misconception=slip.misconception
+                    f"{value:.4g} V", hint=slip.says, misconception=slip.misconception
                 )
     return judge_number(
         asked.name, {asked.name: raw}, AnswerKey({asked.name: asked}), points=points

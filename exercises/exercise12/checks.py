@@ -283,7 +283,7 @@ def _explain_gap(value: float, *, other: float, validation: float) -> WrongAnswe
         "try_it.py prints with --held-out"
     )
     if _is_same(value, other):
-        hint = "this is the other gap: gap_before is with gains alone, gap_after with effects"
+        hint = "is this the other gap? gap_before is with gains alone, gap_after with effects"
     return WrongAnswer(f"{value:g}", hint=hint)
 
 

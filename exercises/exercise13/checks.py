@@ -162,7 +162,7 @@ def _judge_computed(name: str, points: float, answers: Answers) -> str | None:
         return judge_number(name, answers.given, answers.key, points=points)
     except WrongAnswer as wrong:
         if of := _find_wrong_source(name, answers):
-            wrong.hint = f"it follows from your {of}, and that is not right yet"
+            wrong.hint = f"it fits your {of}, and that is not right yet"
             wrong.misconception = ""
         raise
 

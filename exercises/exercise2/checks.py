@@ -77,7 +77,7 @@ def difference(answers: StudentAnswers) -> None:
     if _is_accepted(value, answers):
         return
     if theirs > 0.0 and _is_near(value, variant.compute_percent_above(theirs), variant):
-        says = "it follows from your kV_theory, but your kV_theory is not right yet"
+        says = "it fits your kV_theory, but your kV_theory is not right yet"
         raise WrongAnswer(_format_percent(value), hint=says, earned=1.0)
     raise WrongAnswer(_format_percent(value), hint=_explain_percent(value, variant))
 
@@ -130,15 +130,15 @@ def _explain_percent(value: float, variant: Variant) -> str:
     """The likely cause of a wrong percentage."""
     percent = variant.compute_percent_above(variant.parts.theoretical_kv)
     undone = (
-        (100.0 * value, "this is a fraction. Write percent, 100 times as much"),
+        (100.0 * value, "is this a fraction? Write percent, 100 times as much"),
         (-value, "the size is right, the sign is not: above theory is positive, below negative"),
         (
             value - 100.0,
-            ("this is the measured kV in percent of theory. Subtract 100 %"),
+            "is this the measured kV in percent of theory? Then subtract 100 %",
         ),
         (
             100.0 * value - 100.0,
-            ("this is measured divided by theory. How much more than 1 is it?"),
+            "is this measured divided by theory? How much more than 1 is it?",
         ),
     )
     for once, says in undone:
@@ -146,7 +146,7 @@ def _explain_percent(value: float, variant: Variant) -> str:
             return says
     of_measured = 100.0 * (1.0 - variant.parts.theoretical_kv / variant.measured)
     if _is_near(value, of_measured, variant):
-        return "percent of what? Divide by the theoretical kV, not by the measured one"
+        return "percent of what? Is it of the measured kV? Divide by the theoretical one"
     return (
         "outside the accepted ±1 %. Compute measured minus theory, divide by theory, and "
         "multiply by 100"

@@ -103,8 +103,8 @@ def _check_held(facts: ButtonFacts) -> None:
         if tests:
             raise WrongAnswer(
                 f"nobody presses anything, and in {mode} mode {list_tests(tests)} runs",
-                hint="It runs as long as nobody presses the button, or from the start. It must run "
-                "while you hold the button: whileTrue().",
+                hint="Its trigger is true without a button, or something else starts it. It must "
+                "run only while you hold the button: whileTrue().",
             )
     for _, seen, hint in (fault for fault in faults.values() if fault is not None):
         check_compiles(facts, earned=earned)
@@ -141,8 +141,6 @@ def _list_faults(one: Press, facts: ButtonFacts) -> Iterator[tuple[bool, str, st
         )
     if one.stayed:
         yield _describe_stay(one, f"{test} continues when the button is released{at}")
-    if one.how in {"onFalse", "whileFalse", "toggleOnFalse"}:
-        yield False, f"{test} starts when the button is released{at}", "Use whileTrue()."
     if one.delay > LATE:
         yield (
             False,
@@ -180,7 +178,7 @@ def _describe_sequence(one: Press, facts: ButtonFacts) -> tuple[str, str] | None
     bound_apart = {p.test for p in facts.presses if p.line != one.line}
     if not one.together or bound_apart & set(one.together):
         return None
-    hint = "Such a command runs the tests one after the other. Give each its own button."
+    hint = "A command that holds several tests runs one after the other. Give each its own button."
     return f"line {one.line} runs {list_tests([one.test, *one.together])}", hint
 
 
@@ -190,7 +188,9 @@ def _describe_stay(one: Press, seen: str) -> tuple[bool, str, str]:
     if one.stopped or one.how.startswith("toggle"):
         said = "You need a second press to stop it, and in a hurry nobody finds the button. "
     elif one.how in {"whileTrue", ""}:  # no trigger holds the test itself
-        hint = "The button only starts another command, which then runs to its timeout. Pass the "
+        hint = (
+            "Does the button only start another command, which then runs to its timeout? Pass the "
+        )
         return True, seen, f"{hint}test itself to whileTrue()."
     return True, seen, f"{said}It must stop when you let go: whileTrue()."
 
@@ -324,16 +324,15 @@ def _check_guards(facts: ButtonFacts) -> str | None:
     if joined:
         raise WrongAnswer(
             f"the trigger in line {joined[0].line} joins two conditions with or",
-            hint="Then each of the two starts the test alone. Both must be true: join them with "
+            hint="Then one of them alone can start the test. If both must be true, join them with "
             "and() (Python: and_()).",
         )
     inverted = [one for one in facts.presses if one.mode != "test"]
     if inverted:
         one = inverted[0]
         raise WrongAnswer(
-            f"the guard of {one.text} in line {one.line} checks for another mode than test mode",
-            hint="Then the test can start in a match, but not in test mode. Check for test mode "
-            "itself.",
+            f"line {one.line} starts its test in {one.mode} mode, not in test mode: {one.text}",
+            hint="Then it can start in a match. Does its guard check for test mode itself?",
         )
     open_ = [one for one in facts.presses if _is_open(one)]
     bound = len(facts.presses)

@@ -114,10 +114,10 @@ def _explain_place(claim: Claim, *, whole: bool, lasts: float) -> str:
             "The fault is right, but not the place. Add the name of the test: without it, times"
             " count from the start of the log."
         )
+    long = ", and is it as long as you wrote" if claim.times else ""
     return (
         "The fault is right, but not the place: write the times of the first and the last wrong"
-        " sample. Is it in this test, and is it as long as you wrote? "
-        f"{explain_wrong_samples(claim.fault)}"
+        f" sample. Is it in this test{long}? {explain_wrong_samples(claim.fault)}"
     ).strip()
 
 

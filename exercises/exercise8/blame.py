@@ -60,7 +60,7 @@ def blame(gain: str, variant: Variant, preparation: Preparation) -> Said:
     wrong = [part for part in PARTS if alone[part] != reference]
     worst = max(wrong, key=lambda part: _compute_error(gain, variant, alone[part]))
     says, code = _explain_part(worst, reference, preparation)
-    return f"Several things are wrong. Begin with this one. {says}", code
+    return f"No single change mends this. Begin with this one. {says}", code
 
 
 def _compute_error(gain: str, variant: Variant, preparation: Preparation) -> float:

@@ -213,7 +213,7 @@ def _check_metric(name: str, answers: Answers) -> None:
     hint = explain_r2(value, asked[name])
     (other,) = set(METRICS) - {name}
     if hint and value < 1 and asked[other].is_right(value):
-        hint = f"That is the {other}. Did you swap the two?"
+        hint = f"Is that the {other}? Did you swap the two?"
     if hint:
         raise WrongAnswer(f"{value:.4g}", hint=hint, misconception="M-R2")
 

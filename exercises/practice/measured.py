@@ -113,7 +113,7 @@ def _make_measured(found: Fit, units: str, parts: Parts | None, why: str) -> Mea
 
 def _explain_rotation(what: str) -> WrongNumber:
     says = (
-        f"this is per rotation of the {what}, not per meter. In one rotation, a wheel or drum goes "
+        f"is this per rotation of the {what}, not per meter? In one rotation, a wheel or drum goes "
         "π times its diameter"
     )
     return WrongNumber(f"per-{what}", says, "M-UNITS")

@@ -15,7 +15,6 @@ from grader.answers.wrong_number import (
     AnswerKey,
     WrongNumber,
     explain_wrong_number,
-    hedge,
 )
 from grader.checks.check import Check, WrongAnswer, make_check, shorten
 
@@ -215,12 +214,11 @@ def _read_value(name: str, given: Mapping[str, object], key: AnswerKey) -> float
 
 def _describe_wrong_number(name: str, value: float, slips: tuple[WrongNumber, ...]) -> str:
     if slips:
-        said = (
+        return (
             "; or ".join(slip.says for slip in slips)
             .replace("?; or about", "? Or it is about")
             .replace("?; or ", "? Or: ")
         )
-        return said if slips[0].code == "sign" else hedge(said)
     if value < 0:
         return (
             f"{name} cannot be negative. Check the signs in your calculation. If every gain of a "

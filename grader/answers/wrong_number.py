@@ -26,23 +26,13 @@ class WrongNumber:
 
     Args:
         code: a short name; the same slip in two numbers has the same code.
-        says: what it may have been, for the learner.
+        says: what it may have been, for the learner: a question, as a number alone proves no slip.
         misconception: its code, or empty.
     """
 
     code: str
     says: str
     misconception: str = ""
-
-
-def hedge(says: str) -> str:
-    """What is said of a slip as a guess: a number alone proves none. A question stays one.
-
-    A claim about the answer is a guess also where a question comes after it.
-    """
-    first = says.partition(". ")[0]
-    asks = "?" in (first if first.startswith(("this is", "that is")) else says)
-    return says if asks else f"most likely, {says}"
 
 
 @dataclass(frozen=True)
@@ -59,7 +49,7 @@ class Slips:
     A name comes before its sentence. A slip stands in the table of its misconception, or above all
     tables if it has none::
 
-        measured = "this is the measured kV. Compute the theoretical one"
+        measured = "is this the measured kV? Compute the theoretical one"
         [M-UNITS]
         rpm = "60 seconds are a minute. Did you divide by rpm?"
 
@@ -195,7 +185,7 @@ _CANCELED = WrongNumber(
 )
 
 _UPSIDE_DOWN = WrongNumber(
-    "upside-down", "this is upside down: kV and kA are volts for a unit, not units for a volt"
+    "upside-down", "is this upside down? kV and kA are volts for a unit, not units for a volt"
 )
 
 

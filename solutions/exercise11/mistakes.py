@@ -80,7 +80,7 @@ MISTAKES = (
     make_wrong_choice("KC3_reason", "SysId does not know", "finds kG", "M-NO-KG-IN-SYSID"),
     Mistake("rpm as rotations per second", ANSWERS,
         change_number("KC2_volts", lambda right: 60.0 * right["KC2_volts"]), "kc2-volts",
-        "rpm are rotations in a minute", "M-UNITS"),
+        "They are rotations in a minute", "M-UNITS"),
     Mistake("an output for the voltage", ANSWERS,
         change_number("KC2_volts", lambda right: right["KC2_volts"] / 12.0), "kc2-volts", "volts",
         "M-DUTY"),

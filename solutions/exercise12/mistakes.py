@@ -88,7 +88,7 @@ MISTAKES = (
         "is not a unit of", "M-UNITS"),
     Mistake("no gaps written down", ANSWERS, make_wrong_answer("gap_after", '""'), "held-out",
         "gap_after: nothing"),
-    Mistake("the two gaps swapped", ANSWERS, swap_gaps, "held-out", "this is the other gap"),
+    Mistake("the two gaps swapped", ANSWERS, swap_gaps, "held-out", "is this the other gap"),
     Mistake("a gap below what noise allows", ANSWERS, make_wrong_answer("gap_after", "0.2"),
         "held-out", "not the gap of your model"),
     Mistake("parameters that were made up", ANSWERS, shift_parameters, "first-effect",

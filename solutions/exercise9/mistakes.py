@@ -153,14 +153,14 @@ MISTAKES = (
         ANSWERS,
         change_number("kV", lambda right: 1.0 / right["kV"]),
         "kv",
-        "this is upside down",
+        "is this upside down",
     ),
     Mistake(
         "beta in place of kA",
         ANSWERS,
         change_number("kA", lambda right: 1.0 / right["kA"]),
         "ka",
-        "this is upside down",
+        "is this upside down",
     ),
     Mistake(
         "a number from nowhere",
@@ -210,7 +210,7 @@ MISTAKES = (
         FUNCTION,
         replace_text(("np.gradient(v, time[rows])", "np.gradient(v, 0.02)")),
         "function",
-        "this is the result if you assume",
+        "did you assume",
     ),
     Mistake(
         "friction turned around",

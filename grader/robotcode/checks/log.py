@@ -37,10 +37,10 @@ PWM_STEP = 0.01  # [share] by which a voltage of a PWM motor may be off
 LONGEST = 2.0  # [m] no wheel or drum lays so much behind it in one rotation of its motor
 LARGE = 1000.0  # [m] from here on a length is written without decimals
 SLIPS = {  # what a velocity is of the slope of its position, and how that comes about
-    60.0: "One is per minute, the other per second",
-    2 * math.pi: "One is in radians, the other in rotations",
-    360.0: "One is in degrees, the other in rotations",
-    180 / math.pi: "One is in degrees, the other in radians",
+    60.0: "Is one per minute, the other per second?",
+    2 * math.pi: "Is one in radians, the other in rotations?",
+    360.0: "Is one in degrees, the other in rotations?",
+    180 / math.pi: "Is one in degrees, the other in radians?",
 }
 REPORTS = {"position": "rotations", "velocity": "rotations per second"}
 
@@ -389,7 +389,7 @@ def _check_rate(name: str, position: Signal | None, velocity: Signal | None) -> 
     slips = {**SLIPS, **{1 / factor: said for factor, said in SLIPS.items()}}
     slip = next(
         (said for factor, said in slips.items() if _is_close(abs(ratio), factor)),
-        "They are converted differently",
+        "They are converted differently.",
     )
     raise fault("velocity_unit", velocity.line, name=name, ratio=ratio, slip=slip)
 

@@ -99,8 +99,8 @@ class ConfigSetting:
             note = f"This is {seen}. Write the number anyway: a default may change."
             return note if got.default else None
         said, misconception = advice(got.value)
-        if got.value == 0:
-            said = "Whole numbers divide to a whole number in Java: 1 / 2 is 0."
+        if got.value == 0 and facts.language == "java":
+            said = "Did you divide whole numbers? In Java, 1 / 2 is 0."
         hint = f"{said} {asks}".strip()
         raise WrongAnswer(f"{seen}{quote(got.line)}", hint=hint, misconception=misconception)
 

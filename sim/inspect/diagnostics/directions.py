@@ -57,7 +57,11 @@ def check_directions(features: LogFeatures) -> Iterator[Doubt]:
 
 
 def _fit_direction(features: LogFeatures, way: str) -> _Line | None:
-    """The line of voltage over velocity of a direction's first ramp; None if there is none."""
+    """The line of voltage over velocity of a direction's first ramp; None if there is none.
+
+    Noise of the velocity, a column of this fit, would make kV too small. So the applied voltage,
+    which that noise does not reach, is the fit's instrument.
+    """
     runs = [i for i, run in enumerate(features.log.runs) if run.test == f"quasistatic-{way}"]
     if not runs or features.baseline is None:
         return None
@@ -77,11 +81,16 @@ def _fit_direction(features: LogFeatures, way: str) -> _Line | None:
         sign * (run.voltage - load - baseline.ka * _compute_acceleration(run, features.period))
     )[fast]
     speed = np.abs(run.velocity[fast])
-    if not np.ptp(speed):  # the sensor is so coarse that there is only one speed
+    known = sign * (run.voltage[fast] - run.voltage[fast].mean())
+    shared = float(known @ speed)
+    if not np.ptp(speed) or shared <= 0.0:  # a sensor may be so coarse that it has one speed only
         return None
-    (kv, ks), covariance = np.polyfit(speed, volts, 1, cov=True)
-    errors = np.sqrt(np.maximum(np.diag(covariance), 0.0))
-    return _Line(float(ks), float(kv), float(errors[1]), float(errors[0]))
+    kv = float(known @ volts) / shared
+    ks = float(volts.mean() - kv * speed.mean())
+    scatter = float(np.std(volts - ks - kv * speed, ddof=2))
+    kv_error = scatter * float(np.linalg.norm(known)) / shared
+    ks_error = float(np.hypot(scatter / np.sqrt(len(speed)), speed.mean() * kv_error))
+    return _Line(ks, kv, ks_error, kv_error)
 
 
 def _compute_acceleration(run: Run, period: float) -> Array:
