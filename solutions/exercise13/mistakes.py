@@ -82,7 +82,7 @@ MISTAKES = (
         "top-speed", "divide by it"),
     Mistake("a torque from a wrong current", ANSWERS,
         scale_numbers(1.31, "slip_current", "max_torque"), "max-torque",
-        "it follows from your slip_current"),
+        "it fits your slip_current"),
     Mistake("the lever twice", ANSWERS,
         change_number("inertia", lambda right: right["inertia"] * right["lever"]), "inertia",
         "by the lever twice?", "M-LEVER"),

@@ -43,7 +43,7 @@ MISTAKES = (
         "elevator-kg", "did you swap them?"),
     Mistake("the arm's kG for the elevator", ANSWERS,
         change_number("elevator_kG", lambda right: right["arm_kG"]), "elevator-kg",
-        "this is the number of your arm"),
+        "is this the number of your arm"),
     Mistake("an edge for the arm's kG", ANSWERS,
         change_number("arm_kG", lambda right: right["arm_kG"] + right["arm_kS"]), "arm-kg",
         "an edge of the window", EDGE),
