@@ -487,9 +487,9 @@ animate_charts(
 # Disable the robot and push the mechanism **forward** by hand. On the dashboard or in
 # AdvantageScope, the position must **rise** smoothly, and the velocity must be positive. Then
 # enable the robot, and hold the button *quasistatic forward* until the mechanism begins to move: it
-# must move forward, too. (An elevator or an arm moves up only above kG + kS.) The most important
-# check is that a positive voltage gives a positive velocity. SysId's score R² stays high even if
-# the velocity has the wrong sign (lesson 6).
+# must move forward, too. (An elevator moves up only above kG + kS, an arm only above kG·cos(θ) +
+# kS.) The most important check is that a positive voltage gives a positive velocity. SysId's score
+# R² stays high even if the velocity has the wrong sign (lesson 6).
 #
 # ### Log
 #

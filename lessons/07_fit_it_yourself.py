@@ -401,10 +401,10 @@ animate_charts(lambda: chart_curves(NOISE, by_side, levels={"the truth": truth["
 # 2. **Median filter** of the velocity, if you switch it on (*Window Size*, up to 15 samples). It
 #    sorts each value and its neighbors by size, and keeps the middle one.
 # 3. **Acceleration**: SysId takes the velocity one row later minus the velocity one row earlier. It
-#    divides this difference by twice the **mean** time step of the test. Then it drops the rows
-#    with an acceleration of exactly 0.
+#    divides this difference by twice the **mean** time step of the test.
 # 4. **Trim the dynamic tests** (*Test Duration*): unless you change the setting, SysId keeps only
-#    the rows from the largest acceleration to 90 % of the top speed.
+#    the rows from the largest acceleration to 90 % of the top speed. Last, it drops all rows with
+#    an acceleration of exactly 0.
 #
 # ([SysId's source: FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
 
@@ -712,8 +712,8 @@ animate_charts(
 
 # %% [markdown]
 # After a step the velocity rises with the time constant kA/kV (after this time, it has reached
-# nearly two thirds of its new value). A window that is longer than kA/kV flattens the rise: the
-# filter removes what you want to measure.
+# nearly two thirds of its new value). A window that is much longer than kA/kV flattens the rise:
+# the filter removes what you want to measure.
 #
 # A window of 3 to 5 samples helps on a *slow* mechanism. On a fast mechanism, log faster, or repair
 # the encoder.
@@ -863,7 +863,7 @@ for doubt in best.doubts:
 # - [ ] All four tests are in the log, and you **looked** at the plots.
 # - [ ] kV and kA are positive, kS is not negative.
 # - [ ] kV and kA are close to the values you expect from motors, gears and mass.
-# - [ ] You know the window of the median filter, and it is shorter than kA/kV.
+# - [ ] You know the window of the median filter, and it is not much longer than kA/kV.
 # - [ ] When you write R², you say which R² it is.
 #
 # ## 13 Knowledge check

@@ -251,6 +251,20 @@ def test_feet_that_are_taken_for_inches_are_told_from_a_duty_cycle(checked, fact
     assert (found.status, found.misconception) == ("failed", code)
 
 
+def test_a_number_that_is_copied_wrong_and_converted_where_it_is_used_is_in_its_order(checked):
+    student = of(kind="arm", shown_in="Degrees", used_in="Radians")
+    shown = OWN.module.draw(student).shown | {}
+    gains = shown | {"kV": shown["kA"]}
+    held = "".join(f"static final double {name} = {value}; " for name, value in gains.items())
+    made = "new ArmFeedforward(C.kS, C.kG, C.kV * 180 / Math.PI, C.kA * 180 / Math.PI)"
+    holder = f"static class CharacterizationConstants {{ {held} }}"
+    text = f"class A {{ {holder} final Object f = {made}; }}"
+    found = checked(text.replace("C.k", "CharacterizationConstants.k"), student=student)
+
+    assert found["order"].status == "passed"
+    assert "is that the analyzer's kA" in found["kv"].hint
+
+
 LATER = "config.Slot0.kV = 3;"
 TALON = "TalonFXConfiguration config = new TalonFXConfiguration(); "
 SPARK = "SparkMaxConfig config = new SparkMaxConfig(); "

@@ -194,6 +194,18 @@ def test_comment_is_read_in_the_file_of_the_binding_only(tmp_path):
     assert found["comments"].status == "passed", found["comments"].seen
 
 
+def test_comment_at_the_binding_counts_wherever_its_command_is_made(tmp_path):
+    whole = "m_subsystem.sysIdDynamic(SysIdRoutine.Direction.kForward)"
+    scheduled = f"Commands.runOnce(() -> {whole}.schedule())"
+    heading = f"// the tests\n    Command step = {whole};\n\n    Trigger testing ="
+
+    apart = graded(tmp_path, (f"{whole});", "step);"), ("Trigger testing =", heading))
+    indirect = graded(tmp_path, (f"{whole});", f"{scheduled});"))
+
+    assert apart["comments"].status == indirect["comments"].status == "passed"
+    assert "only start another command" in indirect["held"].hint
+
+
 def test_method_that_takes_its_direction_by_name_makes_tests(tmp_path):
     found = graded(
         tmp_path,

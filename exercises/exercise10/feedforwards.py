@@ -63,11 +63,16 @@ class Seen:
         return [one for one in made if one.kind in {self.variant.made, *PLACES}] or [*made]
 
     def find_gain(self, value: float, place: str) -> str:
-        """The gain that a number is, first that of its place; empty if it is none."""
+        """The gain that a number is, first that of its place; empty if it is none.
+
+        A number that is no constant tells its gain only where the place's own constant is right.
+        """
         known = {one.gain: one.value for one in self.facts.constants}
         gains = sorted(self.variant.shown, key=lambda gain: gain != place)
         exact = [gain for gain in gains if known.get(gain) == value]
-        alike = [gain for gain in gains if self.variant.accepts(gain, value)]
+        own = known.get(place)
+        sound = own is None or self.variant.accepts(place, own)
+        alike = [gain for gain in gains if sound and self.variant.accepts(gain, value)]
         return next(iter(exact + alike), "")
 
     def get_value(self, value: float | None, what: str) -> float:

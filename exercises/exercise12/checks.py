@@ -313,9 +313,10 @@ def justified(answers: Answers) -> None:
         if not _is_worth(part, whole=whole, without=without, count=answers.validation_count):
             raise WrongAnswer(
                 part.effect,
-                hint=f"without it, the gap of the validation is {without / whole:.3g} times as "
-                "large. So it does not help, or its parameters are not those of your log. More "
-                "effects mostly fit the fitted log better, but may predict other runs worse",
+                hint=f"the gap of the validation is {without:.3g} times the noise without it, and "
+                f"{whole:.3g} with it. So it does not help, or its parameters are not those of "
+                "your log. More effects mostly fit the fitted log better, but may predict other "
+                "runs worse",
             )
 
 

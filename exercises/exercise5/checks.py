@@ -383,7 +383,7 @@ def _explain_open(open_: list[Press], facts: ButtonFacts, bound: int) -> None:
     if guarded:
         lines = ", ".join(str(one.line) for one in open_)
         raise WrongAnswer(
-            f"{guarded} of {bound} bindings are guarded; without a guard: line {lines}",
+            f"{guarded} of {bound} tests are guarded; without a guard: line {lines}",
             hint="One test without a guard is enough for an accident. Guard all four in the same "
             "way, and with another button than the test's own.",
             earned=2 * guarded / len(TESTS),

@@ -1,6 +1,7 @@
 """Whether a comment says which test a button runs, and which property that test measures."""
 
 import re
+from collections.abc import Iterator
 
 from grader.checks.check import WrongAnswer
 from grader.robotcode.bench.button_run import Press
@@ -27,43 +28,44 @@ ALL_GAINS = re.compile(r"\bkS\b.*\bkV\b.*\bkA\b", re.IGNORECASE)
 
 
 def check_comment(one: Press) -> None:
-    """Whether the comment beside a binding names its test and its property.
+    """Whether a comment beside a binding, or where its command is made, names test and property.
 
     Raises:
-        WrongAnswer: it does not.
+        WrongAnswer: none does; about the first of them.
     """
+    if not one.comments:
+        raise WrongAnswer(
+            f"no comment next to line {one.line}: {one.text}",
+            hint="Write one directly above it or after it: which test, and what does it measure?",
+        )
+    wrong = [next(_list_faults(said, one), "") for said in one.comments]
+    if all(wrong):
+        raise WrongAnswer(f'"{one.comments[0][:60]}" next to line {one.line}', hint=wrong[0])
+
+
+def _list_faults(said: str, one: Press) -> Iterator[str]:
+    """What is wrong with a comment, the worst first."""
     kind, way = one.test.split("-")
     other = "dynamic" if kind == "quasistatic" else "quasistatic"
     opposite = "reverse" if way == "forward" else "forward"
-    said = one.comment
-    if not said:
-        raise WrongAnswer(
-            f"no comment next to line {one.line}: {one.text}",
-            hint="Write one above it or after it: which test, and what does it measure?",
-        )
-    seen = f'"{said[:60]}" next to line {one.line}'
     if re.match(rf"\W*{NAMES[other]}", said, re.IGNORECASE) and not re.search(
         NAMES[kind], said, re.IGNORECASE
     ):
-        hint = f"This button runs the {kind} test. What does the method that it calls return?"
-        raise WrongAnswer(seen, hint=hint)
+        yield f"This button runs the {kind} test. What does the method that it calls return?"
     if WAY[opposite].search(said) and not WAY[way].search(said):
-        raise WrongAnswer(seen, hint=f"This button runs the {kind} test in {way}.")
+        yield f"This button runs the {kind} test in {way}."
     test, property_ = bool(TEST[kind].search(said)), bool(PROPERTY[kind].search(said))
     if ALL_GAINS.search(said):
         hint = "One test alone does not measure all three. What does this one measure?"
-        raise WrongAnswer(seen, hint=f"{hint} The ramp shows kS and kV, the step kA.")
+        yield f"{hint} The ramp shows kS and kV, the step kA."
     if test and property_:
         return
     if not test and TEST[other].search(said):
-        raise WrongAnswer(seen, hint=f"This button runs the {kind} test.")
+        yield f"This button runs the {kind} test."
     if not property_ and PROPERTY[other].search(said):
-        hint = f"That is what the {other} test measures. What does the {kind} test measure?"
-        raise WrongAnswer(seen, hint=hint)
+        yield f"That is what the {other} test measures. What does the {kind} test measure?"
     if test:
-        hint = "It names the test. Which property of the mechanism does the test measure?"
-    elif property_:
-        hint = "It names the property. Which of the tests is this, quasistatic or dynamic?"
-    else:
-        hint = "Name the test, quasistatic or dynamic, and the property of the mechanism it shows."
-    raise WrongAnswer(seen, hint=hint)
+        yield "It names the test. Which property of the mechanism does the test measure?"
+    if property_:
+        yield "It names the property. Which of the tests is this, quasistatic or dynamic?"
+    yield "Name the test, quasistatic or dynamic, and the property of the mechanism it shows."

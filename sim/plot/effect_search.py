@@ -104,6 +104,7 @@ class EffectSearch:
         after = self._measure_gap(effects)["validation"]
         self.effects = effects
         lower = "hardly better than" if after < before else "no better than"
+        lower = "worse than" if is_narrower(before, after) else lower
         verdict = "better than" if is_narrower(after, before) else lower
         self.message = (
             f"With {' + '.join(effects) or NONE}, the gap of the validation log is {after:.3g} "

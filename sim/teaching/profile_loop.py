@@ -365,11 +365,11 @@ def _list_wrong_loops() -> list[tuple[float, str]]:
         ),
         (
             forward + pid.kP * (after.position - measured),
-            "The feedback compares the measurement with the setpoint of now, not of the next loop.",
+            "The feedback must compare the position with the setpoint of now, not the next one.",
         ),
         (
             ff.calculateWithVelocities(now.velocity, acceleration) + feedback,
-            "The second argument is a velocity, not an acceleration.",
+            "The second argument must be a velocity, not an acceleration.",
         ),
         (
             ff.calculateWithVelocities(now.position, after.position) + feedback,

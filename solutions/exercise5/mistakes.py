@@ -131,7 +131,7 @@ MISTAKES = (
         "Use something that never happens in a"),
     Mistake("a guard on two of four", JAVA,
         replace_text((f"x(){GUARD}", "x()"), (f"y(){GUARD}", "y()")), "guard",
-        "2 of 4 bindings are guarded"),
+        "2 of 4 tests are guarded"),
     Mistake("test mode asked while the robot starts", PYTHON,
         replace_text(
             (GUARD_PYTHON, ""),

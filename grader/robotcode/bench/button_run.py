@@ -66,7 +66,7 @@ class Press:
         mode: in which it was found.
         line: of the binding; 0 if no trigger started it.
         how: the method that bound it.
-        text, comment: of that line.
+        text, comments: of that line, and the comments where the command of the test is made.
         delay: [s] until the test began.
         lasted: [s] until it ended by itself; infinite if it was still running.
         restarted: whether it began again while the input was held.
@@ -86,7 +86,7 @@ class Press:
     line: int = 0
     how: str = ""
     text: str = ""
-    comment: str = ""
+    comments: tuple[str, ...] = ()
     delay: float = 0.0
     lasted: float = math.inf
     restarted: bool = False
@@ -390,7 +390,7 @@ class ButtonBench(Bench):
             line,
             how,
             self.subject.text_at(line),
-            self._find_comment(asked, line),
+            self._find_comments(line, asked),
             delay=first * PERIOD,
             lasted=(end - first) * PERIOD if end < HELD else math.inf,
             restarted=any(ran[end:]),
@@ -437,13 +437,18 @@ class ButtonBench(Bench):
         """The line and the method that bound a test to the pressed button."""
         running = [one for one in self._list_running_commands() if test in find_tests(one)]
         line = int(running[0]._scheduled_line) if running else 0
+        if not line:  # a command scheduled the test: the binding of that one
+            bound = {int(b.line) for b in WORLD.bindings}
+            events = ((kind, int(at)) for kind, *_, at in reversed(self.scheduler._events))
+            line = next((at for kind, at in events if kind == "schedule" and at in bound), 0)
         exact = [b for b in WORLD.bindings if test in find_tests(b.command)]
         same = [b for b in exact or WORLD.bindings if int(b.line) == line]
         near = next(iter(same or exact), None)
         return (int(near.line), near.how) if near else (line, "")
 
-    def _find_comment(self, asked: int, line: int) -> str:
-        return str(self.subject.comment_at(asked) or self.subject.comment_at(line))
+    def _find_comments(self, *lines: int) -> tuple[str, ...]:
+        found = (str(self.subject.comment_at(line)) for line in lines)
+        return tuple(dict.fromkeys(filter(None, found)))
 
     def _is_apart(self, inputs: tuple[Input, ...]) -> bool:
         """Whether the controller of some inputs serves nothing else, and is not the only one."""
