@@ -117,9 +117,10 @@ def _doubt_rest(log: Log, left: Log) -> Iterator[Doubt]:
             sum(len(run) for run in one.runs if run.test == test) for one in (log, left)
         )
         if after < MIN_SHARE_LEFT * before:
+            used = f"only {after / before:.0%}" if after else "nothing"
             yield Doubt(
                 "little-left",
-                f"The fit uses only {after / before:.0%} of {test}. What this test shows is "
+                f"The fit uses {used} of {test}. What this test shows is "
                 "missing in the gains. Leave out less of it, or record it again.",
             )
 

@@ -112,7 +112,7 @@ def refuse_unrelated(replay: OpenLoopReplay, *, log: Log, hint: Action | None = 
     error = per.format_speed(replay.rmse) if math.isfinite(replay.rmse) else "any amount"
     raise NotIdentifiable(
         "no gains describe this log: the velocity error of the best simulation is "
-        f"{error}, with a top speed of {per.format_speed(replay.top_speed)}",
+        f"{error}, with a top speed of {per.format_speed(log.top_speed)}",
         where=log.source,
         advice=hint or Action("inspect-and-reconcile", before="Check the type and the units."),
     )

@@ -106,7 +106,7 @@ def _doubt_signs(
         "kV": "a motor does not accelerate without voltage. Look for a wrong test name or a "
         "stuck sensor",
         "kA": "inertia is never negative. Look at the dynamic tests: is there a voltage step, and "
-        "a velocity that follows?",
+        "does the velocity follow it",
         "kG": "gravity should pull the mechanism back. Is forward up in this log?",
     }
     shown = convert_gains(gains, factor=per.si)

@@ -160,7 +160,7 @@ def describe_gains(story: Story) -> str:
 def list_gain_doubts(story: Story) -> tuple[Doubt, ...]:
     """Doubts about the gains with the effects; none if nothing speaks against them."""
     if story.verdict == UNEXPLAINED:
-        text = "The model lacks something, so these gains may be off by more than their errors."
+        text = "The last model lacks something, so its gains may be off by more than their errors."
         return (Doubt("model-lacks", text, gains=tuple(story.gains)),)
     moved = [name for name, one in story.gains.items() if _differ(one, story.gains_without[name])]
     if not moved or story.added <= SENSOR_LAGS or story.narrows(story.gap_after):
@@ -195,7 +195,7 @@ def explain_unapplied_effects(story: Story) -> str:
     if story.added <= SENSOR_LAGS:
         return (
             "The fit of the gains accounts for this delay of the sensor already, which the base "
-            "model of the search does not. So the search has found nothing that the fit lacks."
+            "model of the search does not. So the fit has what the search has found."
         )
     share = 1.0 - MAJOR_UNEXPLAINED
     lags = f" beside {join_names(sorted(lags))}" if (lags := story.added & SENSOR_LAGS) else ""
