@@ -147,7 +147,7 @@ def make_loop(
         (make_loop(measured="now.position", wanted="position"), "takes the measurement first"),
         (make_loop(after="now.velocity"), "kA does nothing"),
         (make_loop(now="after.velocity", after="now.velocity"), "velocities are swapped"),
-        (make_loop(wanted="after.position"), "not of the next loop"),
+        (make_loop(wanted="after.position"), "not the next one"),
         (make_loop(now="now.position", after="after.position"), "needs velocities"),
         (make_loop(now="velocity"), "never at what is measured"),
         (make_loop(measured="velocity", wanted="now.velocity"), "controls a position"),
