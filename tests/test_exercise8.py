@@ -119,6 +119,22 @@ def test_samples_lost_cost_half_a_point_for_each_test():
     assert kept((90.0, 91.0), *RAMPS, *STEPS) == (0.0, 0.0)
 
 
+def test_who_cuts_nothing_good_is_not_told_to_have_cut_it():
+    whole = variant("gus")
+    rests = {
+        test: float(np.argmax(flags)) * 0.02
+        for test, flags in whole.valid.items()
+        if "quasi" in test
+    }
+    keep = whole.reference.keep
+    mine = {test: (rests.get(test, begin), end) for test, (begin, end) in keep.items()}
+    for median, threshold in ((1, 0.0), (1, whole.reference.threshold), (15, 0.0)):
+        for name in ("kS", "kV", "kA"):
+            said, _ = CHECKS.blame(name, whole, PREPARATION.Preparation(mine, threshold, median))
+
+            assert "you cut away" not in said
+
+
 @pytest.mark.parametrize(
     ("raw", "expected"),
     [

@@ -13,7 +13,6 @@ from sim.physics.effects import EFFECTS, find_effect
 from sim.physics.model import Part
 
 GAINS = ("ks", "kv", "ka", "kg", "kp")
-MOST = 19  # names; more than there are effects is no answer
 EDGE = 1e-4  # [share] a parameter this near to its bound is on it
 NOTHING = 1e-9  # in SI: no effect is so small and still one
 LIST = "sysid effects lists the names"
@@ -36,9 +35,9 @@ def read_names(raw: object) -> tuple[str, ...]:
         raise WrongAnswer(
             "nothing yet", hint=f'Write effects = ["…"], the most important first; {LIST}.'
         )
-    for name in names[:MOST]:
+    for name in names:
         _require_effect(name)
-    if len(names) > MOST or len({*names}) < len(names):
+    if len({*names}) < len(names):
         raise WrongAnswer(f"{len(names)} names", hint="Name each effect once.")
     return tuple(names)
 
@@ -115,8 +114,8 @@ def _read_value(name: str, known: Parameter, raw: object, unit: Unit) -> float:
         raise WrongAnswer(
             f"{asked.name} = {value:g} {asked.unit}",
             hint=(
-                f"that is physically impossible: {known.what} cannot have this value. Mind the "
-                "sign and the unit"
+                f"for {known.what}, this is outside the range in which this course looks. Mind "
+                "the sign and the unit"
             ),
         )
     return si

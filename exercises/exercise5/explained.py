@@ -56,7 +56,7 @@ def _list_faults(said: str, one: Press) -> Iterator[str]:
         yield f"This button runs the {kind} test in {way}."
     test, property_ = bool(TEST[kind].search(said)), bool(PROPERTY[kind].search(said))
     if ALL_GAINS.search(said):
-        hint = "One test alone does not measure all three. What does this one measure?"
+        hint = "It names all three gains. What does this one test measure?"
         yield f"{hint} The ramp shows kS and kV, the step kA."
     if test and property_:
         return

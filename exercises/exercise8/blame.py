@@ -25,15 +25,16 @@ LONG = (
     "Use the shortest window that removes the wrong readings."
 )
 SHORT = (
-    "Single readings are far off, also in the steps, and SysId takes one of them for the "
-    "largest acceleration. What removes a single wrong reading?"
+    "Single readings are far off. In a step, SysId may take one of them for the largest "
+    "acceleration. What removes a single wrong reading?"
 )
 EVEN = (
     "Two readings have no middle one, so a window of 2 is their mean, and half of a wrong reading "
     "stays. What is the smallest window with a middle?"
 )
 MUCH = (
-    "You cut away too much of more than one test: compare your times with the length of each test."
+    "Too little is left of more than one test: compare your times with the length of each test, "
+    "and your threshold with its speed."
 )
 HIGH = "Does your threshold drop good samples, in which the mechanism moves?"
 LOW = (
@@ -51,13 +52,14 @@ def blame(gain: str, variant: Variant, preparation: Preparation) -> Said:
         for part in PARTS
     }
     limit = HELPS * _compute_error(gain, variant, preparation)
-    best = min(PARTS, key=errors.__getitem__)
+    parts = [part for part in PARTS if _can_be_told(part, variant, preparation)]
+    best = min(parts, key=errors.__getitem__)
     if errors[best] < limit:
         return _explain_part(best, reference, preparation)
     if limit == float("inf"):
         return MUCH, "M-TRIM-PRETTY"
-    alone = {part: _copy_part(part, preparation, reference) for part in PARTS}
-    wrong = [part for part in PARTS if alone[part] != reference]
+    alone = {part: _copy_part(part, preparation, reference) for part in parts}
+    wrong = [part for part in parts if alone[part] != reference]
     worst = max(wrong, key=lambda part: _compute_error(gain, variant, alone[part]))
     says, code = _explain_part(worst, reference, preparation)
     return f"No single change mends this. Begin with this one. {says}", code
@@ -81,6 +83,20 @@ def _copy_part(part: Part, source: Preparation, target: Preparation) -> Preparat
     window[end] = source.keep.get(test, WHOLE)[end]
     keep = {**target.keep, test: (window[BEGIN], window[END])}
     return replace(target, keep={one: span for one, span in keep.items() if span != WHOLE})
+
+
+def _can_be_told(part: Part, variant: Variant, given: Preparation) -> bool:
+    """Whether something can be said of a part: an end that cuts nothing good away cannot."""
+    if isinstance(part, str):
+        return True
+    test, end = part
+    here, there = (one.keep.get(test, WHOLE)[end] for one in (given, variant.reference))
+    if (here > there) == (end == END) and here != there:  # it keeps more than the reference
+        return True
+    run = next(one for one in variant.log.runs if one.test == test)
+    since = run.time - run.time[0]
+    lost = since < here if end == BEGIN else since > here
+    return bool((lost & variant.valid[test]).any())
 
 
 def _explain_part(part: Part, reference: Preparation, given: Preparation) -> Said:

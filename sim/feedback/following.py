@@ -77,7 +77,7 @@ class FollowedProfile:
         """A sentence about its speed at the end of the cruise; may be empty."""
         place = self.target.cruise_end
         wanted, found = self.target.velocity[place], self.velocity[place]
-        text = f"When it should move at {wanted:.2g} {self.symbol}/s, it"
+        text = f"When it should move at {wanted:.3g} {self.symbol}/s, it"
         if self.position[place] in self.stops:
             return f"{text} has already reached its hard stop."
         if abs(found) <= STANDSTILL * abs(wanted):

@@ -16,7 +16,7 @@ from sim.reconcile.recordings import Recordings
 from sim.reconcile.story import ParameterEstimate
 
 STILL_MISSES = (
-    "These effects do not narrow the gap clearly, so a simulation with these gains still misses "
+    "These effects narrow the gap hardly or not at all, so a simulation with these gains misses "
     "the velocity by more than the sensor noise."
 )
 

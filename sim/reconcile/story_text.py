@@ -194,8 +194,9 @@ def explain_unapplied_effects(story: Story) -> str:
         return ""
     if story.added <= SENSOR_LAGS:
         return (
-            "The fit of the gains accounts for this delay of the sensor already, which the base "
-            "model of the search does not. So the fit has what the search has found."
+            "The fit of the gains accounts for this delay of the sensor already, in a way of its "
+            "own, so its gains stay. Ticked, the effect brings the gains of the search: where they "
+            "differ by more than their errors, trust both only to the difference."
         )
     share = 1.0 - MAJOR_UNEXPLAINED
     lags = f" beside {join_names(sorted(lags))}" if (lags := story.added & SENSOR_LAGS) else ""

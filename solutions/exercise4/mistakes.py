@@ -107,6 +107,13 @@ MISTAKES = (
     Mistake("one motor driven backward, though nothing inverts it", JAVA,
         replace_text((RIGHT, RIGHT.replace("voltage", "-voltage"))), "drive",
         "the sign of the voltage is changed"),
+    Mistake("a limit of one's own in the drive callback", PYTHON,
+        replace_text(
+            ("        self.left.set", (
+                "        if self.left_encoder.getDistance() > 3:\n            voltage = 0\n"
+                "        self.left.set"
+            )),
+        ), "drive", "does a condition skip the call"),
     Mistake("always the same voltage", PYTHON,
         replace_text(("setVoltage(voltage)", "setVoltage(3.5)")), "drive",
         "does not depend on the test"),
@@ -190,11 +197,11 @@ MISTAKES = (
         "not a subsystem"),
     Mistake("an encoder that counts backward", PYTHON,
         replace_text(("Encoder(2, 3, reverseDirection=True)", "Encoder(2, 3)")), "units",
-        "the position of right has a sign of its own"),
+        "the position of right goes against its voltage"),
     Mistake("a motor that is sent forward voltages only", PYTHON,
         replace_text(
             ("        self.left.set", "        if voltage > 0:\n            self.left.set"),
-        ), "drive", "Your code changes the voltage"),
+        ), "drive", "does a condition skip the call"),
     Mistake("a misspelled method in Java", JAVA,
         replace_text(("m_left.setVoltage", "m_left.setVolatge")), "drive",
         "Did you mean setVoltage?"),

@@ -54,7 +54,7 @@ MISTAKES = (
     Mistake("a threshold that drops the slow half", ANSWERS, scale_numbers(4, "threshold"), "kept",
         "too little is left", "M-TRIM-PRETTY"),
     Mistake("hardly anything is left", ANSWERS, set_windows("2 to 2.1", *RAMPS), "kv",
-        "You cut away too much", "M-TRIM-PRETTY"),
+        "Too little is left of more than one test", "M-TRIM-PRETTY"),
     Mistake("nothing yet", ANSWERS, make_wrong_answer("threshold", '""'), "kept",
         "threshold: nothing yet"),
     Mistake("a threshold in volts", ANSWERS, make_wrong_answer("threshold", '"0.2 V"'), "kept",

@@ -1,6 +1,7 @@
 """Compares applied with requested voltages, and logged with true values."""
 
 import math
+import statistics
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -11,6 +12,7 @@ if TYPE_CHECKING:
     from grader.robotcode.bench.routine_run import Row
 
 CLOSE = 1e-3  # [V] what two voltages may differ in that are the same
+ALIKE, MOSTLY = 0.1, 0.9  # [V], [share of the loops] a steady voltage: the battery may sag once
 JUMP = 0.5  # [share of its range] by which a position changes where its sensor begins anew
 ENDS = 2  # loops in which a program may settle
 ROUNDING = 1e-9  # [share of a signal's range] two errors that differ by less are equal
@@ -40,13 +42,11 @@ def compare_motor(name: str, rows: Sequence["Row"], sent: tuple[Sent, ...]) -> D
         at = (rows[worst].time, asked[worst], got[worst])
     free = [(g, a) for g, a, limit in zip(got, asked, limits, strict=True) if limit == 1.0]
     large = [g / a for g, a in free if abs(a) > 0.5]  # noqa: PLR2004 - [V]
-    differences = [g - a for g, a in free]
     ratio = large[-1] if large and max(large) - min(large) < 0.02 else None  # noqa: PLR2004 - as PWM's steps
-    offset = (
-        differences[-1] if differences and max(differences) - min(differences) < CLOSE else None
-    )
+    usual = statistics.median(got)
+    steady = sum(abs(g - usual) < ALIKE for g in got) > MOSTLY * len(got)
     return Driven(
-        len(rows), len(off), at, ratio, offset,
+        len(rows), len(off), at, ratio, steady,
         late=len(off) > ENDS and not late,
         never=all(abs(g) < CLOSE for g in got),
         flipped=any(name in row.flipped for row in rows),

@@ -91,7 +91,7 @@ class Driven:
         wrong: loops in which it got another voltage than the test asked for.
         at: the first such loop: time [s], voltage asked for and voltage got [V].
         ratio: got over asked, if that is the same all the time; else None.
-        offset: got minus asked [V], if that is the same all the time; else None.
+        steady: whether it got one and the same voltage nearly all the time.
         late: whether it got each voltage a loop late.
         never: whether it got no voltage at all.
         flipped: whether its inversion changed during the test.
@@ -105,7 +105,7 @@ class Driven:
     wrong: int = 0
     at: tuple[float, float, float] = (0.0, 0.0, 0.0)
     ratio: float | None = None
-    offset: float | None = None
+    steady: bool = False
     late: bool = False
     never: bool = False
     flipped: bool = False

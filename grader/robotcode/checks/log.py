@@ -422,5 +422,5 @@ def _check_signs(there: Logged) -> None:
             if one.scale and one.follows.startswith(signal)
         }
         if len(set(signs.values())) > 1:
-            odd = min(signs, key=lambda signal: signs[signal])  # a negative one goes backward
-            raise fault("odd_sign", signals[odd][0].line, signal=odd, name=name)
+            odd, *_, other = sorted(signs, key=lambda signal: signs[signal])  # backward comes first
+            raise fault("odd_sign", signals[odd][0].line, signal=odd, other=other, name=name)

@@ -305,7 +305,7 @@ def _describe_voltage(
     shares = [abs(one.ratio) if one.ratio is not None else math.inf for one in runs.values()]
     same = max(shares) - min(shares) < SAME
     nominal = next((one for one in NOMINAL if same and abs(shares[0] * one - 1.0) < SAME), 0.0)
-    steady = len({round(one.at[2], 2) for one in bad.values()}) == 1 < len(bad)
+    alike = len({round(one.at[2], 2) for one in bad.values()}) == 1 < len(bad)
     kind = "another_voltage"
     if run.late:
         kind = "comes_late"
@@ -315,7 +315,7 @@ def _describe_voltage(
         kind = "share_as_volts"
     elif kinds == {"duty"} and not any(one.method.startswith("setVoltage") for one in sent):
         kind = "sends_duty_cycle"
-    elif steady and all(one.ratio is None or test.startswith("dyn") for test, one in bad.items()):
+    elif alike and all(one.steady for one in bad.values()):
         kind = "always_the_same"
     return fault(
         kind, _find_drive_line(runs), test=test.replace("-", " "), tests=list_tests(bad), name=name,
