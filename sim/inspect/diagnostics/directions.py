@@ -59,8 +59,8 @@ def check_directions(features: LogFeatures) -> Iterator[Doubt]:
 def _fit_direction(features: LogFeatures, way: str) -> _Line | None:
     """The line of voltage over velocity of a direction's first ramp; None if there is none.
 
-    Noise of the velocity, a column of this fit, would make kV too small. So the applied voltage,
-    which that noise does not reach, is the fit's instrument.
+    Noise of the velocity, a column of this fit, would make kV too small. So the voltage beyond
+    gravity, which that noise does not reach, is the fit's instrument.
     """
     runs = [i for i, run in enumerate(features.log.runs) if run.test == f"quasistatic-{way}"]
     if not runs or features.baseline is None:
@@ -77,11 +77,10 @@ def _fit_direction(features: LogFeatures, way: str) -> _Line | None:
     load = np.zeros(len(run))
     if features.log.type in ("elevator", "arm"):
         load = baseline.compute_gravity(run.position)
-    volts = (
-        sign * (run.voltage - load - baseline.ka * _compute_acceleration(run, features.period))
-    )[fast]
+    push = sign * (run.voltage - load)
+    volts = (push - sign * baseline.ka * _compute_acceleration(run, features.period))[fast]
     speed = np.abs(run.velocity[fast])
-    known = sign * (run.voltage[fast] - run.voltage[fast].mean())
+    known = push[fast] - push[fast].mean()
     shared = float(known @ speed)
     if not np.ptp(speed) or shared <= 0.0:  # a sensor may be so coarse that it has one speed only
         return None
