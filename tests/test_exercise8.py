@@ -133,6 +133,8 @@ def test_who_cuts_nothing_good_is_not_told_to_have_cut_it():
             said, _ = CHECKS.blame(name, whole, PREPARATION.Preparation(mine, threshold, median))
 
             assert "you cut away" not in said
+    same = whole.reference
+    assert "Move the ends" in CHECKS.blame("kS", whole, replace(same, keep=mine))[0]
 
 
 @pytest.mark.parametrize(

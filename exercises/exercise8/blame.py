@@ -36,6 +36,10 @@ MUCH = (
     "Too little is left of more than one test: compare your times with the length of each test, "
     "and your threshold with its speed."
 )
+NEAR = (
+    "You cut no good sample, and keep nothing that is surely bad. Move the ends of your windows a "
+    "little, and look at what changes."
+)
 HIGH = "Does your threshold drop good samples, in which the mechanism moves?"
 LOW = (
     "Of all your choices, another threshold helps this gain most. Do you keep samples in which the "
@@ -60,6 +64,8 @@ def blame(gain: str, variant: Variant, preparation: Preparation) -> Said:
         return MUCH, "M-TRIM-PRETTY"
     alone = {part: _copy_part(part, preparation, reference) for part in parts}
     wrong = [part for part in parts if alone[part] != reference]
+    if not wrong:
+        return NEAR, ""
     worst = max(wrong, key=lambda part: _compute_error(gain, variant, alone[part]))
     says, code = _explain_part(worst, reference, preparation)
     return f"No single change mends this. Begin with this one. {says}", code
