@@ -234,8 +234,8 @@ Table(
 # Find the four radii by hand: with the right radius, a wheel has rolled as far as the gyro says.
 
 # %%
-spin = record_spin(robot, turns=6.0, rng=np.random.default_rng(2), radii={"back-left": 0.0484})
 distance = robot.trackwidth / np.sqrt(2.0)
+spin = record_spin(robot, turns=6.0, rng=np.random.default_rng(2), radii={"back-left": 0.0484})
 print(f"The gyro turned {np.degrees(spin.turned):.0f}°, which is {spin.turned:.2f} rad.")
 
 

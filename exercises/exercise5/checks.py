@@ -233,7 +233,7 @@ def _explain_missing(facts: ButtonFacts, lacking: list[str], earned: float) -> N
         )
     bound = [str(line) for line in sorted({line for line, _ in facts.bindings})]
     raise WrongAnswer(
-        f"no button runs {list_tests(lacking) if facts.presses else 'a test'}",
+        f"no button was found that runs {list_tests(lacking) if facts.presses else 'a test'}",
         hint="Four tests, four buttons: two kinds, each forward and reverse. Every button was "
         "held for 0.6 s, alone and together with a second one, in test mode and in teleop. Is the "
         f"guard true there{f' (lines {join_names(bound)})' if bound else ''}? A button that is the "

@@ -42,9 +42,9 @@ NEAR = (
 )
 HIGH = "Does your threshold drop good samples, in which the mechanism moves?"
 LOW = (
-    "Of all your choices, another threshold helps this gain most. Do you keep samples in which the "
-    "mechanism stands, before it moves or at a stop? There, the voltage causes neither speed nor "
-    "acceleration. How large is the noise of the velocity while the position does not change?"
+    "Do you keep samples in which the mechanism stands, before it moves or at a stop? There, the "
+    "voltage causes neither speed nor acceleration. How large is the noise of the velocity while "
+    "the position does not change?"
 )
 
 
@@ -68,7 +68,7 @@ def blame(gain: str, variant: Variant, preparation: Preparation) -> Said:
         return NEAR, ""
     worst = max(wrong, key=lambda part: _compute_error(gain, variant, alone[part]))
     says, code = _explain_part(worst, reference, preparation)
-    return f"No single change mends this. Begin with this one. {says}", code
+    return f"No single change that was tried mends this. Begin with this one. {says}", code
 
 
 def _compute_error(gain: str, variant: Variant, preparation: Preparation) -> float:

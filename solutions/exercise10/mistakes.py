@@ -226,7 +226,7 @@ MISTAKES = (
         "the program stops when the robot's program starts"),
     Mistake("no kA anywhere", PYTHON, changed(r"^    kA = .*\n", ""), "named", "no kA"),
     Mistake("half by dividing whole numbers", JAVA, change_gain("kS", lambda _: "1 / 4"), "volts",
-        "Whole numbers divide"),
+        "did you divide whole numbers"),
     Mistake("a class of another name", PYTHON, replace_text(("CharacterizationConstants", "Gains")),
         "named", "is not in CharacterizationConstants"),
 )  # fmt: skip

@@ -56,7 +56,7 @@ MISTAKES = (
     ),
     make_wrong_choice("schedule", "In the practice match", "eight minutes between"),
     make_wrong_choice("schedule", "As soon as the frame", "heavier", "M-KV-MASS"),
-    make_wrong_choice("KC1_answer", "The battery browned", "In a brownout the voltage would drop"),
+    make_wrong_choice("KC1_answer", "The battery browned", "the battery's voltage would drop"),
     make_wrong_choice("KC1_answer", "The log has a gap", "time stamps"),
     make_wrong_choice("KC1_answer", "The mechanism hit", "stays there"),
     make_wrong_choice("KC1_reason", "Almost nothing", "squares the errors"),

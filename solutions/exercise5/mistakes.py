@@ -60,7 +60,7 @@ MISTAKES = (
         "share the trigger"),
     Mistake("a button without its parentheses, which is asked too late", PYTHON,
         replace_text(("self.driver.a().", "self.driver.back().negate().and_(self.driver.a).")),
-        "held", "no button runs"),
+        "held", "no button was found that runs"),
     Mistake("two tests on one button, Python", PYTHON,
         replace_text(("self.driver.y()", "self.driver.x()")), "held", "share the trigger"),
     Mistake("one test after the other on one button", JAVA,
