@@ -16,8 +16,8 @@ from sim.reconcile.recordings import Recordings
 from sim.reconcile.story import ParameterEstimate
 
 STILL_MISSES = (
-    "These effects narrow the gap hardly or not at all, so a simulation with these gains misses "
-    "the velocity by more than the sensor noise."
+    "Beside what the fit has already, these effects narrow the gap too little: a simulation with "
+    "these gains misses the velocity by more than the sensor noise."
 )
 
 
