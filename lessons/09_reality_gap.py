@@ -108,7 +108,8 @@ print(fill(known, 80, break_on_hyphens=False))
 #
 # Why three logs? A model with more parameters can fit more of the noise of one log. (A *parameter*
 # is a number in the model, such as kS.) Only new data can show whether the model describes the
-# robot, or only this one log.
+# robot, or only this one log. (After each choice, the gains and parameters that we print are fitted
+# to `log` and `validation` together.)
 
 # %% [markdown]
 # ## 2 Measure the gap

@@ -304,8 +304,8 @@ def justified(answers: Answers) -> None:
         if stuck := find_parameter_at_limit(part):
             raise WrongAnswer(
                 f"{part.effect}.{stuck} is at its limit",
-                hint="there the effect does nothing, or stands in for another. Fit again from "
-                "another start value. If it ends there again, leave the effect out",
+                hint="there the effect does nothing, or stands in for another. If the fit of your "
+                "own log ends there, leave the effect out",
             )
     whole = answers.measure_gap(parts)
     for part in parts:

@@ -70,7 +70,7 @@ def _explain_season(found: str) -> tuple[str, str]:
     if found == "after-the-season":
         return "then nobody can use the gains this season", ""
     return (
-        "there are eight minutes between matches, and a pit is as small as a parking space",
+        "there may be only eight minutes between matches, and a pit is small",
         "",
     )
 

@@ -27,7 +27,7 @@ KA_ALONE = (
     "all of them, and that no filter changes the velocity"
 )
 START_AGAIN = "Check the numbers you started from, and their units"
-CALCULATION = re.compile(r"[-+*/·^]+\s*[\d(]")  # how the rest of a number begins that is a sum
+CALCULATION = re.compile(r"^[-+*/·^]+\s*[\d(]|[±√=]|\+|sqrt")  # in the rest of a number: no unit
 NO_UNIT = "It has no unit, and it is not in percent: write the number alone."
 UNIT_ASSUMED = " (no unit given, so I assumed "
 OF_BOTH = {"M-GEARING"}  # slips that make kV and kA wrong, never kA alone
@@ -54,9 +54,10 @@ def read_answer_number(raw: object, asked: AskedNumber) -> float:
     if found is None:
         raise WrongAnswer(f'"{shorten(raw)}", which is not one number', hint=ask)
     value, unit = found
-    if CALCULATION.match(unit):
+    if CALCULATION.search(unit):
         raise WrongAnswer(
-            f'"{shorten(raw)}", which is a calculation', hint="Write its result, one number."
+            f'"{shorten(raw)}", which is more than a number and its unit',
+            hint="Write one number: no calculation, no range and no error.",
         )
     return _require_finite(value * _find_scale(unit, asked) if unit else value, asked)
 
@@ -86,7 +87,7 @@ def _find_scale(unit: str, asked: AskedNumber) -> float:
         if unit.count("/") > 1:
             hint += " Mind the parentheses: V/(m/s) is V·s/m, V/m/s is not."
         raise WrongAnswer(
-            f"the unit {unit!r}, which is not a unit of {asked.name}",
+            f"the unit {unit!r}, which is not a unit of {asked.name} here",
             hint=hint,
             misconception="M-UNITS",
         )

@@ -108,5 +108,5 @@ MISTAKES = (
     Mistake("every limit bypassed", ANSWERS, set_values(limit_a='"bypassed"', limit_b='"bypassed"'),
         "limits", "where is this limit set? Does that", "M-LIMITS-BYPASSED"),
     Mistake("in the pit", ANSWERS, make_wrong_answer("schedule", '"first-regional"'), "schedule",
-        "there are eight minutes between matches, and"),
+        "there may be only eight minutes between matches, and"),
 )  # fmt: skip

@@ -69,7 +69,7 @@ MISTAKES = (
         ANSWERS,
         make_wrong_answer("kS", '"0.1 + 0.05"'),
         "ks",
-        "which is a calculation",
+        "which is more than a number",
     ),
     Mistake(
         "kS and kV swapped",

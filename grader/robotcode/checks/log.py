@@ -308,7 +308,8 @@ def check_units(facts: RoutineFacts, *, mechanism: str, scales: dict[str, float]
     for name in there:
         _check_rate(name, moving.get((name, "position")), moving.get((name, "velocity")))
     for signal in MOVING:
-        _check_alike([(name, one) for (name, kind), one in moving.items() if kind == signal])
+        kept = ((name, one) for (name, kind), one in moving.items() if kind == signal)
+        _check_alike([(name, one) for name, one in kept if one.follows.startswith(signal)])
     _check_signs(there)
 
 
