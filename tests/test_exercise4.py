@@ -62,8 +62,9 @@ def test_without_a_file_the_better_starter_is_graded_and_named(all_exercises, ca
         ("rampRate=0.5, stepVoltage=3.5", "rampRate=3.5, stepVoltage=0.5", ["ramp", "step"]),
         ("timeout=10.0", "timeout=0.01", ["timeout"]),
         ("self.right.setVoltage(", "self.left.setVoltage(", ["drive"]),
+        ("self.left_encoder.getRate()", "self.left_encoder.getDistance() / 0.02", ["log"]),
     ],
-    ids=["a ramp beyond the battery", "no time to log", "a motor at rest"],
+    ids=["a ramp beyond the battery", "no time to log", "a motor at rest", "no velocity"],
 )
 def test_a_mistake_fails_only_the_check_of_its_own_callback(tmp_path, old, new, wrong):
     right = (ROOT / "solutions" / "exercise4" / PYTHON).read_text("utf-8")
