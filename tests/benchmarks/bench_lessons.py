@@ -30,6 +30,7 @@ from sim.plot.animation import Animation  # noqa: E402
 DRAG = """async (figure) => {
     const [knob] = ['.motion-knobs input', '.motion-knobs select', '.motion-clock input']
         .map(name => figure.querySelector(name)).filter(Boolean);
+    if (!knob) return null;
     const [began, before] = [performance.now(), figure.animation.pictures];
     for (let k = 0; performance.now() - began < 1000; k++) {
         if (knob.tagName === 'SELECT') knob.selectedIndex = k % knob.options.length;
@@ -76,7 +77,8 @@ def measure_rates(browser: Any, figures: list[Animation]) -> list[int]:
         rates = []
         for figure in shown:
             figure.scroll_into_view_if_needed()
-            rates.append(round(figure.evaluate(DRAG)))
+            rate = figure.evaluate(DRAG)
+            rates += [] if rate is None else [round(rate)]  # a figure that only clicks has no rate
     page.close()
     return rates
 
