@@ -123,10 +123,10 @@ def test_clean_log_gets_no_diagnostic(name, seed, period):
 
 @pytest.mark.parametrize("seed", range(3))
 def test_noise_in_the_velocity_of_one_direction_is_no_other_back_emf_and_no_other_friction(seed):
-    def spoil(run):
+    def add_noise_forward(run):
         noise = 0.15 * run.top_speed * np.random.default_rng(seed).standard_normal(len(run))
         return replace(run, velocity=run.velocity + noise * (run.direction == "forward"))
 
-    codes = set(doubts_by_code(each(drawn("drivetrain", seed), spoil)))
+    codes = set(doubts_by_code(each(drawn("drivetrain", seed), add_noise_forward)))
 
     assert not codes & {"back-emf-differs", "friction-differs"}

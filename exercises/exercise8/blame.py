@@ -56,7 +56,7 @@ def blame(gain: str, variant: Variant, preparation: Preparation) -> Said:
         for part in PARTS
     }
     limit = HELPS * _compute_error(gain, variant, preparation)
-    parts = [part for part in PARTS if _can_be_told(part, variant, preparation)]
+    parts = [part for part in PARTS if _may_be_blamed(part, variant, preparation)]
     best = min(parts, key=errors.__getitem__)
     if errors[best] < limit:
         return _explain_part(best, reference, preparation)
@@ -91,8 +91,8 @@ def _copy_part(part: Part, source: Preparation, target: Preparation) -> Preparat
     return replace(target, keep={one: span for one, span in keep.items() if span != WHOLE})
 
 
-def _can_be_told(part: Part, variant: Variant, given: Preparation) -> bool:
-    """Whether something can be said of a part: an end that cuts nothing good away cannot."""
+def _may_be_blamed(part: Part, variant: Variant, given: Preparation) -> bool:
+    """Whether a part may be blamed: not the end of a window that cuts off no good sample."""
     if isinstance(part, str):
         return True
     test, end = part
